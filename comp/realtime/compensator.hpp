@@ -1,0 +1,119 @@
+#pragma once
+// The compensator: positions in, offsets out, once per tick.
+//
+//   error → inverse Jacobian → clamp → ramp → round → slew → output
+//
+// The slew limit comes last because it is the promise made to the drive: whatever happened before,
+// including a change of tables in the middle of a ramp, no output moves by more than `rate` in one
+// tick.
+//
+// Two contexts use it. The interrupt calls tick() only. The background calls everything else; it
+// writes into the spare half of a double buffer and hands it over by one atomic flag, which tick()
+// honours at its start. No locks, no heap, every loop bounded; on anything wrong the last good
+// tables stay active.
+
+#include <atomic>
+
+#include "comp/realtime/direction.hpp"
+#include "comp/realtime/limiter.hpp"
+#include "comp/realtime/motion_inverse.hpp"
+#include "comp/realtime/tick_types.hpp"
+
+namespace volcomp {
+
+inline constexpr std::size_t kDefaultKnots = 128;
+
+template <class Machine, std::size_t Knots = kDefaultKnots>
+class Compensator {
+ public:
+  static constexpr std::size_t kAxes = Machine::kAxes;
+  using Input = TickInput<kAxes>;
+  using Output = TickOutput<kAxes>;
+  using Settings = CompensatorSettings<kAxes>;
+  using Tables = TableSet<kAxes, Knots>;
+
+  Compensator() = default;
+  explicit Compensator(const Machine& machine) : machine_(machine) {}
+
+  // --- background
+  // -----------------------------------------------------------------------------------------------------
+
+  // Before the first tick or while stopped. Refuses bad_setting with the field named.
+  Status configure(const Settings& settings);
+
+  // Offsets the drives hold at start-up (read back): the first tick continues from them instead of
+  // jumping to 0.
+  void start_from(const std::array<std::int32_t, kAxes>& offsets);
+
+  // Folds tables for a functional point into the spare buffer. Used for new tables and for a tool
+  // change alike. On refusal the active tables go on. `image_crc` is what diagnostics will report.
+  // Not while a hand-over is pending.
+  Status stage(const MachineTables& tables, const Vec3& tool_point, std::uint32_t image_crc);
+
+  // Hands the staged set over: active from the next tick, ramped in. Refuses not_staged.
+  Status activate();
+
+  // Corrections ramp to 0 and stay there until the next activate().
+  void deactivate() { request_.store(Request::deactivate, std::memory_order_release); }
+
+  [[nodiscard]] bool pending() const {
+    return request_.load(std::memory_order_acquire) != Request::none;
+  }
+  [[nodiscard]] bool active() const { return active_ >= 0; }
+  [[nodiscard]] const FoldReport& fold_report() const { return report_; }
+  [[nodiscard]] const Diagnostics<kAxes>& diagnostics() const { return diagnostics_; }
+  [[nodiscard]] const Machine& machine() const { return machine_; }
+
+  // --- interrupt
+  // ------------------------------------------------------------------------------------------------------
+
+  void tick(const Input& in, Output& out);
+
+  // The uncorrected, unlimited error of the last tick in base (nm), for telemetry.
+  [[nodiscard]] const Float3& last_error_nm() const { return error_nm_; }
+
+ private:
+  enum class Request : std::uint8_t { none, activate, deactivate };
+
+  struct AxisState {
+    DirectionTracker direction;
+    std::int64_t position = 0;  // last good one
+    std::int64_t seen = 0;      // last one given, good or implausible
+    std::int32_t output = 0;
+    std::int32_t ramp_from = 0;
+    std::uint16_t stale_ticks = 0;
+    std::uint16_t status = 0;
+    bool known = false;  // has ever had a valid position
+    bool soft = false;   // dropped, not homed or coming back: soft_rate instead of rate
+  };
+
+  void begin_change();
+  void take_request();
+  void take_sample(std::size_t axis, const AxisSample& sample);
+  Located place(std::size_t axis, const Tables& set);
+  kernel::Offsets wanted_offsets();
+  void put_out(std::size_t axis, float wanted_nm, float ramp);
+  void count_changes(std::size_t axis, std::uint16_t before);
+  [[nodiscard]] bool rotary(std::size_t axis) const {
+    return machine_.chain.kind[axis] == JointKind::rotary;
+  }
+  [[nodiscard]] bool all_known() const;
+
+  Machine machine_{};
+  Settings settings_{};
+  std::array<Tables, 2> buffer_{};
+  std::array<AxisState, kAxes> axis_{};
+  Ramp ramp_{};
+  Float3 error_nm_{};
+  FoldReport report_{};
+  Diagnostics<kAxes> diagnostics_{};
+  std::atomic<Request> request_{Request::none};
+  std::int8_t active_ = -1;  // index of the active buffer, −1 = none
+  std::int8_t next_ = 0;     // the spare one
+  bool staged_ = false;
+};
+
+}  // namespace volcomp
+
+#include "comp/realtime/compensator_background.inl"
+#include "comp/realtime/compensator_tick.inl"

@@ -1,0 +1,12 @@
+// The ready-made forms of the compensator, compiled once into the library: a loaded machine of up
+// to five axes and the XYFZ machine of seed 001 compiled in. Also what the build inspects to prove
+// that the tick needs no library.
+
+#include "comp/realtime/instances.hpp"
+
+namespace volcomp {
+
+template class Compensator<LoadedMachine<5>>;
+template class Compensator<CompiledMachine<kXyfzMachine>>;
+
+}  // namespace volcomp

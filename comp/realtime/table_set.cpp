@@ -1,0 +1,257 @@
+#include "comp/realtime/table_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "comp/geometry/inverse.hpp"
+#include "comp/units.hpp"
+
+namespace volcomp {
+namespace {
+
+Float3 to_float(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+AxisLookup make_lookup(const AxisTable& table, bool rotary) {
+  AxisLookup l;
+  l.q0 = table.q0;
+  l.periodic = table.periodic;
+  l.origin_nm = rotary ? 0.0F : static_cast<float>(table.q0);
+  l.phase = rotary ? static_cast<std::uint32_t>(table.q0 >> 8) : 0U;
+  if (table.periodic) {
+    l.travel = 0xFFFFFFFFU;
+    l.scale = table.knots << kFractionBits;
+    return l;
+  }
+  const auto pitch = static_cast<std::uint64_t>(rotary ? table.pitch >> 8 : table.pitch);
+  const std::uint64_t travel = pitch * (table.knots - 1U);
+  while ((travel << (l.shift + 1U)) < (std::uint64_t{1} << 32U))
+    ++l.shift;
+  l.travel = static_cast<std::uint32_t>(travel);
+  l.scale =
+      static_cast<std::uint32_t>((std::uint64_t{1} << (32U + kFractionBits)) / (pitch << l.shift));
+  l.margin = static_cast<std::uint32_t>(pitch / 2U);
+  return l;
+}
+
+// Geometry of one linear axis at machine zero, as folding needs it.
+struct AxisPlace {
+  Mat3 R = Mat3::Identity();  // orientation of the frame in base
+  Vec3 lever = Vec3::Zero();  // frame origin → tool point, mm, all axes at zero
+  double sigma = 1.0;
+};
+
+// Ideal frames of all bodies at machine zero.
+AxisPlace place_of(const MachineChain& chain, std::uint8_t wanted, const Vec3& tool_point) {
+  const Pose zero{};
+  const Vec3 tip = chain.ideal(chain.tool(), zero).apply(tool_point);
+  for (const BodyPath* path : {&chain.tool(), &chain.work()}) {
+    Frame frame;
+    for (const std::uint8_t body : *path) {
+      frame = frame * joint_offset(chain.joint(body));
+      if (body == wanted) return {frame.R, tip - frame.t, branch_sign(chain.joint(body).branch)};
+    }
+  }
+  return {};
+}
+
+ErrorMotion channels_of(const AxisTable& table, std::size_t travel, std::size_t knot) {
+  ErrorMotion e;
+  for (std::size_t c = 0; c < 6; ++c)
+    e(static_cast<Eigen::Index>(c)) = static_cast<double>(table.value[travel][knot][c]);
+  return e;
+}
+
+// Rows of one axis: `value(travel, knot)` in nm and rad, differences to the next knot, periodic or
+// ending flat.
+template <class ValueAt>
+void write_rows(const AxisTable& table, const std::array<Knot*, 2>& rows, const ValueAt& value) {
+  for (std::size_t travel = 0; travel < 2; ++travel) {
+    ErrorMotion here = value(travel, 0);
+    const ErrorMotion first = here;
+    for (std::size_t i = 0; i < table.knots; ++i) {
+      const bool last = i + 1 == table.knots;
+      const ErrorMotion next = !last ? value(travel, i + 1) : (table.periodic ? first : here);
+      for (std::size_t c = 0; c < 6; ++c) {
+        const auto channel = static_cast<Eigen::Index>(c);
+        rows[travel][i].v[c] = static_cast<float>(here(channel));
+        rows[travel][i].d[c] = static_cast<float>(next(channel) - here(channel));
+      }
+      here = next;
+    }
+  }
+}
+
+// Largest component sums over the rows written so far, for the load-time bounds.
+struct Bounds {
+  double sum_nm = 0.0;
+  double slope = 0.0;
+
+  void include(const AxisTable& table, const std::array<Knot*, 2>& rows, double arm_nm,
+               bool rotary) {
+    double largest_a = 0.0;
+    double largest_w = 0.0;
+    double steepest = 0.0;
+    for (std::size_t travel = 0; travel < 2; ++travel) {
+      for (std::size_t i = 0; i < table.knots; ++i) {
+        const Knot& k = rows[travel][i];
+        for (std::size_t c = 0; c < 6; ++c) {
+          const double v = std::abs(static_cast<double>(k.v[c]));
+          if (c < 3) largest_a = std::max(largest_a, v);
+          if (c >= 3) largest_w = std::max(largest_w, v);
+          if (c < 3) steepest = std::max(steepest, std::abs(static_cast<double>(k.d[c])));
+        }
+      }
+    }
+    sum_nm += largest_a + largest_w * arm_nm;
+    slope =
+        std::max(slope, largest_w + (rotary ? 0.0 : steepest / static_cast<double>(table.pitch)));
+  }
+};
+
+// Form A of seed 001 (embedded, section 1), for any linear chain: a = σ(R δ + R ε × c) +
+// direction·q, w = σ R ε.
+void fold_linear_axis(const MachineTables& tables, const MachineChain& chain, std::size_t axis,
+                      const Vec3& tool_point, const TableSetView& set) {
+  const AxisTable& table = tables.axis[axis];
+  const AxisPlace place = place_of(chain, chain.body_of_axis(axis), tool_point);
+  write_rows(table, set.rows[axis], [&](std::size_t travel, std::size_t knot) {
+    const ErrorMotion e = channels_of(table, travel, knot);
+    const Vec3 turn = place.sigma * (place.R * rotation(e));
+    const double q_nm =
+        static_cast<double>(table.q0 + table.pitch * static_cast<std::int64_t>(knot));
+    ErrorMotion folded;
+    folded.head<3>() = place.sigma * (place.R * translation(e)) +
+                       turn.cross(kNmPerMm * place.lever) + tables.directions[axis] * q_nm;
+    folded.tail<3>() = turn;
+    return folded;
+  });
+  set.travel_axis[axis] = to_float(place.R * unit_vector(chain.axis(axis).axis));
+}
+
+// Constant errors of fixed bodies join the folded walk (work tip → tool tip): their displacement
+// goes into the rows of the first axis, their angle acts on every axis met after them.
+void fold_constant_errors(const MachineChain& chain, const RuntimeChain& runtime,
+                          const Vec3& tool_point, const TableSetView& set,
+                          const MachineTables& tables) {
+  Vec3 shift = Vec3::Zero();
+  Vec3 turn = Vec3::Zero();
+  int first_axis = -1;
+  for (std::size_t i = runtime.steps; i > 0; --i) {
+    const RuntimeStep& step = runtime.step[i - 1];
+    if (step.kind != JointKind::fixed) {
+      set.turn_before[step.nc_axis] = to_float(turn);
+      turn.setZero();
+      if (first_axis < 0) first_axis = step.nc_axis;
+      continue;
+    }
+    const AxisPlace place = place_of(chain, step.body, tool_point);
+    const ErrorMotion e = chain.error_of(step.body, zero_errors());
+    const Vec3 own = place.sigma * (place.R * rotation(e));
+    shift += place.sigma * (place.R * translation(e)) + own.cross(place.lever);
+    turn += own;
+  }
+  if (first_axis < 0) return;
+  const auto a = static_cast<std::size_t>(first_axis);
+  const Float3 shift_nm = to_float(kNmPerMm * shift);
+  for (Knot* column : set.rows[a]) {
+    for (std::size_t i = 0; i < tables.axis[a].knots; ++i) {
+      for (std::size_t c = 0; c < 3; ++c)
+        column[i].v[c] += shift_nm[c];
+    }
+  }
+}
+
+void copy_axis(const MachineTables& tables, std::size_t axis, const TableSetView& set) {
+  const AxisTable& table = tables.axis[axis];
+  write_rows(table, set.rows[axis], [&](std::size_t travel, std::size_t knot) {
+    return channels_of(table, travel, knot);
+  });
+  set.direction[axis] = to_float(tables.directions[axis]);
+}
+
+// Rows of −J⁻¹ at machine zero (mm/mm): constant as long as only linear axes correct and none
+// turns.
+Status fold_inverse(const MachineChain& chain, const RuntimeChain& runtime, const Vec3& tool_point,
+                    const TableSetView& set) {
+  if (!runtime.folded || runtime.correcting_count == 0) return {};
+  const Pose zero{};
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    MotionOffset offset;
+    if (const Status s = motion_offset(chain, zero, tool_point, Vec3::Unit(k), offset); !s.ok())
+      return s;
+    for (std::size_t c = 0; c < runtime.correcting_count; ++c) {
+      set.inverse[c][static_cast<std::size_t>(k)] =
+          static_cast<float>(offset.offset[runtime.correcting[c]]);
+    }
+  }
+  return {};
+}
+
+// Longest lever an angle acts on in the kernel: the travel of every axis and, where they are not
+// folded into the rows, all offsets and the tool. 1-norm: an upper bound without a square root.
+double reach_mm(const MachineTables& tables, const MachineChain& chain, bool folded,
+                const Vec3& tool_point) {
+  double reach = folded ? 0.0 : tool_point.cwiseAbs().sum();
+  for (std::size_t k = 0; k < tables.machine.body_count && !folded; ++k) {
+    reach += joint_offset(tables.machine.body[k].joint).t.cwiseAbs().sum();
+  }
+  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
+    if (chain.axis(a).kind == JointKind::rotary) continue;
+    const AxisTable& t = tables.axis[a];
+    reach +=
+        std::max(std::abs(static_cast<double>(t.q0)), std::abs(static_cast<double>(t.last()))) /
+        kNmPerMm;
+  }
+  return reach;
+}
+
+}  // namespace
+
+Status fold_tables(const MachineTables& tables, const RuntimeChain& runtime, const Vec3& tool_point,
+                   TableSetView set, FoldReport& report) {
+  MachineChain chain;
+  if (const Status s = MachineChain::build(tables.machine, chain); !s.ok()) return s;
+  if (chain.axis_count() != runtime.axes || chain.axis_count() > set.axes)
+    return refuse(Reason::axes_mismatch);
+  if (!tool_point.allFinite()) return refuse(Reason::not_finite);
+
+  *set.tool_nm = to_float(kNmPerMm * tool_point);
+  const double reach = reach_mm(tables, chain, runtime.folded, tool_point);
+  Bounds bounds;
+  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
+    const AxisTable& table = tables.axis[a];
+    Where where;
+    where.axis = runtime.letter[a];
+    where.count = static_cast<int>(table.knots);
+    if (table.knots > set.knots) return refuse(Reason::too_many_knots, where);
+    const bool rotary = runtime.kind[a] == JointKind::rotary;
+    set.lookup[a] = make_lookup(table, rotary);
+    if (runtime.folded) {
+      fold_linear_axis(tables, chain, a, tool_point, set);
+    } else {
+      copy_axis(tables, a, set);
+    }
+    bounds.include(table, set.rows[a], kNmPerMm * reach, rotary);
+  }
+  if (runtime.folded && runtime.has_constant_error)
+    fold_constant_errors(chain, runtime, tool_point, set, tables);
+  if (const Status s = fold_inverse(chain, runtime, tool_point, set); !s.ok()) return s;
+
+  report.bound_nm = bounds.sum_nm;
+  report.contraction = bounds.slope;
+  report.within_1nm = bounds.sum_nm <= kClaimBound_nm;
+  Where where;
+  where.has_value = true;
+  where.value = bounds.sum_nm / kNmPerMm;
+  if (!(bounds.sum_nm <= kMaxBound_nm)) return refuse(Reason::bound_exceeded, where);
+  where.value = bounds.slope;
+  if (!(bounds.slope <= kMaxContraction)) return refuse(Reason::contraction_exceeded, where);
+  return {};
+}
+
+}  // namespace volcomp

@@ -1,0 +1,85 @@
+#pragma once
+// Why a call was refused, and where: every rejected input has its own reason, sentence and test.
+//
+// Nothing in comp throws. A function that can fail returns a Status that cannot be ignored and
+// leaves everything it was given to write untouched.
+
+#include <cstdint>
+
+namespace volcomp {
+
+enum class Reason : std::uint8_t {
+  ok,
+  not_finite,
+  missing_field,
+  no_runs,
+  run_length,
+  too_many_runs,
+  positions_not_monotone,
+  positions_duplicate,
+  positions_not_uniform,
+  gap_too_large,
+  reference_out_of_range,
+  unit_suspected,
+  too_few_knots,
+  too_many_knots,
+  pitch_not_positive,
+  travel_too_long,
+  not_periodic,
+  bad_magic,
+  version_unknown,
+  image_truncated,
+  crc_mismatch,
+  machine_mismatch,
+  axes_mismatch,
+  bound_exceeded,
+  contraction_exceeded,
+  parent_not_lower,
+  not_one_root,
+  bad_body,
+  too_many_bodies,
+  too_many_axes,
+  bad_joint,
+  not_a_rotation,
+  bad_axis_index,
+  no_authority,
+  bad_setting,
+  lever_mismatch,
+  lever_spread_too_small,
+  too_few_points,
+  not_staged,
+};
+
+// What a Status points at. A negative number or an empty name means "does not apply".
+struct Where {
+  char axis = '\0';                 // axis letter
+  const char* direction = nullptr;  // "up" or "down"
+  const char* field = nullptr;      // name of the offending field or setting
+  int run = -1;
+  int target = -1;   // 0-based
+  int channel = -1;  // 0…5 = EX EY EZ EA EB EC
+  int index = -1;
+  int body = -1;           // 1-based, as in a lower-body array
+  int count = -1;          // how many there are (knots, bodies, axes)
+  double value = 0.0;      // the offending value, where has_value
+  double deviation = 0.0;  // signed distance from what was expected, where has_deviation
+  bool has_value = false;
+  bool has_deviation = false;
+};
+
+struct [[nodiscard]] Status {
+  Reason reason = Reason::ok;
+  Where where{};
+
+  [[nodiscard]] constexpr bool ok() const { return reason == Reason::ok; }
+};
+
+constexpr Status refuse(Reason reason, Where where = {}) { return {reason, where}; }
+
+// Stable machine-readable name, for instance "crc_mismatch".
+[[nodiscard]] const char* code(Reason reason);
+
+// One plain sentence for a person, without the place.
+[[nodiscard]] const char* sentence(Reason reason);
+
+}  // namespace volcomp

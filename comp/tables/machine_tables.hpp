@@ -1,0 +1,52 @@
+#pragma once
+// Everything the run time needs to know of one commissioned machine: description, squareness and
+// one float table per axis in kernel units (nm, rad; positions in nm or 2^-40 turn). Internal
+// convention: body values, moving side.
+
+#include <array>
+#include <cstdint>
+
+#include "comp/geometry/machine_chain.hpp"
+#include "comp/tables/error_table.hpp"
+
+namespace volcomp {
+
+using Channels = std::array<float, 6>;
+
+struct AxisTable {
+  std::int64_t q0 = 0;      // first knot
+  std::int64_t pitch = 1;   // > 0
+  std::uint32_t knots = 0;  // periodic: knots per turn, the first is not repeated
+  bool periodic = false;    // rotary axis with a table over the full turn
+  std::array<std::array<Channels, kTableKnots>, 2> value{};  // [0] forward, [1] backward
+
+  [[nodiscard]] std::int64_t last() const {
+    return q0 + pitch * static_cast<std::int64_t>(knots - 1);
+  }
+};
+
+struct Provenance {
+  std::uint32_t machine_id = 0;
+  std::uint32_t sequence = 0;
+  std::int64_t built_unix_s = 0;
+  float temperature_C = 20.0F;
+  std::array<char, 16> stamp{};  // operator or tool that built it, zero-padded
+};
+
+struct MachineTables {
+  Provenance provenance{};
+  MachineDescription machine{};
+  DirectionErrors directions{};  // squareness, rad, by NC axis
+  std::array<AxisTable, kMaxAxes> axis{};
+};
+
+// Quantises one table that is already in the internal convention: knots moved to whole units
+// (values follow by linear interpolation), a full turn becomes periodic. Refuses what check_table
+// refuses, pitch_not_positive (below one unit), travel_too_long (≥ 2^32 nm), not_periodic (full
+// turn whose ends differ).
+Status quantise(const ErrorTable& table, const Joint& joint, std::size_t capacity, AxisTable& out);
+
+// The double table a quantised one stands for.
+void dequantise(const AxisTable& table, const Joint& joint, ErrorTable& out);
+
+}  // namespace volcomp

@@ -1,0 +1,55 @@
+#pragma once
+// The reference-case format `volcomp-cases-1`: reading, comparing, refusing.
+
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "comp/geometry/error_motion.hpp"
+#include "comp/status.hpp"
+
+namespace volcomp::cases {
+
+using nlohmann::json;
+
+// Thrown by a handler when the library refused the input.
+struct Refused : std::runtime_error {
+  explicit Refused(const Status& s) : std::runtime_error(code(s.reason)), status(s) {}
+  Status status;
+};
+
+inline void require(const Status& status) {
+  if (!status.ok()) throw Refused(status);
+}
+
+// Computes the `out` of a case from its `in`.
+using Handler = std::function<json(const json& in)>;
+using Handlers = std::map<std::string, Handler>;
+
+// One difference between what was wanted and what came out.
+struct Failure {
+  std::string id;
+  std::string text;
+};
+
+struct Tally {
+  int passed = 0;
+  std::vector<Failure> failed;
+};
+
+// Runs every case of a file; throws std::runtime_error if the file itself is unusable.
+void run_file(const std::string& path, const Handlers& handlers, Tally& tally);
+
+// Numbers may be the strings "nan", "inf", "-inf".
+[[nodiscard]] double number(const json& value);
+[[nodiscard]] Vec3 vector3(const json& value);
+[[nodiscard]] std::array<double, 3> array3(const json& value);
+[[nodiscard]] ErrorMotion six(const json& value);
+[[nodiscard]] json to_json(const Vec3& v);
+[[nodiscard]] json to_json(const ErrorMotion& v);
+
+}  // namespace volcomp::cases

@@ -1,0 +1,14 @@
+#pragma once
+// Every kind of case, by seed: each handler drives the public interface of the library and nothing
+// else.
+
+#include "tests/cases/case_file.hpp"
+
+namespace volcomp::cases {
+
+void add_s1_geometry(Handlers& handlers);
+void add_s1_tables(Handlers& handlers);
+void add_s1_compensation(Handlers& handlers);
+void add_s1_bad_input(Handlers& handlers);
+
+}  // namespace volcomp::cases

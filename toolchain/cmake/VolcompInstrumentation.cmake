@@ -1,0 +1,35 @@
+# VOLCOMP_SANITIZE, VOLCOMP_COVERAGE and VOLCOMP_FUZZ: flags for every target below the project folder.
+
+if(VOLCOMP_SANITIZE)
+  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all)
+  add_compile_options(${volcomp_sanitizers} -O1 -fno-omit-frame-pointer)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  add_link_options(${volcomp_sanitizers})
+endif()
+
+if(VOLCOMP_COVERAGE)
+  add_compile_options(--coverage -O0)
+  add_link_options(--coverage)
+endif()
+
+if(VOLCOMP_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "VOLCOMP_FUZZ needs clang: configure with the preset \"fuzz\".")
+  endif()
+  # Without -fno-sanitize-recover an undefined-behaviour report would not end the run.
+  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all)
+  add_compile_options(-fsanitize=fuzzer-no-link ${volcomp_sanitizers} -O1 -fno-omit-frame-pointer)
+  add_link_options(${volcomp_sanitizers})
+  add_custom_target(volcomp_fuzzers)
+endif()
+
+# volcomp_add_fuzzer(fuzz_NAME SOURCE...): a libFuzzer program. Seeds: tests/data/corpus/NAME.
+function(volcomp_add_fuzzer name)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE volcomp_flags)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  add_dependencies(volcomp_fuzzers ${name})
+  if(VOLCOMP_BUILD_TESTS)
+    add_test(NAME ${name} COMMAND bash "${PROJECT_SOURCE_DIR}/toolchain/fuzz.sh" $<TARGET_FILE:${name}>)
+  endif()
+endfunction()

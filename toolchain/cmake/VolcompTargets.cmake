@@ -1,0 +1,45 @@
+# The INTERFACE targets that carry include folders, definitions and flags.
+
+# volcomp_eigen: what every user of a comp header has to see in the same way. EIGEN_DONT_VECTORIZE
+# changes the alignment of Eigen's types, so it belongs to the binary interface of comp.
+find_path(VOLCOMP_EIGEN_INCLUDE_DIR Eigen/Core
+  PATHS /usr/include /usr/local/include
+  PATH_SUFFIXES eigen3
+  NO_CMAKE_FIND_ROOT_PATH
+  DOC "folder that contains Eigen/Core")
+if(NOT VOLCOMP_EIGEN_INCLUDE_DIR)
+  message(FATAL_ERROR
+    "Eigen 3.4 is missing: install libeigen3-dev or set VOLCOMP_EIGEN_INCLUDE_DIR to the folder that contains Eigen/Core.")
+endif()
+
+add_library(volcomp_eigen INTERFACE)
+target_include_directories(volcomp_eigen INTERFACE "${PROJECT_SOURCE_DIR}")
+target_include_directories(volcomp_eigen SYSTEM INTERFACE "${VOLCOMP_EIGEN_INCLUDE_DIR}")
+target_compile_definitions(volcomp_eigen INTERFACE
+  EIGEN_DONT_VECTORIZE EIGEN_NO_IO EIGEN_NO_MALLOC EIGEN_MPL2_ONLY)
+
+# volcomp_flags: the warnings, all of them errors, and one arithmetic on every machine (no fused
+# multiply-add that the source does not ask for). Every target of the project links it PRIVATE.
+add_library(volcomp_flags INTERFACE)
+target_compile_options(volcomp_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wcast-align
+  -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wformat=2 -Werror
+  -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # GCC 12 warns wrongly about "text" + std::string (GCC bug 105651).
+    target_compile_options(volcomp_flags INTERFACE -Wno-restrict)
+  endif()
+  if(VOLCOMP_SANITIZE)
+    target_compile_options(volcomp_flags INTERFACE -Wno-maybe-uninitialized)
+  endif()
+endif()
+
+# volcomp_target_rules: the language that comp, hal and firmware are restricted to.
+add_library(volcomp_target_rules INTERFACE)
+target_compile_options(volcomp_target_rules INTERFACE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
+target_link_libraries(volcomp_target_rules INTERFACE volcomp_eigen)
+if(NOT VOLCOMP_SANITIZE AND NOT VOLCOMP_COVERAGE)
+  # Not for host programs: GCC sees null pointers inside the JSON library, and wherever a sanitizer adds a check.
+  target_compile_options(volcomp_target_rules INTERFACE -Wnull-dereference)
+endif()

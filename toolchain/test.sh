@@ -1,0 +1,192 @@
+#!/usr/bin/env bash
+# Runs every test and check of the project and stops at the first failure.
+#
+#   toolchain/test.sh               everything
+#   toolchain/test.sh --quick       format, build and tests of the host only
+#   toolchain/test.sh --step NAME   one step (may be repeated)
+#
+# Steps, in this order:
+#   setup       install what is missing
+#   format      clang-format over all C++ files
+#   scripts     shellcheck over the scripts
+#   build       the optimized host build
+#   test        its tests
+#   proofs      no heap, exceptions, globals, recursion ... in the library comp
+#   asan        build and tests with the address and undefined-behaviour sanitizers
+#   tidy        clang-tidy
+#   cppcheck    cppcheck over comp
+#   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 30) seconds
+#   coverage    build and tests with gcov; table in build/cov/coverage.txt
+#   bench       the benchmarks are built, not run
+#
+# VOLCOMP_JOBS limits the processes (default: the number of processors). The last line says how many
+# tests passed and failed over all configurations; a failed check counts as one failed test.
+script_folder=$(dirname "${BASH_SOURCE[0]}")
+# shellcheck source=toolchain/common.sh
+. "$script_folder/common.sh"
+
+readonly all_steps=(setup format scripts build test proofs asan tidy cppcheck fuzz coverage bench)
+readonly quick_steps=(format build test)
+readonly code_folders=(comp hal firmware host_sim tests)
+readonly logs=build/log
+
+# build_preset PRESET [CMAKE_BUILD_ARGUMENT...]
+build_preset() {
+  local preset=$1 log=$logs/configure-$1.txt
+  shift
+  need cmake ninja
+  cmake --preset "$preset" > "$log" 2>&1 || { cat "$log"; return 1; }
+  cmake --build --preset "$preset" -j "$(jobs_allowed)" "$@"
+}
+
+# Shows failures, the summary and every hundredth test that passed.
+test_preset() {
+  local log=$logs/ctest-$1.txt
+  need ctest
+  ctest --preset "$1" -j "$(jobs_allowed)" --no-tests=error 2>&1 | tee "$log" |
+    awk '/^ *Start +[0-9]+:/ { next } / Passed +[0-9.]+ sec/ && ++passed % 100 { next } { print; fflush() }'
+}
+
+step_setup() {
+  bash toolchain/setup.sh
+}
+
+step_format() {
+  local files
+  need clang-format
+  mapfile -t files < <(sources '*.[ch]pp' "${code_folders[@]}")
+  [ ${#files[@]} -gt 0 ] || die "there is no C++ file to check."
+  clang-format --dry-run -Werror "${files[@]}"
+  printf '%s files\n' "${#files[@]}"
+}
+
+step_scripts() {
+  local files
+  need shellcheck
+  mapfile -t files < <(sources '*.sh' toolchain "${code_folders[@]}")
+  shellcheck -x "${files[@]}" .ci/run
+  printf '%s files\n' "$((${#files[@]} + 1))"
+}
+
+step_build() {
+  build_preset host
+}
+
+# The steps that use the host build bring it up to date, so that none judges an old one.
+step_test() {
+  build_preset host
+  test_preset host
+}
+
+step_proofs() {
+  need python3
+  build_preset host --target volcomp_comp
+  bash toolchain/check-archive.sh --self-test
+  bash toolchain/check-archive.sh build/host
+  python3 toolchain/check-recursion.py --self-test
+  python3 toolchain/check-recursion.py build/host
+}
+
+step_asan() {
+  build_preset host-asan
+  test_preset host-asan
+}
+
+step_tidy() {
+  need python3
+  build_preset host
+  python3 toolchain/tidy.py build/host
+}
+
+step_cppcheck() {
+  local files
+  need cppcheck
+  mapfile -t files < <(sources '*.[ch]pp' comp)
+  [ ${#files[@]} -gt 0 ] || die "there is no C++ file of comp to check."
+  cppcheck --quiet --std=c++17 --language=c++ --enable=warning,performance,portability --inline-suppr \
+    --inconclusive --suppress=missingInclude --suppress=missingIncludeSystem --suppress=unmatchedSuppression \
+    --error-exitcode=1 -I . -j "$(jobs_allowed)" "${files[@]}"
+  printf '%s files\n' "${#files[@]}"
+}
+
+step_fuzz() {
+  local programs
+  need clang++
+  build_preset fuzz
+  mapfile -t programs < <(find build/fuzz/tests -type f -name 'fuzz_*' -perm -u+x | sort)
+  [ ${#programs[@]} -gt 0 ] || die "the preset \"fuzz\" built no fuzz program."
+  bash toolchain/fuzz.sh "${programs[@]}"
+}
+
+step_coverage() {
+  need python3 gcovr
+  build_preset cov
+  find build/cov -name '*.gcda' -delete
+  test_preset cov
+  python3 toolchain/coverage.py build/cov
+}
+
+step_bench() {
+  build_preset host --target volcomp_bench
+}
+
+# Adds the ctest summary of each log; a skipped test is neither passed nor failed.
+count_tests() {
+  local log
+  for log in "$logs"/ctest-*.txt; do
+    [ -f "$log" ] && cat "$log"
+  done | awk '
+    / tests passed, [0-9]+ tests? failed out of / { failed += $4; passed += $NF - $4 }
+    /\*\*\*Skipped/ { --passed }
+    END { print passed + 0, failed + 0 }'
+}
+
+finish() {
+  local failed_step=$1 passed failed
+  read -r passed failed < <(count_tests)
+  if [ -n "$failed_step" ]; then
+    [ "$failed" -gt 0 ] || failed=1
+    printf '\nThe step "%s" failed; repeat it with toolchain/test.sh --step %s.\n' "$failed_step" "$failed_step"
+  else
+    printf '\nAll steps passed in %s s.\n' "$SECONDS"
+  fi
+  printf '%s passed, %s failed\n' "$passed" "$failed"
+  [ -z "$failed_step" ]
+}
+
+steps=()
+while [ $# -gt 0 ]; do
+  case $1 in
+    --quick) steps=("${quick_steps[@]}") ;;
+    --step)
+      [ $# -ge 2 ] || die "--step needs the name of a step (try --help)."
+      shift
+      [[ " ${all_steps[*]} " == *" $1 "* ]] || die "there is no step \"$1\"; the steps are: ${all_steps[*]}."
+      steps+=("$1")
+      ;;
+    -h | --help) usage; exit 0 ;;
+    *) die "unknown argument \"$1\" (try --help)." ;;
+  esac
+  shift
+done
+[ ${#steps[@]} -gt 0 ] || steps=("${all_steps[@]}")
+
+mkdir -p "$logs"
+rm -f "$logs"/ctest-*.txt
+number=0
+for step in "${steps[@]}"; do
+  number=$((number + 1))
+  started=$SECONDS
+  printf '\n[%s/%s] %s\n' "$number" "${#steps[@]}" "$step"
+  # A subshell outside of any condition: only there "set -e" ends a step at its first failing command.
+  set +e
+  (set -e; "step_$step") 2>&1
+  status=$?
+  set -e
+  printf '[%s/%s] %s: %s s\n' "$number" "${#steps[@]}" "$step" "$((SECONDS - started))"
+  if [ "$status" != 0 ]; then
+    finish "$step"
+    exit 1
+  fi
+done
+finish ''
