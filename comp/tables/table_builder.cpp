@@ -107,7 +107,7 @@ double fitted_slope(const MeasuredAxis& m, const BuiltTable& b, Eigen::Index cha
 // and squareness comes back once, from the closure.
 void remove_straightness_slopes(const MeasuredAxis& m, std::size_t reference, BuiltTable& b) {
   b.removed_slope = {};
-  if (m.kind != JointKind::prismatic) return;
+  if (m.kind != JointKind::prismatic || m.slope == SlopeFit::keep) return;
   for (Eigen::Index c = 0; c < 3; ++c) {
     if (c == static_cast<Eigen::Index>(m.axis)) continue;
     const double slope = fitted_slope(m, b, c);

@@ -18,7 +18,11 @@ namespace volcomp {
 // sensed point.
 using Run = Span<const ErrorMotion>;
 
-enum class SlopeFit : std::uint8_t { least_squares, end_points };
+enum class SlopeFit : std::uint8_t {
+  least_squares,
+  end_points,
+  keep,  // nothing removed: only right together with the squareness closure, which absorbs it
+};
 
 struct MeasuredAxis {
   char letter = '\0';

@@ -1,0 +1,13 @@
+#pragma once
+// The subcommands of the host tool. Each registers itself and sets `code` when it ran.
+
+#include <CLI/CLI.hpp>
+
+namespace volcomp::sim {
+
+void add_run_command(CLI::App& app, int argc, char** argv, int& code);
+void add_build_tables_command(CLI::App& app, int& code);
+void add_machine_command(CLI::App& app, int& code);
+void add_list_command(CLI::App& app, int& code);
+
+}  // namespace volcomp::sim

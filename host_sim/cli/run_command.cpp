@@ -1,0 +1,80 @@
+// volcomp run SCENARIO
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/data/whole_file.hpp"
+#include "host_sim/report/report.hpp"
+#include "host_sim/scenarios/xyfz/report.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct RunArguments {
+  XyfzOptions options;
+  std::string machine;
+  std::string json_file;
+  std::string report_folder;
+  std::string command;
+};
+
+// File and path as the user would type them, without the folder of the program.
+std::string command_line(int argc, char** argv) {
+  std::string text = "volcomp";
+  for (int i = 1; i < argc; ++i)
+    text += std::string(" ") + argv[i];
+  return text;
+}
+
+int run_xyfz_command(RunArguments& arguments) {
+  XyfzOptions& options = arguments.options;
+  options.machine = arguments.machine.empty() ? bundled_machine("xyfz")
+                                              : std::filesystem::path(arguments.machine);
+  if (!arguments.report_folder.empty()) {
+    options.campaign = std::filesystem::path(arguments.report_folder) / "campaign";
+  }
+  const XyfzResult result = [&] {
+    ProgressBar bar;
+    return run_xyfz(options, [&](double done, const std::string& what) { bar.show(done, what); });
+  }();
+  fmt::print("{}", xyfz_summary(result));
+  if (!arguments.json_file.empty())
+    write_whole_file(arguments.json_file, xyfz_figures(result).dump(2) + "\n");
+  if (!arguments.report_folder.empty()) {
+    write_report(xyfz_document(result, arguments.command), arguments.report_folder);
+    fmt::print("report: {}\n",
+               (std::filesystem::path(arguments.report_folder) / "report.html").string());
+  }
+  return xyfz_verdict(result).ok ? 0 : 1;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
+  CLI::App* run = app.add_subcommand("run", "Run a scenario on a simulated machine");
+  run->require_subcommand(1);
+  CLI::App* xyfz =
+      run->add_subcommand("xyfz", "Three-axis machine: measure, build tables, compensate, verify");
+  auto a = std::make_shared<RunArguments>();
+  a->command = command_line(argc, argv);
+  xyfz->add_option("--draws", a->options.draws, "Noisy campaigns to run (0: noise-free only)")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  xyfz->add_option("--seed", a->options.seed, "Seed of instruments, readings and random points")
+      ->capture_default_str();
+  xyfz->add_option("--machine-seed", a->options.machine_seed,
+                   "Seed of the machine's error functions")
+      ->capture_default_str();
+  xyfz->add_option("--machine", a->machine,
+                   "Machine file (default: the XYFZ machine that comes with the program)");
+  xyfz->add_option("--json", a->json_file, "Write the figures to this file");
+  xyfz->add_option("--report", a->report_folder,
+                   "Write report.html, report.json and the run files to this folder");
+  xyfz->callback([a, &code] { code = run_xyfz_command(*a); });
+}
+
+}  // namespace volcomp::sim

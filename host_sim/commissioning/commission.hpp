@@ -1,0 +1,54 @@
+#pragma once
+// From a machine file and measured runs to the tables of the machine: the road of a user's own
+// data.
+
+#include <memory>
+#include <vector>
+
+#include "comp/tables/machine_tables.hpp"
+#include "comp/tables/table_builder.hpp"
+#include "comp/tables/volumetric_model.hpp"
+#include "host_sim/data/runs_csv.hpp"
+#include "host_sim/machine/machine_file.hpp"
+
+namespace volcomp::sim {
+
+// Which model of the paper the tables are for (seed 001 section 2.1).
+enum class ModelKind : std::uint8_t {
+  naive,        // no Abbe offsets, measured values as they are, squareness as rotations
+  abbe,         // reading heads and sensed points, squareness as measured
+  abbe_closed,  // the same with the squareness closure: the product's model
+};
+
+struct CommissionOptions {
+  ModelKind model = ModelKind::abbe_closed;
+  SlopeFit slope = SlopeFit::least_squares;
+  bool allow_resampling = true;
+  std::size_t refine = 0;  // 0: as the machine file says
+};
+
+// Owns everything its parts refer to; not copyable.
+struct Commissioned {
+  MachineChain chain;                                // of the chosen model
+  std::vector<std::unique_ptr<BuiltTable>> built;    // by NC axis, as measured and averaged
+  std::vector<std::unique_ptr<ErrorTable>> refined;  // internal convention, what is quantised
+  VolumetricModel model;
+  XyfzSquareness apparent;    // what the tables show at the place of the ball bar
+  XyfzSquareness parameters;  // what goes into the model
+  MachineTables tables;
+  double model_bound_nm = 0.0;        // first-order run-time model against the exact chain
+  std::vector<std::string> warnings;  // in words
+
+  Commissioned() = default;
+  Commissioned(const Commissioned&) = delete;
+  Commissioned& operator=(const Commissioned&) = delete;
+};
+
+// One run file per axis of the machine. Throws UserError naming file and place.
+[[nodiscard]] std::unique_ptr<Commissioned> commission(const MachineFile& machine,
+                                                       const std::vector<RunsFile>& runs,
+                                                       const CommissionOptions& options);
+
+[[nodiscard]] std::vector<std::uint8_t> make_image(const MachineTables& tables);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,318 @@
+#include "host_sim/data/runs_csv.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include "comp/units.hpp"
+#include "host_sim/data/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr std::size_t kMaxReadings = 1'000'000;
+
+struct Unit {
+  const char* name;
+  double factor;  // to mm or rad
+  bool angle;
+};
+
+constexpr std::array<Unit, 10> kUnits{{{"mm", 1.0, false},
+                                       {"um", 1e-3, false},
+                                       {"\xC2\xB5m", 1e-3, false},
+                                       {"nm", 1e-6, false},
+                                       {"rad", 1.0, true},
+                                       {"mrad", 1e-3, true},
+                                       {"urad", 1e-6, true},
+                                       {"\xC2\xB5rad", 1e-6, true},
+                                       {"arcsec", kPi / 648000.0, true},
+                                       {"deg", kPi / 180.0, true}}};
+
+// What a column holds. Channels 0…5 = EX…EC.
+struct Column {
+  enum class Kind { target, run, direction, channel } kind = Kind::run;
+  std::size_t channel = 0;
+  double factor = 1.0;
+};
+
+struct Reading {
+  double target = 0.0;
+  long run = 0;
+  bool up = true;
+  ErrorMotion value = ErrorMotion::Zero();
+};
+
+std::string_view trim(std::string_view s) {
+  while (!s.empty() && (s.front() == ' ' || s.front() == '\t'))
+    s.remove_prefix(1);
+  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r'))
+    s.remove_suffix(1);
+  return s;
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(trim(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+// Cells may hold anything; only their printable beginning is quoted back.
+std::string quoted(std::string_view cell) {
+  std::string text;
+  for (const char c : cell.substr(0, 40))
+    text += (c >= ' ' && c <= '~') ? c : '?';
+  return '"' + text + '"';
+}
+
+class Reader {
+ public:
+  Reader(std::istream& stream, std::string name) : stream_(stream), name_(std::move(name)) {}
+
+  RunsFile read() {
+    std::string line;
+    while (next(line)) {
+      if (columns_.empty()) {
+        read_header(line);
+      } else {
+        readings_.push_back(read_reading(line));
+        if (readings_.size() > kMaxReadings)
+          fail(fmt::format("more than {} readings", kMaxReadings));
+        place(readings_.back());
+      }
+    }
+    if (columns_.empty()) throw UserError(name_ + ": the file is empty");
+    if (readings_.empty()) throw UserError(name_ + ": there is no reading after the header");
+    return finish();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& text) const {
+    throw UserError(fmt::format("{}:{}: {}", name_, line_, text));
+  }
+
+  // Next line with content.
+  bool next(std::string& line) {
+    while (std::getline(stream_, line)) {
+      ++line_;
+      if (line_ == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);
+      const std::string_view content = trim(line);
+      if (!content.empty() && content.front() != '#') return true;
+    }
+    return false;
+  }
+
+  Unit unit_of(std::string_view cell, std::string_view& label) const {
+    const std::size_t open = cell.find('[');
+    const std::size_t close = cell.find(']');
+    if (open == std::string_view::npos || close == std::string_view::npos || close < open) {
+      fail(fmt::format("column {} needs its unit in brackets, for instance [um] or [urad]",
+                       quoted(cell)));
+    }
+    label = trim(cell.substr(0, open));
+    const std::string_view name = trim(cell.substr(open + 1, close - open - 1));
+    for (const Unit& unit : kUnits) {
+      if (name == unit.name) return unit;
+    }
+    fail(fmt::format("unknown unit {} (known: mm um nm rad mrad urad arcsec deg)", quoted(name)));
+  }
+
+  Column channel_column(std::string_view cell) {
+    std::string_view label;
+    const Unit unit = unit_of(cell, label);
+    if (label == "target") {
+      target_is_angle_ = unit.angle;
+      return {Column::Kind::target, 0, unit.factor};
+    }
+    static constexpr std::string_view kKinds = "XYZABC";
+    const bool shaped = label.size() == 3 && label[0] == 'E';
+    const std::size_t channel = shaped ? kKinds.find(label[1]) : std::string_view::npos;
+    if (channel == std::string_view::npos) fail(fmt::format("unknown column {}", quoted(cell)));
+    if (letter_ != '\0' && letter_ != label[2]) fail("the channels belong to different axes");
+    letter_ = label[2];
+    if (unit.angle != (channel >= 3))
+      fail(fmt::format("column {} has a unit of the wrong kind", quoted(cell)));
+    return {Column::Kind::channel, channel, unit.factor};
+  }
+
+  void read_header(std::string_view line) {
+    std::array<int, 9> seen{};  // target, run, direction, six channels
+    for (const std::string_view cell : split(line)) {
+      Column column;
+      if (cell == "run") {
+        column.kind = Column::Kind::run;
+      } else if (cell == "direction") {
+        column.kind = Column::Kind::direction;
+      } else {
+        column = channel_column(cell);
+      }
+      const std::size_t slot = column.kind == Column::Kind::target      ? 0
+                               : column.kind == Column::Kind::run       ? 1
+                               : column.kind == Column::Kind::direction ? 2
+                                                                        : 3 + column.channel;
+      if (++seen.at(slot) > 1) fail(fmt::format("column {} occurs twice", quoted(cell)));
+      columns_.push_back(column);
+    }
+    static constexpr std::array<const char*, 9> kNames{"target [mm]", "run",       "direction",
+                                                       "EX. [mm]",    "EY. [mm]",  "EZ. [mm]",
+                                                       "EA. [rad]",   "EB. [rad]", "EC. [rad]"};
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      if (seen[i] == 0)
+        fail(fmt::format("the header lacks the column {} [missing_field]", kNames[i]));
+    }
+  }
+
+  double parse(std::string_view cell) const {
+    double value = 0.0;
+    const char* begin = cell.data();
+    const char* end = begin + cell.size();
+    if (begin != end && *begin == '+') ++begin;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (error == std::errc::result_out_of_range)
+      fail(fmt::format("{} is out of range", quoted(cell)));
+    if (error != std::errc{} || stop != end) fail(fmt::format("{} is not a number", quoted(cell)));
+    return value;
+  }
+
+  Reading read_reading(std::string_view line) const {
+    const std::vector<std::string_view> cells = split(line);
+    if (cells.size() != columns_.size()) {
+      fail(fmt::format("{} cells instead of {}", cells.size(), columns_.size()));
+    }
+    Reading r;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Column& c = columns_[i];
+      switch (c.kind) {
+        case Column::Kind::target:
+          r.target = parse(cells[i]) * c.factor;
+          if (!std::isfinite(r.target)) fail("a target position must be finite [not_finite]");
+          break;
+        case Column::Kind::run: {
+          const double run = parse(cells[i]);
+          if (!(run >= 1.0 && run <= 1e6) || std::floor(run) < run)
+            fail("'run' must be a whole number from 1");
+          r.run = static_cast<long>(run);
+          break;
+        }
+        case Column::Kind::direction:
+          if (cells[i] != "up" && cells[i] != "down")
+            fail(fmt::format("direction is {}, must be up or down", quoted(cells[i])));
+          r.up = cells[i] == "up";
+          break;
+        case Column::Kind::channel:
+          r.value(static_cast<Eigen::Index>(c.channel)) = parse(cells[i]) * c.factor;
+          break;
+      }
+    }
+    return r;
+  }
+
+  // Targets are identified by value: the first run that shows one gives its place.
+  void place(const Reading& r) {
+    const long key = std::lround(std::clamp(r.target, -1e12, 1e12) * 1e5);
+    const auto [it, fresh] = target_index_.try_emplace(key, positions_.size());
+    if (fresh) {
+      if (positions_.size() == kTableKnots)
+        fail(fmt::format("more than {} targets [too_many_knots]", kTableKnots));
+      positions_.push_back(r.target);
+    }
+    auto& run = runs_[{r.up, r.run}];
+    if (run.size() <= it->second) run.resize(it->second + 1);
+    if (run[it->second])
+      fail(fmt::format("run {} {} has target {} twice", r.run, r.up ? "up" : "down", r.target));
+    run[it->second] = r.value;
+  }
+
+  RunsFile finish() const {
+    RunsFile file;
+    file.name = name_;
+    file.letter = letter_;
+    file.positions = positions_;
+    for (const auto& [key, values] : runs_) {
+      RunValues run;
+      for (const auto& value : values) {
+        if (value) run.push_back(*value);
+      }
+      if (run.size() != positions_.size()) {
+        throw UserError(fmt::format("{}: run {} {} has {} of {} targets [run_length]", name_,
+                                    key.second, key.first ? "up" : "down", run.size(),
+                                    positions_.size()));
+      }
+      (key.first ? file.up : file.down).push_back(run);
+    }
+    return file;
+  }
+
+  std::istream& stream_;
+  std::string name_;
+  std::size_t line_ = 0;
+  char letter_ = '\0';
+  bool target_is_angle_ = false;
+  std::vector<Column> columns_;
+  std::vector<Reading> readings_;
+  std::vector<double> positions_;
+  std::map<long, std::size_t> target_index_;
+  std::map<std::pair<bool, long>, std::vector<std::optional<ErrorMotion>>> runs_;
+};
+
+}  // namespace
+
+RunViews::RunViews(const RunsFile& file) {
+  for (const RunValues& run : file.up)
+    up.emplace_back(run.data(), run.size());
+  for (const RunValues& run : file.down)
+    down.emplace_back(run.data(), run.size());
+}
+
+RunsFile read_runs(std::istream& stream, const std::string& name) {
+  return Reader(stream, name).read();
+}
+
+RunsFile read_runs_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path))
+    throw UserError(path.string() + ": cannot be opened");
+  return read_runs(stream, path.string());
+}
+
+void write_runs(std::ostream& stream, const RunsFile& runs) {
+  const bool rotary = runs.letter >= 'A' && runs.letter <= 'C';
+  fmt::print(stream, "target [{}],run,direction", rotary ? "rad" : "mm");
+  for (const char c : {'X', 'Y', 'Z'})
+    fmt::print(stream, ",E{}{} [mm]", c, runs.letter);
+  for (const char c : {'A', 'B', 'C'})
+    fmt::print(stream, ",E{}{} [rad]", c, runs.letter);
+  fmt::print(stream, "\n");
+  const auto write = [&](const std::vector<RunValues>& list, const char* direction) {
+    for (std::size_t r = 0; r < list.size(); ++r) {
+      for (std::size_t t = 0; t < list[r].size(); ++t) {
+        fmt::print(stream, "{},{},{}", runs.positions[t], r + 1, direction);
+        for (Eigen::Index c = 0; c < 6; ++c)
+          fmt::print(stream, ",{}", list[r][t](c));
+        fmt::print(stream, "\n");
+      }
+    }
+  };
+  write(runs.up, "up");
+  write(runs.down, "down");
+}
+
+void write_runs_file(const std::filesystem::path& path, const RunsFile& runs) {
+  std::ofstream stream(path);
+  write_runs(stream, runs);
+  stream.close();
+  if (!stream) throw UserError(path.string() + ": cannot be written");
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,46 @@
+#pragma once
+// Measured runs as CSV, one file per axis. The header names every column with its unit, in any
+// order:
+//
+//   target [mm],run,direction,EXX [um],EYX [um],EZX [um],EAX [urad],EBX [urad],ECX [urad]
+//   -500,1,up,3.12,-0.45,…
+//
+// The last letter of the channels is the axis. Lines starting with # and empty lines are skipped.
+
+#include <filesystem>
+#include <istream>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "comp/geometry/error_motion.hpp"
+#include "comp/tables/table_builder.hpp"
+
+namespace volcomp::sim {
+
+using RunValues = std::vector<ErrorMotion>;  // by target, mm and rad
+
+struct RunsFile {
+  std::string name;
+  char letter = '\0';
+  std::vector<double> positions;  // mm or rad, in the order of the file
+  std::vector<RunValues> up;      // towards increasing coordinate
+  std::vector<RunValues> down;
+};
+
+// Views for the table builder; the file must outlive them.
+struct RunViews {
+  explicit RunViews(const RunsFile& file);
+  std::vector<Run> up;
+  std::vector<Run> down;
+};
+
+// Throws UserError with file and line: malformed number, unknown or missing unit, unknown column,
+// duplicate reading.
+[[nodiscard]] RunsFile read_runs(std::istream& stream, const std::string& name);
+[[nodiscard]] RunsFile read_runs_file(const std::filesystem::path& path);
+
+void write_runs(std::ostream& stream, const RunsFile& runs);
+void write_runs_file(const std::filesystem::path& path, const RunsFile& runs);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,23 @@
+#pragma once
+// Errors a user can do something about: one clear sentence naming the file, line, axis or field.
+
+#include <stdexcept>
+#include <string>
+
+#include "comp/status.hpp"
+
+namespace volcomp::sim {
+
+// Printed as it is; the tool then ends with exit code 2.
+struct UserError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// What a refusal of the library means, in words: place first, then the reason. Runs and targets
+// count from 1.
+[[nodiscard]] std::string describe(const Status& status);
+
+// Throws UserError("SUBJECT: …") unless the status is ok.
+void require(const Status& status, const std::string& subject);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,16 @@
+#pragma once
+// Ball bar: measures the squareness of three axis pairs at its own place.
+
+#include "comp/tables/squareness.hpp"
+#include "host_sim/instruments/noise.hpp"
+#include "host_sim/machine/true_machine.hpp"
+
+namespace volcomp::sim {
+
+// Apparent squareness of the machine's own errors along the three lines, plus 1 σ noise on each
+// angle.
+[[nodiscard]] XyfzSquareness measure_squareness(const TrueMachine& machine, const Vec3& tool_point,
+                                                const SquarenessLines& place, double sigma_rad,
+                                                Random& random);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,69 @@
+#pragma once
+// A machine as its owner describes it: machine.toml. Every mandatory field is named when it is
+// missing, every error carries file and line.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comp/geometry/machine_chain.hpp"
+#include "comp/geometry/xyfz.hpp"
+#include "comp/tables/abbe.hpp"
+#include "comp/tables/error_table.hpp"
+
+namespace volcomp::sim {
+
+struct AxisFile {
+  char letter = '\0';
+  double lo = 0.0;  // travel, mm or rad
+  double hi = 0.0;
+  std::size_t targets = 11;
+  double reference = 0.0;
+  SensedPoint sensed;
+};
+
+// Squareness measured at a place: three lines through a point, each from two ends.
+struct SquarenessFile {
+  XyfzSquareness measured;
+  Vec3 at = Vec3::Zero();
+  std::array<std::array<double, 2>, 3> segment{};
+  std::size_t points = 7;  // per line
+
+  [[nodiscard]] std::vector<double> line(std::size_t axis) const;
+};
+
+struct CorrectionFile {
+  double limit_mm = 0.2;
+  double rate_mm_per_s = 10.0;
+  double hysteresis_mm = 0.002;
+  double ramp_s = 0.2;
+  double tick_hz = 1000.0;
+  double max_speed_mm_per_s = 0.0;  // 0: position jumps are not checked
+};
+
+struct MachineFile {
+  std::string path;
+  std::string name;
+  std::uint32_t id = 0;
+  Convention convention = Convention::relative;
+  Side side = Side::moving;
+  MachineChain chain;
+  std::vector<AxisFile> axes;  // by NC axis
+  std::vector<std::string> body_names;
+  CorrectionFile correction;
+  std::size_t refine = 8;
+  Interpolation interpolation = Interpolation::catmull_rom;
+  std::optional<SquarenessFile> squareness;
+
+  [[nodiscard]] std::size_t axis_index(char letter) const;  // throws UserError
+};
+
+// Throws UserError.
+[[nodiscard]] MachineFile read_machine_file(const std::filesystem::path& path);
+[[nodiscard]] MachineFile parse_machine(const std::string& text, const std::string& name);
+
+// A machine that comes with the program, by name ("xyfz").
+[[nodiscard]] std::filesystem::path bundled_machine(const std::string& name);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,171 @@
+#include "host_sim/scenarios/xyfz/dynamics.hpp"
+
+#include <algorithm>
+
+#include "comp/tables/command.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/xyfz/campaign.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr double kLineFeed_mm_s = 10000.0 / 60.0;
+constexpr double kCircleFeed_mm_s = 1000.0 / 60.0;
+constexpr double kCircleRadius_mm = 100.0;
+constexpr std::size_t kKeepEvery = 8;  // of the ticks, for the pictures
+
+Pose pose_of(const Vec3& q) { return {q.x(), q.y(), q.z()}; }
+
+Travels travels_of(const Vec3& direction) {
+  Travels t{};
+  for (std::size_t a = 0; a < 3; ++a) {
+    t[a] = direction(static_cast<Eigen::Index>(a)) > 0.0 ? Travel::forward : Travel::backward;
+  }
+  return t;
+}
+
+void keep(Trace& trace, double x, double y) {
+  trace.x.push_back(x);
+  trace.y.push_back(y);
+}
+
+void run_line(const TrueMachine& truth, const MachineFile& machine, const Commissioned& closed,
+              bool compensated, Dynamics& out) {
+  const Diagonal line = body_diagonals(travel_box(machine))[kPnp];
+  const Travels travels = travels_of(line.direction());
+  const auto error_at = [&](const Vec3& q) {
+    return closed.model.first_order(pose_of(q), travels, Beyond::stand_at_end);
+  };
+  MotionCell cell(truth, machine.correction,
+                  compensated ? make_image(closed.tables) : std::vector<std::uint8_t>{});
+  cell.place(line.start);
+  Trace& deviation = compensated ? out.line_deviation_um : out.line_deviation_raw_um;
+  std::size_t tick = 0;
+  const Vec3 zero = cell.deviation_mm();
+  cell.move_to(line.end, kLineFeed_mm_s, [&](const MotionCell& c) {
+    const double s = (c.target_mm() - line.start).norm();
+    // The direction is known once the axes have moved by the hysteresis; a nm of target rounding is
+    // part of the wanted offset.
+    if (compensated && s > 10.0 * machine.correction.hysteresis_mm) {
+      Vec3 rounded;
+      for (std::size_t a = 0; a < 3; ++a) {
+        rounded(static_cast<Eigen::Index>(a)) =
+            static_cast<double>(c.axes().target_nm()[a]) / kNmPerMm;
+      }
+      const Vec3 wanted = compensated_command(error_at, rounded, 4) - rounded;
+      double worst = 0.0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const double applied = static_cast<double>(c.axes().offset_nm()[a]);
+        worst =
+            std::max(worst, std::abs(applied - kNmPerMm * wanted(static_cast<Eigen::Index>(a))));
+      }
+      out.line_worst_nm = std::max(out.line_worst_nm, worst);
+      if (tick % kKeepEvery == 0) keep(out.line_offset_error_nm, s, worst);
+    }
+    if (tick++ % kKeepEvery != 0) return;
+    const Vec3 from_start = c.deviation_mm() - zero;
+    const Vec3 across = from_start - from_start.dot(line.direction()) * line.direction();
+    keep(deviation, s, kUmPerMm * across.norm());
+  });
+}
+
+// One turn to get going, one turn measured.
+void run_circle(const TrueMachine& truth, const MachineFile& machine,
+                const std::vector<std::uint8_t>& image, Trace& out) {
+  const DiagonalBox box = travel_box(machine);
+  const Vec3 centre = 0.5 * (box.lo + box.hi);
+  MotionCell cell(truth, machine.correction, image);
+  cell.place(centre + Vec3(kCircleRadius_mm, 0.0, 0.0));
+  std::size_t tick = 0;
+  double travelled = 0.0;
+  Vec3 last = cell.target_mm();
+  cell.circle(centre, kCircleRadius_mm, kCircleFeed_mm_s, 2, [&](const MotionCell& c) {
+    travelled += (c.target_mm() - last).norm();
+    last = c.target_mm();
+    const double angle = 180.0 / kPi * travelled / kCircleRadius_mm;
+    if (angle < 300.0 || angle > 660.0 || tick++ % (4 * kKeepEvery) != 0) return;
+    const Vec3 radial = (c.target_mm() - centre).normalized();
+    keep(out, angle - 360.0, kUmPerMm * radial.dot(c.deviation_mm()));
+  });
+  // Only the shape matters: a ball bar centres itself.
+  double mean = 0.0;
+  for (const double y : out.y)
+    mean += y / static_cast<double>(out.y.size());
+  double c1 = 0.0;
+  double s1 = 0.0;
+  for (std::size_t i = 0; i < out.x.size(); ++i) {
+    const double a = out.x[i] * kPi / 180.0;
+    c1 += 2.0 * (out.y[i] - mean) * std::cos(a) / static_cast<double>(out.y.size());
+    s1 += 2.0 * (out.y[i] - mean) * std::sin(a) / static_cast<double>(out.y.size());
+  }
+  for (std::size_t i = 0; i < out.x.size(); ++i) {
+    const double a = out.x[i] * kPi / 180.0;
+    out.y[i] -= mean + c1 * std::cos(a) + s1 * std::sin(a);
+  }
+}
+
+// A random position of one axis: mostly inside its table, sometimes a knot ± 1 nm, an end, or far
+// beyond.
+std::int64_t random_position(const AxisTable& table, Random& random) {
+  const double kind = random.uniform();
+  const auto knot =
+      static_cast<std::int64_t>(random.uniform(0.0, static_cast<double>(table.knots)));
+  const auto wiggle = static_cast<std::int64_t>(random.uniform(-1.0, 2.0));
+  if (kind < 0.1) return table.q0 + table.pitch * knot + wiggle;
+  if (kind < 0.15) return table.q0 - static_cast<std::int64_t>(random.uniform(0.0, 3e8));
+  if (kind < 0.2) return table.last() + static_cast<std::int64_t>(random.uniform(0.0, 3e8));
+  return table.q0 + static_cast<std::int64_t>(
+                        random.uniform(0.0, static_cast<double>(table.last() - table.q0)));
+}
+
+}  // namespace
+
+Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
+                      const Commissioned& closed) {
+  Dynamics out;
+  run_line(truth, machine, closed, false, out);
+  run_line(truth, machine, closed, true, out);
+  run_circle(truth, machine, {}, out.circle_raw_um);
+  run_circle(truth, machine, make_image(closed.tables), out.circle_um);
+  return out;
+}
+
+double measure_tick_error_nm(const Commissioned& closed, std::uint64_t seed) {
+  constexpr int kPoints = 200'000;
+  LoadedCompensator::Settings settings;
+  for (AxisLimits& l : settings.axis)
+    l = {4'000'000, 1'000'000'000, 1, 0, 0};
+  settings.source = PositionSource::actual;
+  settings.ramp_ticks = 1;
+  const auto compensator = std::make_unique<LoadedCompensator>(
+      LoadedMachine<5>{make_runtime_chain(closed.tables.machine)});
+  require(compensator->configure(settings), "tick accuracy");
+  require(compensator->stage(closed.tables, closed.model.tool_point, 0), "tick accuracy");
+  require(compensator->activate(), "tick accuracy");
+
+  Random random(seed);
+  TickInput<5> in;
+  TickOutput<5> out;
+  Travels travels{};
+  double worst = 0.0;
+  for (int i = 0; i < kPoints; ++i) {
+    Pose q{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::int64_t before = in.axis[a].position;
+      in.axis[a] = {random_position(closed.tables.axis[a], random), true, true};
+      q[a] = static_cast<double>(in.axis[a].position) / kNmPerMm;
+      if (i > 0 && in.axis[a].position != before) {
+        travels[a] = in.axis[a].position > before ? Travel::forward : Travel::backward;
+      }
+    }
+    compensator->tick(in, out);
+    const Vec3 e = closed.model.first_order(q, travels, Beyond::stand_at_end);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double wanted = -kNmPerMm * e(static_cast<Eigen::Index>(a));
+      worst = std::max(worst, std::abs(wanted - static_cast<double>(out.offset[a])));
+    }
+  }
+  return worst;
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,16 @@
+#pragma once
+// Behaviour in motion: a straight line at 10 m/min, a circle, and the accuracy of the tick itself.
+
+#include "host_sim/scenarios/xyfz/scenario.hpp"
+
+namespace volcomp::sim {
+
+// With and without the compensation of `closed`, noise-free.
+[[nodiscard]] Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
+                                    const Commissioned& closed);
+
+// Integer tick against the same first-order model in double at random integer positions, inside the
+// tables, at their knots and ends, and beyond; nm.
+[[nodiscard]] double measure_tick_error_nm(const Commissioned& closed, std::uint64_t seed);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/scenarios/xyfz/scenario.hpp"
+
+namespace volcomp::sim {
+
+// The figures of a run under the names the README documents.
+[[nodiscard]] nlohmann::json xyfz_figures(const XyfzResult& result);
+
+// The same run as a report document (host_sim/report/README.md).
+[[nodiscard]] nlohmann::json xyfz_document(const XyfzResult& result, const std::string& command);
+
+// The before/after table for a terminal.
+[[nodiscard]] std::string xyfz_summary(const XyfzResult& result);
+
+struct Verdict {
+  bool ok = false;
+  std::string text;
+};
+[[nodiscard]] Verdict xyfz_verdict(const XyfzResult& result);
+
+}  // namespace volcomp::sim

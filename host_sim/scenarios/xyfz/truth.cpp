@@ -1,0 +1,163 @@
+#include "host_sim/scenarios/xyfz/truth.hpp"
+
+#include <functional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "comp/evaluation/diagonals.hpp"
+#include "host_sim/commissioning/commission.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/instruments/ball_bar.hpp"
+#include "host_sim/scenarios/xyfz/campaign.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr double kOwnAxis_mm = 3e-3;
+constexpr double kStraightness_mm = 2.5e-3;
+constexpr double kRoll_rad = 12e-6;
+constexpr double kPitchYaw_rad = 20e-6;
+constexpr double kRipple_mm = 0.15e-3;
+
+ErrorFunction draw_function(double amplitude, bool with_slope, Random& random) {
+  ErrorFunction f;
+  f.linear = with_slope ? amplitude * random.uniform(-1.0, 1.0) : 0.0;
+  constexpr std::array<double, 3> kWeight{1.0, 0.5, 0.25};
+  for (std::size_t k = 0; k < 3; ++k) {
+    f.amplitude[k] = amplitude * kWeight[k];
+    f.phase[k] = random.uniform(0.0, 2.0 * kPi);
+  }
+  return f;
+}
+
+TrueAxis draw_axis(const AxisFile& file, std::size_t own, const XyfzTuning& tuning,
+                   Random& random) {
+  TrueAxis axis;
+  axis.lo = file.lo;
+  axis.hi = file.hi;
+  for (std::size_t c = 0; c < 3; ++c) {
+    axis.channel[c] = draw_function(c == own ? kOwnAxis_mm : kStraightness_mm, c == own, random);
+  }
+  for (std::size_t c = 3; c < 6; ++c) {
+    const double amplitude = c == own + 3 ? kRoll_rad : kPitchYaw_rad;
+    axis.channel[c] = draw_function(amplitude * tuning.angle_scale, true, random);
+  }
+  axis.channel[own].ripple = kRipple_mm;
+  axis.channel[own].ripple_phase = random.uniform(0.0, 2.0 * kPi);
+  axis.reversal[own] = random.uniform(0.5e-3, 1.0e-3);
+  for (std::size_t c = 3; c < 6; ++c)
+    axis.reversal[c] = random.uniform(-1.5e-6, 1.5e-6);
+  return axis;
+}
+
+SquarenessLines lines_of(const SquarenessFile& file,
+                         const std::array<std::vector<double>, 3>& line) {
+  return {file.at, line[0], line[1], line[2]};
+}
+
+// Largest deviation on PNP, mean of both directions, µm: measured − predicted where a model is
+// given.
+double pnp_um(const TrueMachine& machine, const MachineFile& file, const Commissioned* predicted) {
+  const DiagonalBox box = travel_box(file);
+  std::vector<double> deviation(kDiagonalPoints);
+  DiagonalFigures figures;
+  const auto error_at = [&](const Vec3& p) -> Vec3 {
+    const Pose q{p.x(), p.y(), p.z()};
+    Vec3 e = machine.error(q, {}, machine.chain.tool_point()).position_work;
+    if (predicted != nullptr)
+      e -= predicted->model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
+    return e;
+  };
+  require(diagonal_deviations(error_at, body_diagonals(box)[kPnp], deviation, figures), "diagonal");
+  return figures.max_abs * kUmPerMm;
+}
+
+double naive_residual_um(const MachineFile& file, std::uint64_t phase_seed,
+                         const XyfzTuning& tuning) {
+  const TrueMachine machine = make_xyfz_truth(file, phase_seed, tuning);
+  const Campaign campaign = perfect_campaign(machine, file);
+  const auto naive = commission(campaign.machine, campaign.runs, {ModelKind::naive});
+  return pnp_um(machine, file, naive.get());
+}
+
+double raw_um(const MachineFile& file, std::uint64_t phase_seed, const XyfzTuning& tuning) {
+  return pnp_um(make_xyfz_truth(file, phase_seed, tuning), file, nullptr);
+}
+
+// Root of f between lo and hi where it changes sign.
+double bisect(double lo, double hi, const std::function<double(double)>& f) {
+  const bool rising = f(hi) > f(lo);
+  for (int i = 0; i < 60; ++i) {
+    const double mid = 0.5 * (lo + hi);
+    ((f(mid) > 0.0) == rising ? hi : lo) = mid;
+  }
+  return 0.5 * (lo + hi);
+}
+
+// The root nearest to `start` on a grid of equal steps, then bisection; throws if there is none.
+double nearest_root(double start, double step, int steps, const std::function<double(double)>& f) {
+  double up = f(start);
+  double down = up;
+  for (int i = 1; i <= steps; ++i) {
+    const double a = start + i * step;
+    const double b = start - i * step;
+    const double fa = f(a);
+    if ((fa > 0.0) != (up > 0.0)) return bisect(a - step, a, f);
+    const double fb = f(b);
+    if ((fb > 0.0) != (down > 0.0)) return bisect(b, b + step, f);
+    up = fa;
+    down = fb;
+  }
+  throw UserError(
+      "this phase seed has no machine with the paper's figures; try another --machine-seed");
+}
+
+}  // namespace
+
+TrueMachine make_xyfz_truth(const MachineFile& file, std::uint64_t phase_seed,
+                            const XyfzTuning& tuning) {
+  if (!file.squareness || file.axes.size() != 3) {
+    throw UserError(file.path +
+                    ": the xyfz scenario needs three linear axes and a [squareness] table");
+  }
+  Random random(phase_seed);
+  TrueMachine machine;
+  machine.chain = file.chain;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto own = static_cast<std::size_t>(file.chain.axis(a).axis);
+    machine.axis[a] = draw_axis(file.axes[a], own, tuning, random);
+  }
+  machine.axis[0].channel[0].linear += tuning.scale_error * (file.axes[0].hi - file.axes[0].lo);
+
+  // A ball bar on this machine must read what the machine file says: unit gain, so one step is
+  // exact.
+  const std::array<std::vector<double>, 3> line{file.squareness->line(0), file.squareness->line(1),
+                                                file.squareness->line(2)};
+  const XyfzSquareness own = measure_squareness(machine, machine.chain.tool_point(),
+                                                lines_of(*file.squareness, line), 0.0, random);
+  machine.directions = xyfz_directions(close_squareness(file.squareness->measured, own));
+  return machine;
+}
+
+XyfzTuning tune_xyfz(const MachineFile& file, std::uint64_t phase_seed) {
+  XyfzTuning tuning;
+  constexpr int kRounds = 3;  // the two figures hardly influence each other
+  for (int round = 0; round < kRounds; ++round) {
+    const bool first = round == 0;
+    tuning.angle_scale =
+        nearest_root(tuning.angle_scale, first ? 0.1 : 0.01, first ? 25 : 50, [&](double scale) {
+          return naive_residual_um(file, phase_seed, {scale, tuning.scale_error}) - kPaperNaive_um;
+        });
+    tuning.scale_error = nearest_root(tuning.scale_error, 2e-6, 150, [&](double slope) {
+      return raw_um(file, phase_seed, {tuning.angle_scale, slope}) - kPaperRaw_um;
+    });
+  }
+  if (tuning.angle_scale <= 0.0) {
+    throw UserError(
+        "this phase seed has no machine with the paper's figures; try another --machine-seed");
+  }
+  return tuning;
+}
+
+}  // namespace volcomp::sim
