@@ -75,6 +75,8 @@ constexpr Entry kEntries[] = {
     {Reason::lever_spread_too_small, "lever_spread_too_small",
      "The angles change too little for the lever self-test to mean anything."},
     {Reason::too_few_points, "too_few_points", "There are too few points for this evaluation."},
+    {Reason::hand_over_pending, "hand_over_pending",
+     "The tick has not yet taken over the tables handed to it before; try again."},
     {Reason::not_staged, "not_staged", "There is no validated table set to activate."},
 };
 

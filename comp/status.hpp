@@ -48,6 +48,7 @@ enum class Reason : std::uint8_t {
   lever_spread_too_small,
   too_few_points,
   not_staged,
+  hand_over_pending,
 };
 
 // What a Status points at. A negative number or an empty name means "does not apply".

@@ -76,7 +76,10 @@ Status MachineChain::build(const MachineDescription& description, MachineChain& 
   for (std::size_t k = 0; k < n; ++k) {
     const Body& body = description.body[k];
     if (const Status s = check_joint(body, static_cast<int>(k) + 1); !s.ok()) return s;
-    if (!body.joint.moves()) continue;
+    if (!body.joint.moves()) {
+      chain.description_.body[k].joint.nc_axis = 0;  // unused, but a valid index into a pose
+      continue;
+    }
     Where where;
     where.body = static_cast<int>(k) + 1;
     where.axis = body.joint.letter;

@@ -56,6 +56,11 @@ class Compensator {
   // Corrections ramp to 0 and stay there until the next activate().
   void deactivate() { request_.store(Request::deactivate, std::memory_order_release); }
 
+  // Recomputes the checksum of the active tables; call it from time to time. A bit that changed in
+  // memory means: crc_mismatch, corrections ramp to 0, every axis shows kTableDamaged until new
+  // tables are activated.
+  Status scrub();
+
   [[nodiscard]] bool pending() const {
     return request_.load(std::memory_order_acquire) != Request::none;
   }
@@ -92,6 +97,8 @@ class Compensator {
   void take_sample(std::size_t axis, const AxisSample& sample);
   Located place(std::size_t axis, const Tables& set);
   kernel::Offsets wanted_offsets();
+  Status reject(const Status& status);
+  static std::uint32_t rows_crc(const Tables& set);
   void put_out(std::size_t axis, float wanted_nm, float ramp);
   void count_changes(std::size_t axis, std::uint16_t before);
   [[nodiscard]] bool rotary(std::size_t axis) const {
@@ -111,6 +118,7 @@ class Compensator {
   std::int8_t active_ = -1;  // index of the active buffer, −1 = none
   std::int8_t next_ = 0;     // the spare one
   bool staged_ = false;
+  std::atomic<bool> damaged_{false};
 };
 
 }  // namespace volcomp

@@ -1,6 +1,6 @@
 // Background half of Compensator: settings, staging, hand-over.
 
-#include <cmath>
+#include "comp/tables/crc32.hpp"
 
 namespace volcomp {
 
@@ -39,20 +39,32 @@ void Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kAxe
 }
 
 template <class Machine, std::size_t Knots>
+std::uint32_t Compensator<Machine, Knots>::rows_crc(const Tables& set) {
+  return crc32({reinterpret_cast<const std::uint8_t*>(&set.rows), sizeof set.rows});
+}
+
+template <class Machine, std::size_t Knots>
+Status Compensator<Machine, Knots>::reject(const Status& status) {
+  if (diagnostics_.rejections < UINT32_MAX) ++diagnostics_.rejections;
+  diagnostics_.last_rejection = status;
+  return status;
+}
+
+template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec3& tool_point,
                                           std::uint32_t image_crc) {
+  if (pending()) return reject(refuse(Reason::hand_over_pending));
   staged_ = false;
-  FoldReport report;
-  const auto spare = static_cast<std::size_t>(next_);
-  const Status status = pending() ? refuse(Reason::not_staged)
-                                  : fold_tables(tables, machine_.chain, tool_point,
-                                                TableSetView(buffer_[spare]), report);
-  if (!status.ok()) {
-    if (diagnostics_.rejections < UINT32_MAX) ++diagnostics_.rejections;
-    diagnostics_.last_rejection = status;
-    return status;
+  if (settings_.machine_id != 0 && tables.provenance.machine_id != settings_.machine_id) {
+    return reject(refuse(Reason::machine_mismatch));
   }
-  buffer_[spare].image_crc = image_crc;
+  FoldReport report;
+  Tables& spare = buffer_[static_cast<std::size_t>(next_)];
+  const Status status =
+      fold_tables(tables, machine_.chain, tool_point, TableSetView(spare), report);
+  if (!status.ok()) return reject(status);
+  spare.image_crc = image_crc;
+  spare.rows_crc = rows_crc(spare);
   report_ = report;
   staged_ = true;
   return {};
@@ -62,8 +74,20 @@ template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::activate() {
   if (!staged_) return refuse(Reason::not_staged);
   staged_ = false;
+  damaged_.store(false, std::memory_order_relaxed);
   request_.store(Request::activate, std::memory_order_release);
   return {};
+}
+
+template <class Machine, std::size_t Knots>
+Status Compensator<Machine, Knots>::scrub() {
+  const std::int8_t active = active_;
+  if (active < 0 || pending()) return {};
+  const Tables& set = buffer_[static_cast<std::size_t>(active)];
+  if (rows_crc(set) == set.rows_crc) return {};
+  damaged_.store(true, std::memory_order_relaxed);
+  deactivate();
+  return reject(refuse(Reason::crc_mismatch));
 }
 
 }  // namespace volcomp

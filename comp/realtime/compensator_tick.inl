@@ -29,6 +29,7 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::take_sample(std::size_t axis,
                                                              const AxisSample& sample) {
   AxisState& s = axis_[axis];
   s.status = sample.homed ? 0U : static_cast<std::uint16_t>(kNotHomed);
+  if (damaged_.load(std::memory_order_relaxed)) s.status |= kTableDamaged;
   bool good = sample.valid;
   if (good) {
     const std::int64_t position = clamp_position(sample.position);

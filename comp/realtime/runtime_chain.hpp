@@ -144,6 +144,32 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
   return chain;
 }
 
+// True when tables made for `b` may run on `a`: same walk, same geometry.
+constexpr bool same_chain(const RuntimeChain& a, const RuntimeChain& b) {
+  const auto differ = [](float x, float y) { return x < y || x > y; };
+  if (a.steps != b.steps || a.tool_steps != b.tool_steps || a.axes != b.axes ||
+      a.correcting_count != b.correcting_count) {
+    return false;
+  }
+  for (std::size_t i = 0; i < a.steps; ++i) {
+    const RuntimeStep& x = a.step[i];
+    const RuntimeStep& y = b.step[i];
+    if (x.kind != y.kind || x.axis != y.axis || x.work != y.work || x.nc_axis != y.nc_axis)
+      return false;
+    if (x.correcting != y.correcting || differ(x.sign, y.sign)) return false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (differ(x.offset_nm[k], y.offset_nm[k])) return false;
+    }
+    for (std::size_t k = 0; k < 9; ++k) {
+      if (differ(x.orientation[k], y.orientation[k])) return false;
+    }
+    for (std::size_t k = 0; k < 6; ++k) {
+      if (differ(x.error[k], y.error[k])) return false;
+    }
+  }
+  return true;
+}
+
 // A machine known at compile time: every loop over the chain unrolls and every branch on it
 // disappears.
 template <const MachineDescription& Description, RuntimeModel Model = RuntimeModel::automatic>

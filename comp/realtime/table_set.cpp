@@ -218,6 +218,8 @@ Status fold_tables(const MachineTables& tables, const RuntimeChain& runtime, con
   if (const Status s = MachineChain::build(tables.machine, chain); !s.ok()) return s;
   if (chain.axis_count() != runtime.axes || chain.axis_count() > set.axes)
     return refuse(Reason::axes_mismatch);
+  if (!same_chain(runtime, make_runtime_chain(tables.machine)))
+    return refuse(Reason::machine_mismatch);
   if (!tool_point.allFinite()) return refuse(Reason::not_finite);
 
   *set.tool_nm = to_float(kNmPerMm * tool_point);

@@ -26,7 +26,8 @@ struct TableSet {
   std::array<Float3, kMaxCorrecting>
       inverse{};  // rows of −J⁻¹ where it is constant but not aligned
   Float3 tool_nm{};
-  std::uint32_t image_crc = 0;
+  std::uint32_t image_crc = 0;  // of the image it was made from
+  std::uint32_t rows_crc = 0;   // of `rows`, for the background scrub
 };
 
 // Where the folder writes: the same set without its capacities, so that folding is compiled once.
@@ -71,7 +72,7 @@ inline constexpr double kClaimBound_nm = 1.0e6;  // 1 mm
 inline constexpr double kMaxContraction = 1e-2;
 
 // Folds the tables for `tool_point` (mm, tool frame) in double and writes them in float. Background
-// only. Refuses axes_mismatch (more axes or another machine shape than the set was built for),
+// only. Refuses axes_mismatch (other number of axes), machine_mismatch (another chain),
 // too_many_knots, bound_exceeded, contraction_exceeded, no_authority; the set is then partly
 // written and must not be activated.
 Status fold_tables(const MachineTables& tables, const RuntimeChain& chain, const Vec3& tool_point,

@@ -30,8 +30,9 @@ enum StatusBit : std::uint16_t {
   kRamping = 1U << 10U,          // a change is being ramped in
   kNoAuthority = 1U << 11U,      // the correcting axes cannot act here: last correction held
   kNoTables = 1U << 12U,         // nothing active: correction 0
+  kTableDamaged = 1U << 13U,     // the active tables changed in memory: correction ramped to 0
 };
-inline constexpr int kStatusBits = 13;
+inline constexpr int kStatusBits = 14;
 
 template <std::size_t Axes>
 struct TickInput {
@@ -64,6 +65,7 @@ template <std::size_t Axes>
 struct CompensatorSettings {
   std::array<AxisLimits, Axes> axis{};
   PositionSource source = PositionSource::target;
+  std::uint32_t machine_id = 0;         // tables of another machine are refused; 0 = any
   std::uint32_t ramp_ticks = 200;       // of every change of tables or state, ≥ 1
   std::uint16_t stale_drop_ticks = 10;  // stale for more ticks than this: dropped
 };

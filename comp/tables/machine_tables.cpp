@@ -13,10 +13,6 @@ double units_of(const Joint& joint) {
   return joint.kind == JointKind::rotary ? kUnitsPerRad : kNmPerMm;
 }
 
-bool is_full_turn(const ErrorTable& table, const Joint& joint) {
-  return joint.kind == JointKind::rotary && std::abs(table.last() - table.q0 - 2.0 * kPi) < 1e-9;
-}
-
 // Values of one column at the quantised knots: nm and rad in float.
 void fill(const ErrorTable& from, Travel travel, double units, AxisTable& table,
           std::array<Channels, kTableKnots>& out) {
@@ -33,6 +29,10 @@ void fill(const ErrorTable& from, Travel travel, double units, AxisTable& table,
 
 }  // namespace
 
+bool is_full_turn(const ErrorTable& table, const Joint& joint) {
+  return joint.kind == JointKind::rotary && std::abs(table.last() - table.q0 - 2.0 * kPi) < 1e-9;
+}
+
 Status quantise(const ErrorTable& table, const Joint& joint, std::size_t capacity, AxisTable& out) {
   if (const Status s = check_table(table, joint.letter, capacity); !s.ok()) return s;
   Where where;
@@ -42,14 +42,15 @@ Status quantise(const ErrorTable& table, const Joint& joint, std::size_t capacit
   const auto segments = static_cast<std::int64_t>(table.knots - 1);
   const std::int64_t q0 = to_units(table.q0, units);
   const std::int64_t travel = periodic ? kUnitsPerTurn : to_units(table.last(), units) - q0;
-  const std::int64_t pitch = (travel + segments / 2) / segments;
+  // A turn is rounded down, so that the knots never reach into the next one.
+  const std::int64_t pitch = (travel + (periodic ? 0 : segments / 2)) / segments;
   if (pitch < 1) return refuse(Reason::pitch_not_positive, where);
-  if (!periodic && joint.kind == JointKind::prismatic && pitch * segments > kMaxTravel) {
-    return refuse(Reason::travel_too_long, where);
-  }
-  if (periodic) {
+  const std::int64_t longest = joint.kind == JointKind::rotary ? kUnitsPerTurn : kMaxTravel;
+  if (pitch * segments > longest) return refuse(Reason::travel_too_long, where);
+  for (const Travel direction : {Travel::forward, Travel::backward}) {
+    if (!periodic) break;
     const ErrorMotion seam =
-        table.at_knot(table.knots - 1, Travel::unknown) - table.at_knot(0, Travel::unknown);
+        table.at_knot(table.knots - 1, direction) - table.at_knot(0, direction);
     if (seam.cwiseAbs().maxCoeff() > 1e-9) return refuse(Reason::not_periodic, where);
   }
   out.q0 = q0;

@@ -1,13 +1,27 @@
 #include "comp/tables/volumetric_model.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "comp/tables/machine_tables.hpp"
+#include "comp/units.hpp"
 
 namespace volcomp {
+namespace {
+
+// A table over the full turn wraps, as in the tick; every other one holds its ends.
+double wrapped(const ErrorTable& table, const Joint& joint, double q) {
+  if (!is_full_turn(table, joint)) return q;
+  return q - 2.0 * kPi * std::floor((q - table.q0) / (2.0 * kPi));
+}
+
+}  // namespace
 
 ErrorSet VolumetricModel::errors(const Pose& q, const Travels& travels) const {
   ErrorSet set = zero_errors();
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-    if (table[a] != nullptr) set[a] = table[a]->linear(q[a], travels[a]);
+    if (table[a] != nullptr)
+      set[a] = table[a]->linear(wrapped(*table[a], chain.axis(a), q[a]), travels[a]);
   }
   return set;
 }
@@ -15,7 +29,8 @@ ErrorSet VolumetricModel::errors(const Pose& q, const Travels& travels) const {
 Pose VolumetricModel::held(const Pose& q) const {
   Pose inside = q;
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-    if (table[a] != nullptr) inside[a] = table[a]->clamp(q[a]);
+    if (table[a] != nullptr && !is_full_turn(*table[a], chain.axis(a)))
+      inside[a] = table[a]->clamp(q[a]);
   }
   return inside;
 }

@@ -6,134 +6,14 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <toml.hpp>
-
 #include "comp/tables/plausibility.hpp"
+#include "host_sim/data/toml_section.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
 namespace {
 
-using Value = toml::value;
-
-[[noreturn]] void fail(const Value& at, const std::string& file, const std::string& text) {
-  throw UserError(fmt::format("{}:{}: {}", file, at.location().line(), text));
-}
-
-// One table of the file; remembers where it is, so that every complaint can say so.
-class Section {
- public:
-  Section(const Value& value, std::string file, std::string name)
-      : value_(value), file_(std::move(file)), name_(std::move(name)) {
-    if (!value_.is_table()) fail(value_, file_, fmt::format("'{}' must be a table", name_));
-  }
-
-  [[nodiscard]] const Value* find(const std::string& key) const {
-    const auto& table = value_.as_table();
-    const auto it = table.find(key);
-    return it == table.end() ? nullptr : &it->second;
-  }
-
-  [[nodiscard]] const Value& need(const std::string& key) const {
-    const Value* v = find(key);
-    if (v == nullptr) {
-      fail(value_, file_,
-           fmt::format("missing mandatory field '{}' in {} [missing_field]", key, name_));
-    }
-    return *v;
-  }
-
-  [[nodiscard]] double number(const Value& v, const std::string& key) const {
-    const double x = v.is_floating()  ? v.as_floating()
-                     : v.is_integer() ? static_cast<double>(v.as_integer())
-                                      : std::nan("");
-    if (!std::isfinite(x)) fail(v, file_, fmt::format("'{}' must be a finite number", key));
-    return x;
-  }
-  [[nodiscard]] double number(const std::string& key) const { return number(need(key), key); }
-  [[nodiscard]] double number_or(const std::string& key, double fallback) const {
-    return find(key) == nullptr ? fallback : number(key);
-  }
-
-  [[nodiscard]] long integer(const std::string& key, long lo, long hi) const {
-    const Value& v = need(key);
-    if (!v.is_integer() || v.as_integer() < lo || v.as_integer() > hi) {
-      fail(v, file_, fmt::format("'{}' must be a whole number from {} to {}", key, lo, hi));
-    }
-    return static_cast<long>(v.as_integer());
-  }
-  [[nodiscard]] long integer_or(const std::string& key, long fallback, long lo, long hi) const {
-    return find(key) == nullptr ? fallback : integer(key, lo, hi);
-  }
-
-  [[nodiscard]] std::string text(const std::string& key) const {
-    const Value& v = need(key);
-    if (!v.is_string() || v.as_string().str.empty())
-      fail(v, file_, fmt::format("'{}' must be a text", key));
-    return v.as_string().str;
-  }
-
-  template <std::size_t N>
-  [[nodiscard]] std::array<double, N> numbers(const std::string& key) const {
-    const Value& v = need(key);
-    if (!v.is_array() || v.as_array().size() != N) {
-      fail(v, file_, fmt::format("'{}' must be a list of {} numbers", key, N));
-    }
-    std::array<double, N> out{};
-    for (std::size_t i = 0; i < N; ++i)
-      out[i] = number(v.as_array()[i], key);
-    return out;
-  }
-
-  // One of the given words, by position.
-  [[nodiscard]] std::size_t choice(const std::string& key,
-                                   const std::vector<std::string>& words) const {
-    const std::string word = text(key);
-    for (std::size_t i = 0; i < words.size(); ++i) {
-      if (words[i] == word) return i;
-    }
-    fail(need(key), file_,
-         fmt::format("'{}' is \"{}\", must be one of: {}", key, word, fmt::join(words, ", ")));
-  }
-
-  void allow_only(const std::vector<std::string>& keys) const {
-    for (const auto& [key, v] : value_.as_table()) {
-      bool known = false;
-      for (const std::string& k : keys)
-        known = known || k == key;
-      if (!known)
-        fail(
-            v, file_,
-            fmt::format("unknown field '{}' in {} (known: {})", key, name_, fmt::join(keys, ", ")));
-    }
-  }
-
-  // Refusals of the library, at the line of a field.
-  void check(const Status& status, const std::string& key) const {
-    if (!status.ok()) fail(need(key), file_, describe(status));
-  }
-
-  [[nodiscard]] Section table(const std::string& key) const {
-    return {need(key), file_, "[" + key + "]"};
-  }
-  [[nodiscard]] std::vector<Section> tables(const std::string& key) const {
-    const Value& list = need(key);
-    if (!list.is_array() || list.as_array().empty())
-      fail(list, file_, fmt::format("'{}' must be a list of tables", key));
-    std::vector<Section> sections;
-    for (const Value& v : list.as_array())
-      sections.emplace_back(v, file_, "[[" + key + "]]");
-    return sections;
-  }
-  [[noreturn]] void complain(const std::string& key, const std::string& text) const {
-    fail(need(key), file_, text);
-  }
-
- private:
-  const Value& value_;
-  std::string file_;
-  std::string name_;
-};
+using Section = TomlSection;
 
 char letter_of(const Section& section, const std::string& key) {
   const std::string name = section.text(key);
@@ -148,7 +28,7 @@ AxisFile read_axis(const Section& s) {
                 "sensed_point_mm", "kappa"});
   AxisFile axis;
   axis.letter = letter_of(s, "name");
-  const bool rotary = s.find("travel_rad") != nullptr;
+  const bool rotary = s.has("travel_rad");
   const std::string travel_key = rotary ? "travel_rad" : "travel_mm";
   const auto travel = s.numbers<2>(travel_key);
   axis.lo = travel[0];
@@ -172,12 +52,12 @@ AxisFile read_axis(const Section& s) {
 
 Joint read_joint(const Section& s, const std::vector<AxisFile>& axes) {
   Joint joint;
-  const std::string kind = s.find("joint") == nullptr ? "fixed" : s.text("joint");
-  if (s.find("offset_mm") != nullptr) {
+  const std::string kind = !s.has("joint") ? "fixed" : s.text("joint");
+  if (s.has("offset_mm")) {
     joint.offset = s.numbers<3>("offset_mm");
     s.check(check_offset("offset_mm", joint.offset), "offset_mm");
   }
-  if (s.find("orientation") != nullptr) joint.orientation = s.numbers<9>("orientation");
+  if (s.has("orientation")) joint.orientation = s.numbers<9>("orientation");
   if (kind == "fixed") return joint;
   joint.kind = s.choice("joint", {"fixed", "linear", "rotary"}) == 1 ? JointKind::prismatic
                                                                      : JointKind::rotary;
@@ -212,7 +92,7 @@ void read_bodies(const Section& top, MachineFile& file, MachineDescription& d) {
     Body& body = d.body.at(d.body_count);
     body.lower = d.body_count == 0 ? std::uint8_t{0} : body_number(file, s, "on");
     body.joint = read_joint(s, file.axes);
-    if (s.find("constant_error") != nullptr) body.constant_error = s.numbers<6>("constant_error");
+    if (s.has("constant_error")) body.constant_error = s.numbers<6>("constant_error");
     file.body_names.push_back(s.text("name"));
     ++d.body_count;
   }
@@ -222,11 +102,11 @@ void read_correction(const Section& top, MachineFile& file, MachineDescription& 
   const Section s = top.table("correction");
   s.allow_only({"axes", "limit_mm", "rate_mm_per_s", "hysteresis_mm", "ramp_s", "tick_hz",
                 "max_speed_mm_per_s"});
-  const Value& axes = s.need("axes");
+  const toml::value& axes = s.need("axes");
   if (!axes.is_array() || axes.as_array().empty() || axes.as_array().size() > kMaxCorrecting) {
     s.complain("axes", fmt::format("'axes' must list one to {} correcting axes", kMaxCorrecting));
   }
-  for (const Value& v : axes.as_array()) {
+  for (const toml::value& v : axes.as_array()) {
     if (!v.is_string() || v.as_string().str.size() != 1)
       s.complain("axes", "'axes' must be letters");
     d.correcting.at(d.correcting_count++) =
@@ -241,8 +121,7 @@ void read_correction(const Section& top, MachineFile& file, MachineDescription& 
   c.max_speed_mm_per_s = s.number_or("max_speed_mm_per_s", c.max_speed_mm_per_s);
   const auto range = [&](const char* key, double value, double lo, double hi) {
     if (!(value >= lo && value <= hi))
-      s.complain(s.find(key) != nullptr ? key : "axes",
-                 fmt::format("'{}' must be from {} to {}", key, lo, hi));
+      s.complain(s.has(key) ? key : "axes", fmt::format("'{}' must be from {} to {}", key, lo, hi));
   };
   range("limit_mm", c.limit_mm, 1e-6, 4.194);
   range("rate_mm_per_s", c.rate_mm_per_s, 1e-3, 1e6);
@@ -277,13 +156,13 @@ SquarenessFile read_squareness(const Section& s) {
 void read_tables(const Section& s, MachineFile& file) {
   s.allow_only({"refine", "interpolation"});
   file.refine = static_cast<std::size_t>(s.integer_or("refine", 8, 1, 64));
-  if (s.find("interpolation") != nullptr) {
+  if (s.has("interpolation")) {
     file.interpolation =
         static_cast<Interpolation>(s.choice("interpolation", {"linear", "catmull_rom", "pchip"}));
   }
 }
 
-MachineFile read_machine(const Value& root, const std::string& name) {
+MachineFile read_machine(const toml::value& root, const std::string& name) {
   const Section top(root, name, "the machine file");
   top.allow_only({"name", "id", "convention", "side", "tool", "work", "body", "axis", "correction",
                   "tables", "squareness"});
@@ -315,8 +194,8 @@ MachineFile read_machine(const Value& root, const std::string& name) {
   if (file.chain.axis_count() != file.axes.size()) {
     top.complain("axis", "every [[axis]] needs exactly one [[body]] that it moves");
   }
-  if (top.find("tables") != nullptr) read_tables(top.table("tables"), file);
-  if (top.find("squareness") != nullptr) file.squareness = read_squareness(top.table("squareness"));
+  if (top.has("tables")) read_tables(top.table("tables"), file);
+  if (top.has("squareness")) file.squareness = read_squareness(top.table("squareness"));
   return file;
 }
 

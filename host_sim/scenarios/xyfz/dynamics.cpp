@@ -29,6 +29,34 @@ void keep(Trace& trace, double x, double y) {
   trace.y.push_back(y);
 }
 
+// Largest component of applied − wanted offset at one tick, nm. Wanted: the offset that makes the
+// model stand at the (integer) target.
+template <class ErrorAt>
+double offset_error_nm(const MotionCell& cell, const ErrorAt& error_at) {
+  Vec3 target;
+  Vec3 applied;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto i = static_cast<Eigen::Index>(a);
+    target(i) = static_cast<double>(cell.axes().target_nm()[a]) / kNmPerMm;
+    applied(i) = static_cast<double>(cell.axes().offset_nm()[a]);
+  }
+  const Vec3 wanted = compensated_command(error_at, target, 4) - target;
+  return (applied - kNmPerMm * wanted).cwiseAbs().maxCoeff();
+}
+
+// Distance from the chord between the first and the last sample.
+Trace straightness(const std::vector<double>& path, const std::vector<Vec3>& deviation,
+                   const Vec3& direction) {
+  Trace trace;
+  const double length = path.back() - path.front();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double s = (path[i] - path.front()) / length;
+    const Vec3 rest = deviation[i] - (1.0 - s) * deviation.front() - s * deviation.back();
+    keep(trace, path[i], kUmPerMm * (rest - rest.dot(direction) * direction).norm());
+  }
+  return trace;
+}
+
 void run_line(const TrueMachine& truth, const MachineFile& machine, const Commissioned& closed,
               bool compensated, Dynamics& out) {
   const Diagonal line = body_diagonals(travel_box(machine))[kPnp];
@@ -39,34 +67,25 @@ void run_line(const TrueMachine& truth, const MachineFile& machine, const Commis
   MotionCell cell(truth, machine.correction,
                   compensated ? make_image(closed.tables) : std::vector<std::uint8_t>{});
   cell.place(line.start);
-  Trace& deviation = compensated ? out.line_deviation_um : out.line_deviation_raw_um;
+  std::vector<double> path;
+  std::vector<Vec3> deviation;
   std::size_t tick = 0;
-  const Vec3 zero = cell.deviation_mm();
   cell.move_to(line.end, kLineFeed_mm_s, [&](const MotionCell& c) {
     const double s = (c.target_mm() - line.start).norm();
-    // The direction is known once the axes have moved by the hysteresis; a nm of target rounding is
-    // part of the wanted offset.
-    if (compensated && s > 10.0 * machine.correction.hysteresis_mm) {
-      Vec3 rounded;
-      for (std::size_t a = 0; a < 3; ++a) {
-        rounded(static_cast<Eigen::Index>(a)) =
-            static_cast<double>(c.axes().target_nm()[a]) / kNmPerMm;
-      }
-      const Vec3 wanted = compensated_command(error_at, rounded, 4) - rounded;
-      double worst = 0.0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const double applied = static_cast<double>(c.axes().offset_nm()[a]);
-        worst =
-            std::max(worst, std::abs(applied - kNmPerMm * wanted(static_cast<Eigen::Index>(a))));
-      }
-      out.line_worst_nm = std::max(out.line_worst_nm, worst);
-      if (tick % kKeepEvery == 0) keep(out.line_offset_error_nm, s, worst);
+    const bool direction_known = s > 10.0 * machine.correction.hysteresis_mm;
+    const bool shown = tick++ % kKeepEvery == 0;
+    if (!direction_known) return;
+    if (shown) {
+      path.push_back(s);
+      deviation.push_back(c.deviation_mm());
     }
-    if (tick++ % kKeepEvery != 0) return;
-    const Vec3 from_start = c.deviation_mm() - zero;
-    const Vec3 across = from_start - from_start.dot(line.direction()) * line.direction();
-    keep(deviation, s, kUmPerMm * across.norm());
+    if (!compensated) return;
+    const double error_nm = offset_error_nm(c, error_at);
+    out.line_worst_nm = std::max(out.line_worst_nm, error_nm);
+    if (shown) keep(out.line_offset_error_nm, s, error_nm);
   });
+  (compensated ? out.line_deviation_um : out.line_deviation_raw_um) =
+      straightness(path, deviation, line.direction());
 }
 
 // One turn to get going, one turn measured.

@@ -20,9 +20,9 @@ json series_of(const char* name, const std::vector<double>& x, const std::vector
 }
 
 json tuned_text(const XyfzResult& r) {
-  return {fmt::format("angle scale {:.4f} so that the naive residual on PNP is 16.37 um",
+  return {fmt::format("angle scale {:.4f} so that the naive residual on PNP is 16.37 µm",
                       r.tuning.angle_scale),
-          fmt::format("scale error of X {:.3e} so that PNP reads 41.15 um uncompensated",
+          fmt::format("scale error of X {:.3e} so that PNP reads 41.15 µm uncompensated",
                       r.tuning.scale_error)};
 }
 
@@ -39,7 +39,7 @@ json diagonals_group(const XyfzResult& r, bool faces) {
                       {"id", fmt::format("{}-{}", faces ? "face" : "body", names[d].name)},
                       {"title", names[d].name},
                       {"x", axis_label("distance", "mm")},
-                      {"y", axis_label("deviation", "um")},
+                      {"y", axis_label("deviation", "µm")},
                       {"series", series}});
   }
   return {{"type", "group"},
@@ -68,7 +68,7 @@ json before_after(const XyfzResult& r) {
   json columns = json::array();
   columns.push_back({{"title", "mode"}});
   for (const char* name : {"PPP", "NPP", "PNP", "PPN", "faces", "volume"}) {
-    columns.push_back({{"title", name}, {"unit", "um"}, {"digits", 2}});
+    columns.push_back({{"title", name}, {"unit", "µm"}, {"digits", 2}});
   }
   columns.push_back({{"title", "rate PNP"}, {"unit", "%"}, {"digits", 2}});
   columns.push_back({{"title", "on knots"}, {"unit", "%"}, {"digits", 2}});
@@ -133,7 +133,7 @@ json dynamics_sections(const XyfzResult& r) {
        {"id", "line"},
        {"title", "Straight line at 10 m/min along PNP"},
        {"x", axis_label("path", "mm")},
-       {"y", axis_label("distance from the line", "um")},
+       {"y", axis_label("distance from the chord", "µm")},
        {"series",
         {series_of("uncompensated", d.line_deviation_raw_um.x, d.line_deviation_raw_um.y),
          series_of("abbe_closed", d.line_deviation_um.x, d.line_deviation_um.y)}}});
@@ -153,7 +153,7 @@ json dynamics_sections(const XyfzResult& r) {
        {"id", "circle"},
        {"title", "Circle in XY, radius 100 mm, 1 m/min"},
        {"x", axis_label("angle", "deg")},
-       {"y", axis_label("radial deviation", "um")},
+       {"y", axis_label("radial deviation", "µm")},
        {"series",
         {series_of("uncompensated", d.circle_raw_um.x, d.circle_raw_um.y),
          series_of("abbe_closed", d.circle_um.x, d.circle_um.y)}},
@@ -173,7 +173,7 @@ json positioning_table(const XyfzResult& r) {
   json columns = json::array();
   columns.push_back({{"title", "axis"}});
   for (const char* name : {"A", "R", "E", "B", "M"})
-    columns.push_back({{"title", name}, {"unit", "um"}, {"digits", 2}});
+    columns.push_back({{"title", name}, {"unit", "µm"}, {"digits", 2}});
   return {{"type", "table"},
           {"id", "positioning"},
           {"title", "Positioning after ISO 230-2, uncompensated, at the sensed points"},
@@ -205,7 +205,7 @@ json error_functions(const XyfzResult& r) {
            {"id", fmt::format("table-{}-{}", letter, angles ? "angles" : "lengths")},
            {"title", fmt::format("{}: {}", letter, angles ? "angles" : "displacements")},
            {"x", axis_label("position", "mm")},
-           {"y", axis_label("error", angles ? "urad" : "um")},
+           {"y", axis_label("error", angles ? "µrad" : "µm")},
            {"series", series}});
     }
   }
@@ -228,9 +228,9 @@ json limits_table(const XyfzResult& r) {
            {{"tick against the same model in double, after rounding", r.tick_max_error_nm, "nm"},
             {"applied against wanted offset at 10 m/min", r.dynamics.line_worst_nm, "nm"},
             {"first-order run-time model against the exact chain", r.mode[3].model_bound_nm, "nm"},
-            {"not representable by one-dimensional tables, X", r.per_axis.max_um.x(), "um"},
-            {"not representable by one-dimensional tables, Y", r.per_axis.max_um.y(), "um"},
-            {"not representable by one-dimensional tables, Z", r.per_axis.max_um.z(), "um"}}}};
+            {"not representable by one-dimensional tables, X", r.per_axis.max_um.x(), "µm"},
+            {"not representable by one-dimensional tables, Y", r.per_axis.max_um.y(), "µm"},
+            {"not representable by one-dimensional tables, Z", r.per_axis.max_um.z(), "µm"}}}};
 }
 
 json provenance(const XyfzResult& r, const std::string& command) {
@@ -260,7 +260,7 @@ Verdict xyfz_verdict(const XyfzResult& r) {
   Verdict v;
   v.ok = r.rate(3) >= 98.0 && r.dynamics.line_worst_nm <= 2.0 && r.tick_max_error_nm < 1.0;
   v.text =
-      fmt::format("PNP diagonal {:.2f} um before, {:.2f} um after ({:.1f} % less, noise-free).",
+      fmt::format("PNP diagonal {:.2f} µm before, {:.2f} µm after ({:.1f} % less, noise-free).",
                   r.mode[0].body[2].max_abs_um, r.mode[3].body[2].max_abs_um, r.rate(3));
   if (!r.draws.empty()) {
     const double reached = r.draws_reaching(kPaperRate);
@@ -327,7 +327,7 @@ json xyfz_document(const XyfzResult& r, const std::string& command) {
 
 std::string xyfz_summary(const XyfzResult& r) {
   std::string text =
-      fmt::format("\n{:32}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}\n", "largest deviation, um", "PPP",
+      fmt::format("\n{:32}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}\n", "largest deviation, µm", "PPP",
                   "NPP", "PNP", "PPN", "faces", "volume", "rate PNP");
   for (std::size_t m = 0; m < r.mode.size(); ++m) {
     text += fmt::format("{:32}", kModeTitles[m]);
