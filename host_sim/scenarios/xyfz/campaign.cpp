@@ -8,10 +8,10 @@
 namespace volcomp::sim {
 namespace {
 
-RunsFile measure_axis(const TrueMachine& truth, const MachineFile& file, std::size_t a,
-                      const NoiseClasses& classes, std::size_t runs, Random& random) {
-  const AxisFile& axis = file.axes[a];
-  const Laser6D laser(truth, a, axis.sensed, mount_laser(classes, random));
+RunsFile measure_axis(const TrueMachine& truth, const AxisFile& axis, std::size_t a,
+                      const SensedPoint& sensed, const NoiseClasses& classes, std::size_t runs,
+                      Random& random) {
+  const Laser6D laser(truth, a, sensed, mount_laser(classes, random));
   RunsFile result;
   result.name = fmt::format("runs_{}.csv", axis.letter);
   result.letter = axis.letter;
@@ -32,13 +32,48 @@ RunsFile measure_axis(const TrueMachine& truth, const MachineFile& file, std::si
   return result;
 }
 
+// Mean of all runs of both directions, by target.
+std::vector<ErrorMotion> mean_of(const RunsFile& runs) {
+  std::vector<ErrorMotion> mean(runs.positions.size(), ErrorMotion::Zero());
+  const auto n = static_cast<double>(runs.up.size() + runs.down.size());
+  for (const auto* list : {&runs.up, &runs.down}) {
+    for (const RunValues& run : *list) {
+      for (std::size_t t = 0; t < run.size(); ++t)
+        mean[t] += run[t] / n;
+    }
+  }
+  return mean;
+}
+
 }  // namespace
+
+std::vector<LeverCheck> check_levers(const TrueMachine& truth, const MachineFile& file,
+                                     const NoiseClasses& classes, std::size_t runs,
+                                     Random& random) {
+  std::vector<LeverCheck> checks;
+  for (std::size_t a = 0; a < file.axes.size(); ++a) {
+    const AxisFile& axis = file.axes[a];
+    SensedPoint second = axis.sensed;
+    second.at_zero += Vec3(180.0, 180.0, 180.0);
+    const auto first_mean =
+        mean_of(measure_axis(truth, axis, a, axis.sensed, classes, runs, random));
+    const auto second_mean = mean_of(measure_axis(truth, axis, a, second, classes, runs, random));
+    LeverCheck check;
+    check.axis = axis.letter;
+    check.status = lever_self_test(file.chain.axis(a).axis, {first_mean.data(), first_mean.size()},
+                                   {second_mean.data(), second_mean.size()}, axis.sensed.at_zero,
+                                   second.at_zero, check.test);
+    checks.push_back(check);
+  }
+  return checks;
+}
 
 Campaign measure_machine(const TrueMachine& truth, const MachineFile& file,
                          const NoiseClasses& classes, std::size_t runs, Random& random) {
   Campaign campaign{file, {}};
   for (std::size_t a = 0; a < file.axes.size(); ++a) {
-    campaign.runs.push_back(measure_axis(truth, file, a, classes, runs, random));
+    campaign.runs.push_back(
+        measure_axis(truth, file.axes[a], a, file.axes[a].sensed, classes, runs, random));
   }
   const SquarenessFile& place = *file.squareness;
   const std::vector<double> x = place.line(0);

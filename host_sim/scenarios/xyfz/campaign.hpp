@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "comp/evaluation/diagonals.hpp"
+#include "comp/tables/lever_test.hpp"
 #include "host_sim/data/runs_csv.hpp"
 #include "host_sim/instruments/noise.hpp"
 #include "host_sim/machine/machine_file.hpp"
@@ -29,6 +30,18 @@ struct Campaign {
 
 // Noise-free, one run.
 [[nodiscard]] Campaign perfect_campaign(const TrueMachine& truth, const MachineFile& file);
+
+// Positioning measured again at a second place of every axis: the difference must be the angles
+// times the levers.
+struct LeverCheck {
+  char axis = '\0';
+  LeverTest test;
+  Status status;
+};
+[[nodiscard]] std::vector<LeverCheck> check_levers(const TrueMachine& truth,
+                                                   const MachineFile& file,
+                                                   const NoiseClasses& classes, std::size_t runs,
+                                                   Random& random);
 
 [[nodiscard]] DiagonalBox travel_box(const MachineFile& file);
 

@@ -218,6 +218,31 @@ json error_functions(const XyfzResult& r) {
        "Mean of both directions after removing straightness slopes, transferring and re-zeroing."}};
 }
 
+json lever_table(const XyfzResult& r) {
+  json rows = json::array();
+  for (const LeverCheck& c : r.levers) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      rows.push_back({fmt::format("{}, angle {}", c.axis, k + 1), c.test.expected[k],
+                      c.test.found[k], c.test.allowed[k],
+                      c.status.ok() ? "good" : code(c.status.reason)});
+    }
+  }
+  return {{"type", "table"},
+          {"id", "levers"},
+          {"title", "Lever self-test"},
+          {"columns",
+           {{{"title", "axis"}},
+            {{"title", "lever difference"}, {"unit", "mm"}, {"digits", 1}},
+            {{"title", "found"}, {"unit", "mm"}, {"digits", 1}},
+            {{"title", "allowed"}, {"unit", "mm"}, {"digits", 1}},
+            {{"title", "result"}}}},
+          {"rows", rows},
+          {"note",
+           "Positioning measured at two places: the difference regressed on the angles must return "
+           "the lever "
+           "difference. A wrong sign, unit or order of axes cannot pass."}};
+}
+
 json limits_table(const XyfzResult& r) {
   return {{"type", "table"},
           {"id", "limits"},
@@ -314,6 +339,7 @@ json xyfz_document(const XyfzResult& r, const std::string& command) {
     sections.push_back(s);
   sections.push_back(diagonals_group(r, true));
   sections.push_back(positioning_table(r));
+  sections.push_back(lever_table(r));
   sections.push_back(error_functions(r));
   sections.push_back(limits_table(r));
   return {{"title", "XYFZ machine: volumetric compensation"},

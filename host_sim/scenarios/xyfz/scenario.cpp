@@ -191,6 +191,9 @@ XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress) {
   result.dynamics = run_dynamics(bench.truth, bench.machine, *closed);
   result.tick_max_error_nm = measure_tick_error_nm(*closed, options.seed);
   result.per_axis = per_axis_remainder(*closed);
+  Random lever_noise(options.seed);
+  result.levers =
+      check_levers(bench.truth, bench.machine, NoiseClasses{}, options.runs, lever_noise);
   for (const auto& built : closed->built)
     result.positioning.push_back(built->positioning);
   result.example = std::move(closed);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_sim/commissioning/commission.hpp"
+#include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/truth.hpp"
 #include "host_sim/scenarios/xyfz/verification.hpp"
 
@@ -80,6 +81,7 @@ struct XyfzResult {
   double tick_max_error_nm = 0.0;  // integer tick against the same model in double
   PerAxisRemainder per_axis;
   std::vector<Iso230Figures> positioning;  // of the first noisy campaign, mm
+  std::vector<LeverCheck> levers;          // realistic instruments
   std::vector<std::string> warnings;
   std::unique_ptr<Commissioned>
       example;  // abbe_closed of the first noisy campaign (noise-free without draws)
