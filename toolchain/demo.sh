@@ -42,7 +42,7 @@ cmake --preset host > "$output/configure.log" 2>&1 ||
   { cat "$output/configure.log"; die "configuring failed."; }
 cmake --build --preset host --target volcomp -j "$(jobs_allowed)" || die "building failed."
 
-step 3 'Simulating 50 machines'
+step 3 'Measuring, compensating and verifying a simulated machine, 50 noisy campaigns'
 build/host/host_sim/volcomp run xyfz --draws 50 --seed 1 --report "$output" --json "$output/xyfz.json" ||
   die "the simulation failed."
 

@@ -54,7 +54,7 @@ step_setup() {
 step_format() {
   local files
   need clang-format
-  mapfile -t files < <(sources '*.[ch]pp' "${code_folders[@]}")
+  mapfile -t files < <(sources '*.[ch]pp' "${code_folders[@]}"; sources '*.inl' "${code_folders[@]}")
   [ ${#files[@]} -gt 0 ] || die "there is no C++ file to check."
   clang-format --dry-run -Werror "${files[@]}"
   printf '%s files\n' "${#files[@]}"

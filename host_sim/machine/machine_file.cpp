@@ -162,6 +162,21 @@ void read_tables(const Section& s, MachineFile& file) {
   }
 }
 
+// The TOML library recurses once per bracket and copies freely; no machine file comes near these
+// limits.
+void refuse_monsters(const std::string& text, const std::string& name) {
+  constexpr std::size_t kLargest = 1U << 20U;
+  constexpr int kDeepest = 32;
+  if (text.size() > kLargest)
+    throw UserError(name + ": larger than 1 MiB, this is not a machine file");
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > kDeepest) throw UserError(name + ": brackets nested too deep");
+  }
+}
+
 MachineFile read_machine(const toml::value& root, const std::string& name) {
   const Section top(root, name, "the machine file");
   top.allow_only({"name", "id", "convention", "side", "tool", "work", "body", "axis", "correction",
@@ -218,6 +233,7 @@ std::size_t MachineFile::axis_index(char letter) const {
 }
 
 MachineFile parse_machine(const std::string& text, const std::string& name) {
+  refuse_monsters(text, name);
   try {
     std::istringstream stream(text);
     return read_machine(toml::parse(stream, name), name);

@@ -54,7 +54,7 @@ std::vector<LeverCheck> check_levers(const TrueMachine& truth, const MachineFile
   for (std::size_t a = 0; a < file.axes.size(); ++a) {
     const AxisFile& axis = file.axes[a];
     SensedPoint second = axis.sensed;
-    second.at_zero += Vec3(180.0, 180.0, 180.0);
+    second.at_zero += Vec3(400.0, 400.0, 400.0);
     const auto first_mean =
         mean_of(measure_axis(truth, axis, a, axis.sensed, classes, runs, random));
     const auto second_mean = mean_of(measure_axis(truth, axis, a, second, classes, runs, random));

@@ -1,7 +1,6 @@
 #include "host_sim/scenarios/xyfz/verification.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 
 namespace volcomp::sim {
 namespace {

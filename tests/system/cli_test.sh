@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# The tool as a user meets it: help, exit codes, one clear sentence for bad input, nothing half-written.
+set -u
+volcomp=$1
+source_dir=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+
+# expect CODE TEXT COMMAND…: the exit code, and a text that the output must contain.
+expect() {
+  local code=$1 text=$2
+  shift 2
+  local output status
+  output=$("$@" 2>&1)
+  status=$?
+  if [ "$status" -ne "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
+    printf 'FAILED: %s\n  wanted exit %s and "%s", got exit %s:\n%s\n' "$*" "$code" "$text" "$status" "$output"
+    failed=1
+  fi
+}
+
+# one_line COMMAND…: what goes wrong is said in one line that starts with the program's name.
+one_line() {
+  local output
+  output=$("$@" 2>&1)
+  if [ "$(wc -l <<<"$output")" -ne 1 ] || [ "${output#volcomp: }" = "$output" ]; then
+    printf 'FAILED: %s must say it in one line, said:\n%s\n' "$*" "$output"
+    failed=1
+  fi
+}
+
+machine=$source_dir/host_sim/machines/xyfz.toml
+expect 0 'Subcommands' "$volcomp" --help
+expect 0 'volcomp 0.' "$volcomp" --version
+expect 0 'xyfz' "$volcomp" list
+expect 0 'good' "$volcomp" machine check "$machine"
+expect 2 'subcommand' "$volcomp"
+expect 2 '--draws' "$volcomp" run xyfz --draws many
+
+# The whole road of a user's own data, with the run files of a simulated campaign.
+expect 0 'PASS' "$volcomp" run xyfz --draws 1 --report "$work/report" --json "$work/figures.json"
+for file in report/report.html report/report.json figures.json report/campaign/draw_001/runs_X.csv; do
+  [ -s "$work/$file" ] || { echo "FAILED: $file is missing"; failed=1; }
+done
+runs=("$work"/report/campaign/draw_001/runs_*.csv)
+expect 0 'CRC-32' "$volcomp" build-tables --machine "$machine" --runs "${runs[@]}" --out "$work/tables.vct"
+
+# Bad input: exit 2, one sentence that names file and place, the last good image untouched.
+cp "$work/tables.vct" "$work/before.vct"
+build() { "$volcomp" build-tables --machine "${2:-$machine}" --runs "$1" "${runs[@]:1}" --out "$work/tables.vct"; }
+damage() { sed "$1" "${runs[0]}" >"$work/bad.csv"; }
+
+damage '4s/,\([^,]*\)$/,nan/'
+expect 2 'not_finite' build "$work/bad.csv"
+one_line build "$work/bad.csv"
+damage '5s/up/sideways/'
+expect 2 'bad.csv:5' build "$work/bad.csv"
+damage '1s/EXX \[mm\]/EXX/'
+expect 2 'unit in brackets' build "$work/bad.csv"
+damage '1s/EAX \[rad\]/EAX [mm]/'
+expect 2 'wrong kind' build "$work/bad.csv"
+damage '1s/,ECX \[rad\]//'
+expect 2 'lacks the column' build "$work/bad.csv"
+damage '7d'
+expect 2 'run_length' build "$work/bad.csv"
+damage '3s/^/x/'
+expect 2 'not a number' build "$work/bad.csv"
+damage '1s/EXX \[mm\]/EXX [nm]/;1s/EAX \[rad\]/EAX [deg]/'
+expect 0 'CRC-32' build "$work/bad.csv"
+cp "$work/before.vct" "$work/tables.vct"
+: >"$work/bad.csv"
+expect 2 'empty' build "$work/bad.csv"
+head -c 300 /dev/urandom >"$work/bad.csv"
+expect 2 'bad.csv:' build "$work/bad.csv"
+expect 2 'cannot be opened' build "$work/none.csv"
+expect 2 'cannot be opened' build "$work"
+expect 2 'both hold axis X' "$volcomp" build-tables --machine "$machine" --runs "${runs[@]}" "${runs[0]}" --out "$work/tables.vct"
+expect 2 'no runs given for axis Z' "$volcomp" build-tables --machine "$machine" --runs "${runs[0]}" "${runs[1]}" --out "$work/tables.vct"
+expect 2 'cannot be written' "$volcomp" build-tables --machine "$machine" --runs "${runs[@]}" --out "$work/none/tables.vct"
+
+bad_machine() {
+  sed "$1" "$machine" >"$work/bad.toml"
+  expect 2 "$2" "$volcomp" machine check "$work/bad.toml"
+  one_line "$volcomp" machine check "$work/bad.toml"
+}
+bad_machine '/^convention/d' "missing mandatory field 'convention'"
+bad_machine '/^side/d' "missing mandatory field 'side'"
+bad_machine '0,/^kappa/{/^kappa/d}' "missing mandatory field 'kappa'"
+bad_machine '0,/^sensed_point_mm/{/^sensed_point_mm/d}' "missing mandatory field 'sensed_point_mm'"
+bad_machine 's/^a_xy_rad.*/a_xy_rad = 26.25/' 'unit_suspected'
+bad_machine 's/250.0, 0.0, 550.0/0.25, 0.0, 0.55/' 'unit_suspected'
+bad_machine 's/^convention.*/convention = "mine"/' 'must be one of'
+bad_machine 's/^limit_mm.*/limit_mm = -1.0/' "'limit_mm' must be from"
+bad_machine 's/^id = .*/id = nan/' "'id' must be a whole number"
+bad_machine 's/^name = "XYFZ"/name = /' 'not valid TOML'
+bad_machine 's/^refine = 8/refin = 8/' "unknown field 'refin'"
+bad_machine 's/^on = "Y slide"/on = "nowhere"/' 'no earlier [[body]]'
+expect 2 'cannot be opened' "$volcomp" machine check "$work/none.toml"
+
+cmp -s "$work/before.vct" "$work/tables.vct" || { echo 'FAILED: a refused build touched the last good image'; failed=1; }
+leftover=$(find "$work" -name '*.tmp')
+[ -z "$leftover" ] || { echo "FAILED: left behind: $leftover"; failed=1; }
+exit "$failed"

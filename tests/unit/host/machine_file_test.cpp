@@ -1,0 +1,103 @@
+// Machine files: the bundled XYFZ machine is the one of seed 001, other machines need only a file.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "comp/realtime/instances.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/machine/machine_file.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+TEST(MachineFile, BundledXyfzIsTheCompiledInMachine) {
+  const MachineFile file = read_machine_file(bundled_machine("xyfz"));
+  EXPECT_TRUE(
+      same_chain(make_runtime_chain(file.chain.description()), make_runtime_chain(kXyfzMachine)));
+  EXPECT_EQ(file.chain.description().tool_point, kXyfzMachine.tool_point);
+  EXPECT_EQ(file.convention, Convention::relative);
+  EXPECT_EQ(file.side, Side::moving);
+  // The paper's Table 6: 26.25, 45.83 and 3.58 arc seconds.
+  EXPECT_NEAR(file.squareness->measured.a_xy, 127.264e-6, 1e-12);
+  EXPECT_NEAR(file.squareness->measured.a_xz, 222.190e-6, 1e-12);
+  EXPECT_NEAR(file.squareness->measured.a_yz, 17.356e-6, 1e-12);
+}
+
+// A machine no paper has: a rotary table C on X, nothing but a file.
+constexpr const char* kRotary = R"(
+name = "table"
+id = 7
+convention = "body"
+side = "fixed"
+tool = { body = "Z", point_mm = [0.0, 0.0, -120.0] }
+work = { body = "C" }
+body = [
+  { name = "bed" },
+  { name = "X", on = "bed", joint = "linear", axis = "X", moves_along = "X", sign = -1 },
+  { name = "C", on = "X", joint = "rotary", axis = "C", turns_about = "Z", sign = 1, offset_mm = [10.0, 0.0, 50.0] },
+  { name = "Z", on = "bed", joint = "linear", axis = "Z", moves_along = "Z", sign = 1 },
+]
+axis = [
+  { name = "X", travel_mm = [0.0, 500.0], reference_mm = 0.0, sensed_point_mm = [0.0, 0.0, 0.0], kappa = 0 },
+  { name = "Z", travel_mm = [0.0, 300.0], reference_mm = 0.0, sensed_point_mm = [0.0, 0.0, 0.0], kappa = 0 },
+  { name = "C", travel_rad = [0.0, 6.283185307179586], reference_rad = 0.0, sensed_point_mm = [0.0, 0.0, 0.0], kappa = 0 },
+]
+correction = { axes = ["X", "Z"] }
+)";
+
+TEST(MachineFile, DescribesARotaryMachine) {
+  const MachineFile file = parse_machine(kRotary, "table.toml");
+  EXPECT_TRUE(file.chain.has_rotary());
+  EXPECT_EQ(file.chain.axis_count(), 3U);
+  EXPECT_EQ(file.chain.axis(2).letter, 'C');
+  EXPECT_EQ(file.chain.axis(2).branch, Branch::work);
+  EXPECT_EQ(file.chain.axis(1).branch, Branch::tool);
+  EXPECT_EQ(file.side, Side::fixed);
+  EXPECT_EQ(file.chain.description().correcting_count, 2);
+  EXPECT_FALSE(file.squareness.has_value());
+}
+
+std::string refusal_of(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  text.replace(at, from.size(), to);
+  try {
+    static_cast<void>(parse_machine(text, "table.toml"));
+  } catch (const UserError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(MachineFile, RefusalsNameLineAndField) {
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal_of(kRotary, "sign = -1", "sign = 0"),
+              HasSubstr("table.toml:10: 'sign' must be 1 or -1"));
+  EXPECT_THAT(refusal_of(kRotary, "turns_about", "moves_along"), HasSubstr("turns_about"));
+  EXPECT_THAT(refusal_of(kRotary, "axis = \"C\"", "axis = \"Q\""),
+              HasSubstr("must be one of X Y Z A B C"));
+  EXPECT_THAT(refusal_of(kRotary, "axis = \"C\"", "axis = \"B\""),
+              HasSubstr("axis B has no [[axis]] table"));
+  EXPECT_THAT(refusal_of(kRotary, "[0.0, 500.0]", "[500.0, 0.0]"),
+              HasSubstr("must be [low, high]"));
+  EXPECT_THAT(refusal_of(kRotary, "reference_mm = 0.0", "reference_mm = -1.0"),
+              HasSubstr("reference_out_of_range"));
+  EXPECT_THAT(refusal_of(kRotary, "[0.0, 0.0, -120.0]", "[0.0, 0.0]"),
+              HasSubstr("list of 3 numbers"));
+  EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]", "axes = [\"X\", \"Y\"]"),
+              HasSubstr("there is no axis Y"));
+  EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]", "axes = []"),
+              HasSubstr("one to 3 correcting axes"));
+  EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = -7"), HasSubstr("'id' must be a whole number"));
+  EXPECT_THAT(refusal_of(kRotary, "kappa = 0 }", "kappa = 2 }"), HasSubstr("from -1 to 1"));
+  EXPECT_THAT(refusal_of(kRotary, "on = \"X\"", "on = \"Z\""), HasSubstr("no earlier [[body]]"));
+}
+
+TEST(MachineFile, DeepBracketsAreRefusedBeforeTheyAreParsed) {
+  EXPECT_THROW(static_cast<void>(parse_machine("a = " + std::string(100000, '['), "x.toml")),
+               UserError);
+  EXPECT_THROW(static_cast<void>(parse_machine(std::string(2'000'000, 'a'), "x.toml")), UserError);
+}
+
+}  // namespace
+}  // namespace volcomp::sim

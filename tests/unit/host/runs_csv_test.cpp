@@ -1,0 +1,103 @@
+// Run files: units, order of columns and lines, and what is refused with which line.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "comp/units.hpp"
+#include "host_sim/data/runs_csv.hpp"
+#include "host_sim/data/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+RunsFile parse(const std::string& text) {
+  std::istringstream stream(text);
+  return read_runs(stream, "x.csv");
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    static_cast<void>(parse(text));
+  } catch (const UserError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+constexpr const char* kHeader =
+    "target [mm],run,direction,EXX [um],EYX [um],EZX [um],EAX [urad],EBX [arcsec],ECX [mrad]\n";
+
+TEST(RunsCsv, ConvertsEveryUnitToMmAndRad) {
+  const RunsFile f = parse(std::string(kHeader) + "-10,1,up,1,2,3,4,5,6\n0,1,up,0,0,0,0,0,0\n");
+  EXPECT_EQ(f.letter, 'X');
+  ASSERT_EQ(f.up.size(), 1U);
+  const ErrorMotion& e = f.up[0][0];
+  EXPECT_DOUBLE_EQ(e(0), 1e-3);
+  EXPECT_DOUBLE_EQ(e(2), 3e-3);
+  EXPECT_DOUBLE_EQ(e(3), 4e-6);
+  EXPECT_DOUBLE_EQ(e(4), 5.0 * kPi / 180.0 / 3600.0);
+  EXPECT_DOUBLE_EQ(e(5), 6e-3);
+}
+
+TEST(RunsCsv, OrderOfColumnsAndLinesDoesNotMatter) {
+  const RunsFile a = parse(
+      std::string(kHeader) +
+      "-10,1,up,1,2,3,4,5,6\n0,1,up,7,8,9,1,2,3\n0,1,down,1,1,1,1,1,1\n-10,1,down,2,2,2,2,2,2\n");
+  const RunsFile b = parse(
+      "\xEF\xBB\xBFrun,ECX [mrad],EBX [arcsec],EAX [urad],EZX [um],EYX [um],EXX "
+      "[um],direction,target [mm]\r\n"
+      "# measured on a "
+      "Tuesday\r\n\r\n1,6,5,4,3,2,1,up,-10\r\n1,3,2,1,9,8,7,up,0\r\n1,2,2,2,2,2,2,down,-10\r\n1,1,"
+      "1,1,1,1,1,down,0\r\n");
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.up, b.up);
+  EXPECT_EQ(a.down, b.down);
+}
+
+TEST(RunsCsv, WhatIsWrittenReadsBackBitForBit) {
+  RunsFile f;
+  f.letter = 'Y';
+  f.positions = {-0.1, 1.0 / 3.0};
+  ErrorMotion e;
+  e << 1.0 / 7.0, -2e-17, 3.5, 1e-300, -0.0, 1e-6;
+  f.up = {{e, 2.0 * e}};
+  f.down = {{3.0 * e, e}};
+  std::stringstream stream;
+  write_runs(stream, f);
+  const RunsFile back = read_runs(stream, "y.csv");
+  EXPECT_EQ(back.letter, 'Y');
+  EXPECT_EQ(back.positions, f.positions);
+  EXPECT_EQ(back.up, f.up);
+  EXPECT_EQ(back.down, f.down);
+}
+
+TEST(RunsCsv, RefusalsNameTheLine) {
+  using testing::HasSubstr;
+  const std::string good = std::string(kHeader) + "-10,1,up,1,2,3,4,5,6\n";
+  EXPECT_THAT(refusal(good + "-10,1,up,1,2,3,4,5,6\n"),
+              HasSubstr("x.csv:3: run 1 up has target -10 twice"));
+  EXPECT_THAT(refusal(good + "0,1,up,1,2,3,4,5\n"), HasSubstr("x.csv:3: 8 cells instead of 9"));
+  EXPECT_THAT(refusal(good + "0,0,up,1,2,3,4,5,6\n"), HasSubstr("'run' must be"));
+  EXPECT_THAT(refusal(good + "0,1.5,up,1,2,3,4,5,6\n"), HasSubstr("'run' must be"));
+  EXPECT_THAT(refusal(good + "nan,1,up,1,2,3,4,5,6\n"), HasSubstr("not_finite"));
+  EXPECT_THAT(refusal(good + "0,1,up,1,2,3,4,5,6e999\n"), HasSubstr("out of range"));
+  EXPECT_THAT(refusal(good + "0,1,up,1,2,3,4,5,0x10\n"), HasSubstr("\"0x10\" is not a number"));
+  EXPECT_THAT(refusal(good + "0,1,up,1,2,3,4,5,\n"), HasSubstr("is not a number"));
+  EXPECT_THAT(refusal("target [mm],run,direction,EXX [um],EYX [um],EZX [um],EAX [urad],EBX "
+                      "[urad],ECY [urad]\n"),
+              HasSubstr("different axes"));
+  EXPECT_THAT(refusal(std::string(kHeader)), HasSubstr("no reading"));
+  EXPECT_THAT(refusal("# nothing\n\n"), HasSubstr("empty"));
+  EXPECT_THAT(refusal(good + "0,2,up,1,2,3,4,5,6\n"), HasSubstr("[run_length]"));
+}
+
+// A NaN is a reading, and the table builder is the one to refuse it, with run and target.
+TEST(RunsCsv, NanReadingsReachTheBuilder) {
+  const RunsFile f = parse(std::string(kHeader) + "-10,1,up,nan,2,3,4,5,6\n0,1,up,0,0,0,0,0,0\n");
+  EXPECT_TRUE(std::isnan(f.up[0][0](0)));
+}
+
+}  // namespace
+}  // namespace volcomp::sim
