@@ -12,12 +12,23 @@ inline constexpr double kUmPerMm = 1e3;
 inline constexpr std::int64_t kUnitsPerTurn = std::int64_t{1} << 40;
 inline constexpr double kUnitsPerRad = static_cast<double>(kUnitsPerTurn) / (2.0 * kPi);
 
-// Positions beyond this are clamped before any arithmetic: 10 km, or nine turns of 2^40 units.
+// Linear positions and the knots of every table beyond this are clamped before any arithmetic:
+// 10 km.
 inline constexpr std::int64_t kMaxPosition = 10'000'000'000'000;
 
 constexpr std::int64_t clamp_position(std::int64_t q) {
   if (q > kMaxPosition) return kMaxPosition;
   if (q < -kMaxPosition) return -kMaxPosition;
+  return q;
+}
+
+// Rotary positions are counted through: two million turns either way, far enough from the ends of
+// int64 that differences and offsets cannot overflow.
+inline constexpr std::int64_t kMaxTurningPosition = std::int64_t{1} << 61;
+
+constexpr std::int64_t clamp_turning(std::int64_t q) {
+  if (q > kMaxTurningPosition) return kMaxTurningPosition;
+  if (q < -kMaxTurningPosition) return -kMaxTurningPosition;
   return q;
 }
 

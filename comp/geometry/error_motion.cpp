@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "comp/geometry/frame.hpp"

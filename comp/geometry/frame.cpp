@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 namespace volcomp {
 
 Mat3 cross_matrix(const Vec3& a) {

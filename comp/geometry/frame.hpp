@@ -1,6 +1,8 @@
 #pragma once
 // Rigid frames and the elementary motions they are made of. Vectors are columns, mm and rad.
 
+#include <Eigen/Geometry>
+
 #include "comp/geometry/error_motion.hpp"
 
 namespace volcomp {

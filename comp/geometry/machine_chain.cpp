@@ -101,6 +101,10 @@ Status MachineChain::build(const MachineDescription& description, MachineChain& 
         description.correcting[c] >= chain.axis_count_) {
       return refuse(Reason::bad_axis_index, where);
     }
+    for (std::size_t before = 0; before < c; ++before) {
+      if (description.correcting[before] == description.correcting[c])
+        return refuse(Reason::bad_axis_index, where);
+    }
   }
 
   chain.paths_ = branch_paths(description);

@@ -1,6 +1,5 @@
 #include "comp/geometry/volumetric.hpp"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 namespace volcomp {

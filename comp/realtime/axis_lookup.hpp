@@ -17,7 +17,8 @@ struct Knot {
 };
 
 inline constexpr unsigned kFractionBits = 22;
-inline constexpr std::uint32_t kMaxLookupKnots = 1U << (32 - kFractionBits);
+// Half of what the index could count: the scale of a longer table would not fit 32 bits.
+inline constexpr std::uint32_t kMaxLookupKnots = 1U << (31 - kFractionBits);
 
 struct AxisLookup {
   std::int64_t q0 = 0;
@@ -49,7 +50,7 @@ struct Index {
 
 // `rotary` decides the unit: 2^-40 turn is reduced to 2^-32, which wraps like the axis does.
 VOLCOMP_INLINE Index locate(const AxisLookup& axis, std::int64_t position, bool rotary) {
-  std::int64_t r = clamp_position(position) - axis.q0;
+  std::int64_t r = (rotary ? clamp_turning(position) : clamp_position(position)) - axis.q0;
   if (rotary) r >>= 8;
   Index at;
   at.u = static_cast<std::uint32_t>(r);

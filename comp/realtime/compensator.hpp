@@ -33,7 +33,9 @@ class Compensator {
   using Tables = TableSet<kAxes, Knots>;
 
   Compensator() = default;
-  explicit Compensator(const Machine& machine) : machine_(machine) {}
+  // A machine with more axes than fit is treated as none: every stage() is then refused.
+  explicit Compensator(const Machine& machine)
+      : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {}
 
   // --- background
   // -----------------------------------------------------------------------------------------------------
@@ -42,8 +44,8 @@ class Compensator {
   Status configure(const Settings& settings);
 
   // Offsets the drives hold at start-up (read back): the first tick continues from them instead of
-  // jumping to 0.
-  void start_from(const std::array<std::int32_t, kAxes>& offsets);
+  // jumping to 0. Refuses bad_setting beyond ±2^30 units (1.07 m): no drive stands there.
+  Status start_from(const std::array<std::int32_t, kAxes>& offsets);
 
   // Folds tables for a functional point into the spare buffer. Used for new tables and for a tool
   // change alike. On refusal the active tables go on. `image_crc` is what diagnostics will report.
@@ -98,7 +100,7 @@ class Compensator {
   Located place(std::size_t axis, const Tables& set);
   kernel::Offsets wanted_offsets();
   Status reject(const Status& status);
-  static std::uint32_t rows_crc(const Tables& set);
+  static std::uint32_t checksum(const Tables& set);
   void put_out(std::size_t axis, float wanted_nm, float ramp);
   void count_changes(std::size_t axis, std::uint16_t before);
   [[nodiscard]] bool rotary(std::size_t axis) const {

@@ -1,13 +1,17 @@
 // Background half of Compensator: settings, staging, hand-over.
 
+#include <cstddef>
+#include <type_traits>
+
 #include "comp/tables/crc32.hpp"
 
 namespace volcomp {
 
 template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::configure(const Settings& settings) {
-  constexpr std::int32_t kMost = 4'194'303;          // what the rounding can represent
-  constexpr std::int32_t kMostRate = 1'000'000'000;  // in effect unlimited
+  constexpr std::int32_t kMost = 4'194'303;             // what the rounding can represent
+  constexpr std::int32_t kMostRate = 1'000'000'000;     // in effect unlimited
+  constexpr std::uint32_t kMostRampTicks = 16'777'216;  // what a float counts exactly
   Where where;
   for (std::size_t a = 0; a < kAxes; ++a) {
     const AxisLimits& l = settings.axis[a];
@@ -20,7 +24,7 @@ Status Compensator<Machine, Knots>::configure(const Settings& settings) {
     if (l.max_step < 0) where.field = "max_step";
     if (where.field != nullptr) return refuse(Reason::bad_setting, where);
   }
-  if (settings.ramp_ticks == 0) {
+  if (settings.ramp_ticks < 1 || settings.ramp_ticks > kMostRampTicks) {
     where = {};
     where.field = "ramp_ticks";
     return refuse(Reason::bad_setting, where);
@@ -30,17 +34,28 @@ Status Compensator<Machine, Knots>::configure(const Settings& settings) {
 }
 
 template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kAxes>& offsets) {
+Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kAxes>& offsets) {
+  constexpr std::int32_t kMostStart = 1 << 30;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    if (offsets[a] <= kMostStart && offsets[a] >= -kMostStart) continue;
+    Where where;
+    where.axis = machine_.chain.letter[a];
+    where.field = "start offset";
+    where.index = static_cast<int>(a);
+    return refuse(Reason::bad_setting, where);
+  }
   for (std::size_t a = 0; a < kAxes; ++a) {
     axis_[a] = {};
     axis_[a].output = offsets[a];
   }
   begin_change();
+  return {};
 }
 
 template <class Machine, std::size_t Knots>
-std::uint32_t Compensator<Machine, Knots>::rows_crc(const Tables& set) {
-  return crc32({reinterpret_cast<const std::uint8_t*>(&set.rows), sizeof set.rows});
+std::uint32_t Compensator<Machine, Knots>::checksum(const Tables& set) {
+  static_assert(std::is_standard_layout_v<Tables>);
+  return crc32({reinterpret_cast<const std::uint8_t*>(&set), offsetof(Tables, checksum)});
 }
 
 template <class Machine, std::size_t Knots>
@@ -64,7 +79,7 @@ Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec
       fold_tables(tables, machine_.chain, tool_point, TableSetView(spare), report);
   if (!status.ok()) return reject(status);
   spare.image_crc = image_crc;
-  spare.rows_crc = rows_crc(spare);
+  spare.checksum = checksum(spare);
   report_ = report;
   staged_ = true;
   return {};
@@ -84,7 +99,7 @@ Status Compensator<Machine, Knots>::scrub() {
   const std::int8_t active = active_;
   if (active < 0 || pending()) return {};
   const Tables& set = buffer_[static_cast<std::size_t>(active)];
-  if (rows_crc(set) == set.rows_crc) return {};
+  if (checksum(set) == set.checksum) return {};
   damaged_.store(true, std::memory_order_relaxed);
   deactivate();
   return reject(refuse(Reason::crc_mismatch));

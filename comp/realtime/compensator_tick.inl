@@ -32,7 +32,8 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::take_sample(std::size_t axis,
   if (damaged_.load(std::memory_order_relaxed)) s.status |= kTableDamaged;
   bool good = sample.valid;
   if (good) {
-    const std::int64_t position = clamp_position(sample.position);
+    const std::int64_t position =
+        rotary(axis) ? clamp_turning(sample.position) : clamp_position(sample.position);
     const std::int64_t moved = position - s.seen;
     const std::int64_t most = settings_.axis[axis].max_step;
     if (most != 0 && s.known && (moved > most || moved < -most)) {
@@ -44,6 +45,8 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::take_sample(std::size_t axis,
   }
   s.known = s.known || good;
   if (good) {
+    const auto low = static_cast<std::uint32_t>(rotary(axis) ? s.position >> 8 : s.position);
+    s.direction.update(low, settings_.axis[axis].hysteresis);
     s.stale_ticks = 0;
     return;
   }
@@ -58,8 +61,7 @@ VOLCOMP_INLINE Located Compensator<Machine, Knots>::place(std::size_t axis, cons
   AxisState& s = axis_[axis];
   const AxisLookup& lookup = set.lookup[axis];
   const bool turns = rotary(axis);
-  const auto low = static_cast<std::uint32_t>(turns ? s.position >> 8 : s.position);
-  const Direction direction = s.direction.update(low, settings_.axis[axis].hysteresis);
+  const Direction direction = s.direction.direction();
   std::int64_t q = s.position;
   if (settings_.source == PositionSource::target)
     q += turns ? std::int64_t{s.output} * 256 : std::int64_t{s.output};
@@ -120,14 +122,16 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out(std::size_t axis, float
   AxisState& s = axis_[axis];
   const AxisLimits& l = settings_.axis[axis];
   const bool off = (s.status & (kNotHomed | kDropped | kNoTables)) != 0;
-  const bool held = !off && (s.status & kStale) != 0;
+  const bool held = !off && (s.status & (kStale | kNoAuthority)) != 0;
   bool hit = false;
 
   float x = Limiter<float>{static_cast<float>(l.limit), 0.0F}.clamp(off ? 0.0F : wanted, hit);
   if (hit) s.status |= kClamped;
   const auto from = static_cast<float>(s.ramp_from);
-  x = from + ramp * (x - from);
-  const std::int32_t rounded = held ? s.output : round_half_even(x);
+  if (ramp < 1.0F) x = from + ramp * (x - from);  // at the end exactly x
+  // A drive may have started with more than the limit; what remains of it is beyond the rounding.
+  const float representable = Limiter<float>{kMaxRounded, 0.0F}.clamp(x, hit);
+  const std::int32_t rounded = held ? s.output : round_half_even(representable);
 
   s.soft = s.soft || (off && (s.status & kNoTables) == 0);
   const std::int32_t rate = s.soft ? l.soft_rate : l.rate;

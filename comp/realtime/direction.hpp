@@ -12,12 +12,12 @@ enum class Direction : std::uint8_t { forward = 0, backward = 1, unknown = 2 };
 
 class DirectionTracker {
  public:
-  // Forgets the past: the direction is unknown until the axis has moved by more than half the
-  // hysteresis.
-  void reset() { started_ = false; }
+  // Unknown until the axis has moved by more than half the hysteresis.
+  [[nodiscard]] Direction direction() const { return direction_; }
 
-  // `position`: low 32 bits in nm or 2^-32 turn, may wrap. A window of width `hysteresis` is
-  // dragged along; its upper edge moving means forward, its lower edge backward. Interrupt-safe.
+  // `position`: low 32 bits in nm or 2^-32 turn, may wrap; steps up to 2.1 m. A window of width
+  // `hysteresis` is dragged along; its upper edge moving means forward, its lower edge backward.
+  // Interrupt-safe.
   VOLCOMP_INLINE Direction update(std::uint32_t position, std::int32_t hysteresis) {
     if (!started_) {
       started_ = true;

@@ -223,8 +223,7 @@ VOLCOMP_INLINE void step_to_base(const RuntimeStep& step, const Set& set, const 
   } else if (step.kind == JointKind::prismatic) {
     r.p[static_cast<std::size_t>(step.axis)] += travel_nm(set.lookup[a], at[a]) * step.sign;
   }
-  if (step.correcting >= 0)
-    r.column[static_cast<std::size_t>(step.correcting)] = motion_column(step, r.p);
+  if (step.corrects()) r.column[step.correcting] = motion_column(step, r.p);
   if (step.has_orientation) {
     orient(r.p, step.orientation);
     orient(r.e, step.orientation);
@@ -244,8 +243,7 @@ VOLCOMP_INLINE void step_to_work(const RuntimeStep& step, const Set& set, const 
     orient_inverse(r.p, step.orientation);
     orient_inverse(r.e, step.orientation);
   }
-  if (step.correcting >= 0)
-    local[static_cast<std::size_t>(step.correcting)] = motion_column(step, r.p);
+  if (step.corrects()) local[step.correcting] = motion_column(step, r.p);
   const std::size_t a = step.nc_axis;
   if (step.kind == JointKind::rotary) {
     SineCosine t = sine_cosine(at[a].u + set.lookup[a].phase);
@@ -279,8 +277,8 @@ VOLCOMP_INLINE void step_back_to_base(const RuntimeStep& step, Recursion<Machine
       if (live[c]) rotate(columns[c], step.axis, t.sine, t.cosine);
     }
   }
-  if (step.correcting >= 0) {
-    const auto c = static_cast<std::size_t>(step.correcting);
+  if (step.corrects()) {
+    const std::size_t c = step.correcting;
     columns[c] = local[c];
     live[c] = true;
   }

@@ -42,7 +42,7 @@ VOLCOMP_INLINE bool solve_three(const std::array<Float3, 3>& column, const Float
   const float det = dot(column[0], yz);
   const float scale =
       dot(column[0], column[0]) * dot(column[1], column[1]) * dot(column[2], column[2]);
-  if (!(det * det >= kMinAuthoritySquared * scale)) return false;
+  if (!(det * det >= kMinAuthoritySquared * scale) || !(scale > 0.0F)) return false;
   const float k = -1.0F / det;
   out = {k * dot(e, yz), k * dot(e, cross(column[2], column[0])),
          k * dot(e, cross(column[0], column[1]))};

@@ -10,6 +10,8 @@
 
 namespace volcomp {
 
+inline constexpr std::uint8_t kNotCorrecting = 0xFF;
+
 struct RuntimeStep {
   JointKind kind = JointKind::fixed;
   Axis axis = Axis::x;
@@ -19,11 +21,13 @@ struct RuntimeStep {
   bool has_error = false;  // fixed body with a constant error
   std::uint8_t body = 0;
   std::uint8_t nc_axis = 0;
-  std::int8_t correcting = -1;  // index among the correcting axes
+  std::uint8_t correcting = kNotCorrecting;  // index among the correcting axes
   float sign = 1.0F;
   std::array<float, 3> offset_nm{};
   std::array<float, 9> orientation{};
   std::array<float, 6> error{};  // nm, rad
+
+  [[nodiscard]] constexpr bool corrects() const { return correcting != kNotCorrecting; }
 };
 
 // When the Jacobian is a signed permutation (three linear correcting axes along X, Y, Z), the
@@ -90,8 +94,8 @@ constexpr AlignedInverse aligned_inverse(const RuntimeChain& chain) {
   for (std::size_t i = 0; i < chain.steps; ++i) {
     const RuntimeStep& step = chain.step[i];
     if (step.kind == JointKind::rotary) return inverse;
-    if (step.correcting < 0) continue;
-    const auto c = static_cast<std::size_t>(step.correcting);
+    if (!step.corrects()) continue;
+    const std::size_t c = step.correcting;
     if (taken[index(step.axis)]) return inverse;
     taken[index(step.axis)] = true;
     inverse.component[c] = static_cast<std::uint8_t>(step.axis);
@@ -132,7 +136,7 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
     RuntimeStep& step = chain.step[i];
     for (std::size_t c = 0; c < machine.correcting_count; ++c) {
       if (step.kind != JointKind::fixed && step.nc_axis == machine.correcting[c]) {
-        step.correcting = static_cast<std::int8_t>(c);
+        step.correcting = static_cast<std::uint8_t>(c);
       }
     }
     any_rotary = any_rotary || step.kind == JointKind::rotary;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "comp/geometry/inverse.hpp"
@@ -27,14 +26,14 @@ AxisLookup make_lookup(const AxisTable& table, bool rotary) {
     l.scale = table.knots << kFractionBits;
     return l;
   }
-  const auto pitch = static_cast<std::uint64_t>(rotary ? table.pitch >> 8 : table.pitch);
-  const std::uint64_t travel = pitch * (table.knots - 1U);
+  const std::uint64_t segments = table.knots - 1U;
+  const auto units = static_cast<std::uint64_t>(table.pitch) * segments;
+  const std::uint64_t travel = rotary ? (units + 255U) >> 8U : units;  // the last knot is inside
   while ((travel << (l.shift + 1U)) < (std::uint64_t{1} << 32U))
     ++l.shift;
   l.travel = static_cast<std::uint32_t>(travel);
-  l.scale =
-      static_cast<std::uint32_t>((std::uint64_t{1} << (32U + kFractionBits)) / (pitch << l.shift));
-  l.margin = static_cast<std::uint32_t>(pitch / 2U);
+  l.scale = static_cast<std::uint32_t>((segments << (32U + kFractionBits)) / (travel << l.shift));
+  l.margin = static_cast<std::uint32_t>(travel / segments / 2U);
   return l;
 }
 
@@ -86,31 +85,52 @@ void write_rows(const AxisTable& table, const std::array<Knot*, 2>& rows, const 
   }
 }
 
-// Largest component sums over the rows written so far, for the load-time bounds.
-struct Bounds {
-  double sum_nm = 0.0;
-  double slope = 0.0;
+// Sums for the load-time bounds. Folded rows are already in base: their largest component counts.
+// In the recursion frames turn, so that a component can reach the length of the vector: the 1-norm
+// counts, an upper bound without a square root.
+class Bounds {
+ public:
+  Bounds(bool folded, double arm_nm) : folded_(folded), arm_nm_(arm_nm) {}
 
-  void include(const AxisTable& table, const std::array<Knot*, 2>& rows, double arm_nm,
-               bool rotary) {
-    double largest_a = 0.0;
-    double largest_w = 0.0;
+  void include(const AxisTable& table, const std::array<Knot*, 2>& rows, bool rotary) {
+    double displacement = 0.0;
+    double turn = 0.0;
     double steepest = 0.0;
-    for (std::size_t travel = 0; travel < 2; ++travel) {
+    for (const Knot* column : rows) {
       for (std::size_t i = 0; i < table.knots; ++i) {
-        const Knot& k = rows[travel][i];
-        for (std::size_t c = 0; c < 6; ++c) {
-          const double v = std::abs(static_cast<double>(k.v[c]));
-          if (c < 3) largest_a = std::max(largest_a, v);
-          if (c >= 3) largest_w = std::max(largest_w, v);
-          if (c < 3) steepest = std::max(steepest, std::abs(static_cast<double>(k.d[c])));
-        }
+        displacement = std::max(displacement, size(column[i].v, 0));
+        turn = std::max(turn, size(column[i].v, 3));
+        steepest = std::max(steepest, size(column[i].d, 0));
       }
     }
-    sum_nm += largest_a + largest_w * arm_nm;
-    slope =
-        std::max(slope, largest_w + (rotary ? 0.0 : steepest / static_cast<double>(table.pitch)));
+    add(displacement, turn);
+    const double slope = rotary ? 0.0 : steepest / static_cast<double>(table.pitch);
+    contraction_ = std::max(contraction_, turn + slope);
   }
+
+  // A displacement, nm, and an angle, rad, that acts on every lever.
+  void add(double displacement_nm, double turn_rad) {
+    sum_nm_ += displacement_nm + turn_rad * arm_nm_;
+  }
+
+  [[nodiscard]] double size(const std::array<float, 6>& v, std::size_t first) const {
+    double largest = 0.0;
+    double sum = 0.0;
+    for (std::size_t c = first; c < first + 3; ++c) {
+      const double component = std::abs(static_cast<double>(v[c]));
+      largest = std::max(largest, component);
+      sum += component;
+    }
+    return folded_ ? largest : sum;
+  }
+  [[nodiscard]] double sum_nm() const { return sum_nm_; }
+  [[nodiscard]] double contraction() const { return contraction_; }
+
+ private:
+  bool folded_;
+  double arm_nm_;
+  double sum_nm_ = 0.0;
+  double contraction_ = 0.0;
 };
 
 // Form A of seed 001 (embedded, section 1), for any linear chain: a = σ(R δ + R ε × c) +
@@ -122,8 +142,7 @@ void fold_linear_axis(const MachineTables& tables, const MachineChain& chain, st
   write_rows(table, set.rows[axis], [&](std::size_t travel, std::size_t knot) {
     const ErrorMotion e = channels_of(table, travel, knot);
     const Vec3 turn = place.sigma * (place.R * rotation(e));
-    const double q_nm =
-        static_cast<double>(table.q0 + table.pitch * static_cast<std::int64_t>(knot));
+    const auto q_nm = static_cast<double>(table.q0 + table.pitch * static_cast<std::int64_t>(knot));
     ErrorMotion folded;
     folded.head<3>() = place.sigma * (place.R * translation(e)) +
                        turn.cross(kNmPerMm * place.lever) + tables.directions[axis] * q_nm;
@@ -192,22 +211,43 @@ Status fold_inverse(const MachineChain& chain, const RuntimeChain& runtime, cons
   return {};
 }
 
+double largest_position(const AxisTable& table) {
+  return std::max(std::abs(static_cast<double>(table.q0)),
+                  std::abs(static_cast<double>(table.last())));
+}
+
 // Longest lever an angle acts on in the kernel: the travel of every axis and, where they are not
-// folded into the rows, all offsets and the tool. 1-norm: an upper bound without a square root.
-double reach_mm(const MachineTables& tables, const MachineChain& chain, bool folded,
+// folded into the rows, all offsets and the tool; nm. 1-norm: an upper bound without a square root.
+double reach_nm(const MachineTables& tables, const MachineChain& chain, bool folded,
                 const Vec3& tool_point) {
-  double reach = folded ? 0.0 : tool_point.cwiseAbs().sum();
+  double reach = folded ? 0.0 : kNmPerMm * tool_point.cwiseAbs().sum();
   for (std::size_t k = 0; k < tables.machine.body_count && !folded; ++k) {
-    reach += joint_offset(tables.machine.body[k].joint).t.cwiseAbs().sum();
+    reach += kNmPerMm * joint_offset(tables.machine.body[k].joint).t.cwiseAbs().sum();
   }
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-    if (chain.axis(a).kind == JointKind::rotary) continue;
-    const AxisTable& t = tables.axis[a];
-    reach +=
-        std::max(std::abs(static_cast<double>(t.q0)), std::abs(static_cast<double>(t.last()))) /
-        kNmPerMm;
+    if (chain.axis(a).kind == JointKind::prismatic) reach += largest_position(tables.axis[a]);
   }
   return reach;
+}
+
+// Everything the tick adds up: rows, constant errors, squareness.
+Bounds measure_bounds(const MachineTables& tables, const MachineChain& chain,
+                      const RuntimeChain& runtime, const Vec3& tool_point,
+                      const TableSetView& set) {
+  Bounds bounds(runtime.folded, reach_nm(tables, chain, runtime.folded, tool_point));
+  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
+    const bool rotary = runtime.kind[a] == JointKind::rotary;
+    bounds.include(tables.axis[a], set.rows[a], rotary);
+    if (runtime.folded || rotary) continue;  // folded rows hold the squareness
+    bounds.add(tables.directions[a].cwiseAbs().sum() * largest_position(tables.axis[a]), 0.0);
+  }
+  for (std::size_t i = 0; i < runtime.steps; ++i) {
+    const RuntimeStep& step = runtime.step[i];
+    const double displacement =
+        runtime.folded ? 0.0 : bounds.size(step.error, 0);  // folded: in the rows
+    bounds.add(displacement, bounds.size(step.error, 3));
+  }
+  return bounds;
 }
 
 }  // namespace
@@ -223,36 +263,35 @@ Status fold_tables(const MachineTables& tables, const RuntimeChain& runtime, con
   if (!tool_point.allFinite()) return refuse(Reason::not_finite);
 
   *set.tool_nm = to_float(kNmPerMm * tool_point);
-  const double reach = reach_mm(tables, chain, runtime.folded, tool_point);
-  Bounds bounds;
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
     const AxisTable& table = tables.axis[a];
     Where where;
     where.axis = runtime.letter[a];
-    where.count = static_cast<int>(table.knots);
-    if (table.knots > set.knots) return refuse(Reason::too_many_knots, where);
-    const bool rotary = runtime.kind[a] == JointKind::rotary;
-    set.lookup[a] = make_lookup(table, rotary);
+    if (const Status s = check_knots(table, chain.axis(a), set.knots); !s.ok()) return s;
+    if (const Status s = check_values(table, chain.axis(a)); !s.ok()) return s;
+    if (!tables.directions[a].allFinite()) return refuse(Reason::not_finite, where);
+    set.lookup[a] = make_lookup(table, runtime.kind[a] == JointKind::rotary);
     if (runtime.folded) {
       fold_linear_axis(tables, chain, a, tool_point, set);
     } else {
       copy_axis(tables, a, set);
     }
-    bounds.include(table, set.rows[a], kNmPerMm * reach, rotary);
   }
   if (runtime.folded && runtime.has_constant_error)
     fold_constant_errors(chain, runtime, tool_point, set, tables);
   if (const Status s = fold_inverse(chain, runtime, tool_point, set); !s.ok()) return s;
 
-  report.bound_nm = bounds.sum_nm;
-  report.contraction = bounds.slope;
-  report.within_1nm = bounds.sum_nm <= kClaimBound_nm;
+  const Bounds bounds = measure_bounds(tables, chain, runtime, tool_point, set);
+  report.bound_nm = bounds.sum_nm();
+  report.contraction = bounds.contraction();
+  report.within_1nm = bounds.sum_nm() <= kClaimBound_nm;
   Where where;
   where.has_value = true;
-  where.value = bounds.sum_nm / kNmPerMm;
-  if (!(bounds.sum_nm <= kMaxBound_nm)) return refuse(Reason::bound_exceeded, where);
-  where.value = bounds.slope;
-  if (!(bounds.slope <= kMaxContraction)) return refuse(Reason::contraction_exceeded, where);
+  where.value = bounds.sum_nm() / kNmPerMm;
+  if (!(bounds.sum_nm() <= kMaxBound_nm)) return refuse(Reason::bound_exceeded, where);
+  where.value = bounds.contraction();
+  if (!(bounds.contraction() <= kMaxContraction))
+    return refuse(Reason::contraction_exceeded, where);
   return {};
 }
 

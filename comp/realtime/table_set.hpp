@@ -14,7 +14,7 @@ using Float3 = std::array<float, 3>;
 
 template <std::size_t Axes, std::size_t Knots>
 struct TableSet {
-  static_assert(Knots >= 2 && Knots < kMaxLookupKnots && Axes <= kMaxAxes);
+  static_assert(Knots >= 2 && Knots <= kMaxLookupKnots && Axes <= kMaxAxes);
 
   std::array<AxisLookup, Axes> lookup{};
   std::array<std::array<std::array<Knot, Knots>, 2>, Axes> rows{};  // [axis][direction][knot]
@@ -27,7 +27,8 @@ struct TableSet {
       inverse{};  // rows of −J⁻¹ where it is constant but not aligned
   Float3 tool_nm{};
   std::uint32_t image_crc = 0;  // of the image it was made from
-  std::uint32_t rows_crc = 0;   // of `rows`, for the background scrub
+  std::uint32_t checksum =
+      0;  // CRC-32 of everything before it, for the background scrub; stays last
 };
 
 // Where the folder writes: the same set without its capacities, so that folding is compiled once.
@@ -73,9 +74,9 @@ inline constexpr double kMaxContraction = 1e-2;
 
 // Folds the tables for `tool_point` (mm, tool frame) in double and writes them in float. Background
 // only. Refuses axes_mismatch (other number of axes), machine_mismatch (another chain),
-// too_many_knots, bound_exceeded, contraction_exceeded, no_authority; the set is then partly
-// written and must not be activated.
-Status fold_tables(const MachineTables& tables, const RuntimeChain& chain, const Vec3& tool_point,
+// not_finite, what check_knots refuses, bound_exceeded, contraction_exceeded, no_authority; the set
+// is then partly written and must not be activated.
+Status fold_tables(const MachineTables& tables, const RuntimeChain& runtime, const Vec3& tool_point,
                    TableSetView set, FoldReport& report);
 
 }  // namespace volcomp

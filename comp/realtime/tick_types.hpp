@@ -66,7 +66,7 @@ struct CompensatorSettings {
   std::array<AxisLimits, Axes> axis{};
   PositionSource source = PositionSource::target;
   std::uint32_t machine_id = 0;         // tables of another machine are refused; 0 = any
-  std::uint32_t ramp_ticks = 200;       // of every change of tables or state, ≥ 1
+  std::uint32_t ramp_ticks = 200;       // of every change of tables or state, 1…2^24
   std::uint16_t stale_drop_ticks = 10;  // stale for more ticks than this: dropped
 };
 

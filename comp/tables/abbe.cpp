@@ -1,7 +1,5 @@
 #include "comp/tables/abbe.hpp"
 
-#include <Eigen/Geometry>
-
 namespace volcomp {
 
 ErrorMotion at_lever(const ErrorMotion& at_head, const Vec3& lever) {

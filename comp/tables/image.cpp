@@ -12,9 +12,9 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kMagic{'V', 'C', 'T', '1'};
 constexpr std::size_t kHeaderBytes = 4 + 2 + 1 + 1 + 4 + 4 + 4 + 8 + 4 + 16;
 constexpr std::size_t kMachineBytes = 3 + 3 + 24;
-constexpr std::size_t kBodyBytes = 6 + 18 * 8;
+constexpr std::size_t kBodyBytes = 6U + 18U * 8U;
 constexpr std::size_t kAxisHeaderBytes = 8 + 8 + 4 + 1 + 24;
-constexpr std::size_t kKnotBytes = 2 * 6 * 4;
+constexpr std::size_t kKnotBytes = 2U * 6U * 4U;
 constexpr std::size_t kCrcBytes = 4;
 
 std::size_t axis_bytes(std::size_t knots) {
@@ -159,27 +159,6 @@ Status read_machine(Reader& r, std::size_t bodies, MachineDescription& m) {
   return {};
 }
 
-Status check_axis_header(const AxisTable& table, const Joint& joint, std::size_t capacity) {
-  Where where;
-  where.axis = joint.letter;
-  where.count = static_cast<int>(table.knots);
-  if (table.knots < 2) return refuse(Reason::too_few_knots, where);
-  if (table.knots > capacity || table.knots > kTableKnots)
-    return refuse(Reason::too_many_knots, where);
-  where.count = -1;
-  if (table.pitch < 1) return refuse(Reason::pitch_not_positive, where);
-  const std::int64_t longest =
-      joint.kind == JointKind::rotary ? kUnitsPerTurn : (std::int64_t{1} << 32) - 1;
-  const std::int64_t segments = table.knots - (table.periodic ? 0 : 1);
-  if (table.pitch > longest / segments || clamp_position(table.q0) != table.q0) {
-    return refuse(Reason::travel_too_long, where);
-  }
-  const bool whole_turn =
-      joint.kind == JointKind::rotary && kUnitsPerTurn - table.pitch * segments < segments;
-  if (table.periodic && !whole_turn) return refuse(Reason::not_periodic, where);
-  return {};
-}
-
 Status read_axis(Reader& r, const Joint& joint, std::size_t capacity, Vec3& direction,
                  AxisTable& table) {
   table.q0 = r.i64();
@@ -188,7 +167,7 @@ Status read_axis(Reader& r, const Joint& joint, std::size_t capacity, Vec3& dire
   table.periodic = r.u8() != 0;
   for (double& d : direction)
     d = r.f64();
-  if (const Status s = check_axis_header(table, joint, capacity); !s.ok()) return s;
+  if (const Status s = check_knots(table, joint, capacity); !s.ok()) return s;
   Where where;
   where.axis = joint.letter;
   if (!direction.allFinite()) return refuse(Reason::not_finite, where);
@@ -196,15 +175,11 @@ Status read_axis(Reader& r, const Joint& joint, std::size_t capacity, Vec3& dire
     for (std::uint32_t i = 0; i < table.knots; ++i) {
       for (std::size_t c = 0; c < 6; ++c) {
         column[i][c] = r.f32();
-        if (std::isfinite(column[i][c])) continue;
-        where.index = static_cast<int>(i);
-        where.channel = static_cast<int>(c);
-        return refuse(Reason::not_finite, where);
       }
     }
   }
   static_cast<void>(r.u32());  // covered by the CRC of the whole image
-  return {};
+  return check_values(table, joint);
 }
 
 // Which axis a damaged image was damaged in, as far as its intact parts still tell; '\0' when they
@@ -220,7 +195,9 @@ char damaged_axis(Span<const std::uint8_t> image, std::size_t axes, std::size_t 
   for (std::size_t a = 0; a < axes; ++a) {
     if (image.size() - at < kAxisHeaderBytes) return '\0';
     Reader header({image.data() + at + 16, 4});
-    const std::size_t size = axis_bytes(header.u32());
+    const std::size_t knots = header.u32();
+    if (knots > kTableKnots) return letter[a];
+    const std::size_t size = axis_bytes(knots);
     if (image.size() - at < size) return letter[a];
     Reader stored({image.data() + at + size - kCrcBytes, kCrcBytes});
     if (stored.u32() != crc32({image.data() + at, size - kCrcBytes})) return letter[a];

@@ -80,7 +80,9 @@ Status lever_self_test(Axis axis, Span<const ErrorMotion> first, Span<const Erro
     where.has_value = where.has_deviation = true;
     return refuse(Reason::lever_mismatch, where);
   }
-  return {};
+  // Noise that hides half the lever would let a wrong unit or sign pass.
+  const bool blind = std::fmax(test.allowed[0], test.allowed[1]) > 0.5 * span;
+  return blind ? refuse(Reason::lever_spread_too_small) : Status{};
 }
 
 }  // namespace volcomp

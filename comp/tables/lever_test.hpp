@@ -16,9 +16,9 @@ struct LeverTest {
 };
 
 // Mean values per target at the two places of the same axis (same targets, at least four), and the
-// sensed points. Refuses too_few_points, lever_spread_too_small (angles constant or the levers
-// equal), lever_mismatch (where.index = angle, where.value = found, where.deviation = found −
-// expected). `out` is filled in the last case too.
+// sensed points. Refuses too_few_points, lever_spread_too_small (angles constant, levers
+// equal, or so much noise that half of |ΔL| would be allowed), lever_mismatch (where.index = angle,
+// where.value = found, where.deviation = found − expected). `out` is filled in the last case too.
 Status lever_self_test(Axis axis, Span<const ErrorMotion> first, Span<const ErrorMotion> second,
                        const Vec3& first_lever, const Vec3& second_lever, LeverTest& out);
 

@@ -7,7 +7,14 @@
 namespace volcomp {
 namespace {
 
-constexpr std::int64_t kMaxTravel = (std::int64_t{1} << 32) - 1;
+// The lookup of a rotary axis counts 2^-32 turn: 256 units.
+std::int64_t least_pitch(const Joint& joint) { return joint.kind == JointKind::rotary ? 256 : 1; }
+
+// What 32 bits of the lookup can hold; a table of a whole turn is periodic.
+std::int64_t longest_travel(const Joint& joint, bool periodic) {
+  if (joint.kind != JointKind::rotary) return (std::int64_t{1} << 32) - 1;
+  return periodic ? kUnitsPerTurn : kUnitsPerTurn - 256;
+}
 
 double units_of(const Joint& joint) {
   return joint.kind == JointKind::rotary ? kUnitsPerRad : kNmPerMm;
@@ -33,6 +40,43 @@ bool is_full_turn(const ErrorTable& table, const Joint& joint) {
   return joint.kind == JointKind::rotary && std::abs(table.last() - table.q0 - 2.0 * kPi) < 1e-9;
 }
 
+Status check_knots(const AxisTable& table, const Joint& joint, std::size_t capacity) {
+  Where where;
+  where.axis = joint.letter;
+  where.count = static_cast<int>(table.knots);
+  if (table.knots < 2) return refuse(Reason::too_few_knots, where);
+  // A double table repeats the first knot of a full turn.
+  const std::size_t stored = table.knots + (table.periodic ? 1U : 0U);
+  if (table.knots > capacity || stored > kTableKnots) return refuse(Reason::too_many_knots, where);
+  where.count = -1;
+  if (table.pitch < least_pitch(joint)) return refuse(Reason::pitch_not_positive, where);
+  const std::int64_t segments = table.knots - (table.periodic ? 0 : 1);
+  if (table.pitch > longest_travel(joint, table.periodic) / segments ||
+      clamp_position(table.q0) != table.q0) {
+    return refuse(Reason::travel_too_long, where);
+  }
+  const bool whole_turn =
+      joint.kind == JointKind::rotary && kUnitsPerTurn - table.pitch * segments < segments;
+  if (table.periodic && !whole_turn) return refuse(Reason::not_periodic, where);
+  return {};
+}
+
+Status check_values(const AxisTable& table, const Joint& joint) {
+  Where where;
+  where.axis = joint.letter;
+  for (const auto& column : table.value) {
+    for (std::uint32_t i = 0; i < table.knots; ++i) {
+      for (std::size_t c = 0; c < 6; ++c) {
+        if (std::isfinite(column[i][c])) continue;
+        where.index = static_cast<int>(i);
+        where.channel = static_cast<int>(c);
+        return refuse(Reason::not_finite, where);
+      }
+    }
+  }
+  return {};
+}
+
 Status quantise(const ErrorTable& table, const Joint& joint, std::size_t capacity, AxisTable& out) {
   if (const Status s = check_table(table, joint.letter, capacity); !s.ok()) return s;
   Where where;
@@ -44,9 +88,9 @@ Status quantise(const ErrorTable& table, const Joint& joint, std::size_t capacit
   const std::int64_t travel = periodic ? kUnitsPerTurn : to_units(table.last(), units) - q0;
   // A turn is rounded down, so that the knots never reach into the next one.
   const std::int64_t pitch = (travel + (periodic ? 0 : segments / 2)) / segments;
-  if (pitch < 1) return refuse(Reason::pitch_not_positive, where);
-  const std::int64_t longest = joint.kind == JointKind::rotary ? kUnitsPerTurn : kMaxTravel;
-  if (pitch * segments > longest) return refuse(Reason::travel_too_long, where);
+  if (pitch < least_pitch(joint)) return refuse(Reason::pitch_not_positive, where);
+  if (pitch * segments > longest_travel(joint, periodic))
+    return refuse(Reason::travel_too_long, where);
   for (const Travel direction : {Travel::forward, Travel::backward}) {
     if (!periodic) break;
     const ErrorMotion seam =

@@ -36,9 +36,17 @@ struct Provenance {
 struct MachineTables {
   Provenance provenance{};
   MachineDescription machine{};
-  DirectionErrors directions{};  // squareness, rad, by NC axis
+  DirectionErrors directions = zero_directions();  // squareness, rad, by NC axis
   std::array<AxisTable, kMaxAxes> axis{};
 };
+
+// What the run-time lookup can hold. Refuses too_few_knots, too_many_knots (> capacity),
+// pitch_not_positive (below 1 nm or 2^-32 turn), travel_too_long (≥ 2^32 nm, or a whole turn that
+// is not periodic), not_periodic.
+Status check_knots(const AxisTable& table, const Joint& joint, std::size_t capacity);
+
+// Refuses not_finite (where.index = knot, where.channel).
+Status check_values(const AxisTable& table, const Joint& joint);
 
 // A rotary table whose ends are one turn apart (within 1e-9 rad): it wraps, in the tick and in the
 // double model.

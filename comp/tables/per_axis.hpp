@@ -68,7 +68,7 @@ void per_axis_grid_mean(const ErrorAt& error_at, const std::array<KnotGrid, 3>& 
   out.constant.setZero();
   for (auto& column : out.f)
     column.fill(Vec3::Zero());
-  const double total = static_cast<double>(grid[0].knots * grid[1].knots * grid[2].knots);
+  const auto total = static_cast<double>(grid[0].knots * grid[1].knots * grid[2].knots);
   detail::for_each_knot(grid, [&](const std::array<std::size_t, 3>& at, const Vec3& q) {
     const Vec3 e = error_at(q);
     out.constant += e / total;

@@ -76,8 +76,9 @@ Status find_bad_value(const MeasuredAxis& m, const AscendingRuns& view, Reason r
 
 Status check_positions(const MeasuredAxis& m, const AscendingRuns& view) {
   Where where = at_axis(m);
+  const double forwards = view.reversed() ? -1.0 : 1.0;
   for (std::size_t i = 1; i < view.targets(); ++i) {
-    const double step = view.position(i) - view.position(i - 1);
+    const double step = forwards * (m.positions[i] - m.positions[i - 1]);
     if (step > 0.0) continue;
     where.target = static_cast<int>(i);
     return refuse(step < 0.0 ? Reason::positions_not_monotone : Reason::positions_duplicate, where);
@@ -88,7 +89,7 @@ Status check_positions(const MeasuredAxis& m, const AscendingRuns& view) {
       const double deviation =
           view.position(i) - (view.position(0) + static_cast<double>(i) * view.pitch());
       if (std::abs(deviation) <= m.uniform_tolerance) continue;
-      where.target = static_cast<int>(i);
+      where.target = static_cast<int>(view.original(i));
       where.deviation = deviation;
       where.has_deviation = true;
       return refuse(Reason::positions_not_uniform, where);
@@ -102,7 +103,7 @@ Status check_positions(const MeasuredAxis& m, const AscendingRuns& view) {
   std::nth_element(sorted.begin(), sorted.begin() + n / 2, sorted.begin() + n);
   for (std::size_t i = 0; i < n; ++i) {
     if (gap[i] <= 2.0 * sorted[n / 2]) continue;
-    where.target = static_cast<int>(i + 1);
+    where.target = static_cast<int>(std::max(view.original(i), view.original(i + 1)));
     where.value = gap[i];
     where.has_value = true;
     return refuse(Reason::gap_too_large, where);
@@ -141,10 +142,7 @@ bool AscendingRuns::uniform() const {
 }
 
 bool is_descending(Span<const double> positions) {
-  for (std::size_t i = 1; i < positions.size(); ++i) {
-    if (!(positions[i] < positions[i - 1])) return false;
-  }
-  return true;
+  return positions[positions.size() - 1] < positions[0];
 }
 
 Status check_runs(const MeasuredAxis& m) {
@@ -168,7 +166,7 @@ Status check_runs(const MeasuredAxis& m) {
   const auto implausible = [](double value, Eigen::Index channel) {
     return std::abs(value) > (channel < 3 ? kMaxTranslation_mm : kMaxRotation_rad);
   };
-  if (const Status s = find_bad_value(m, view, Reason::unit_suspected, implausible); !s.ok())
+  if (const Status s = find_bad_value(m, as_given, Reason::unit_suspected, implausible); !s.ok())
     return s;
   if (const Status s = check_lever(m); !s.ok()) return s;
   if (m.reference >= 0 && static_cast<std::size_t>(m.reference) < view.targets()) return {};

@@ -27,19 +27,20 @@ class AscendingRuns {
   // Spacing of the uniform grid over the same travel.
   [[nodiscard]] double pitch() const;
   [[nodiscard]] bool uniform() const;
-
- private:
+  // Index of target i in the list as it was given.
   [[nodiscard]] std::size_t original(std::size_t i) const {
     return reversed_ ? targets() - 1 - i : i;
   }
 
+ private:
   const MeasuredAxis& measured_;
   bool reversed_;
 };
 
-// True when every step between consecutive positions is negative.
+// True when the list runs downwards: its last position is below its first.
 [[nodiscard]] bool is_descending(Span<const double> positions);
 
+// Every `where.target` is an index of the list as it was given.
 Status check_runs(const MeasuredAxis& measured);
 
 }  // namespace volcomp

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <exception>
 
-#include <fmt/format.h>
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "host_sim/cli/commands.hpp"
@@ -39,9 +39,9 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "volcomp: %s\n", e.what());
+    fmt::print(stderr, "volcomp: {}\n", e.what());
   } catch (...) {
-    std::fputs("volcomp: unknown error\n", stderr);
+    fmt::print(stderr, "volcomp: unknown error\n");
   }
   return 2;
 }

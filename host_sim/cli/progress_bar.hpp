@@ -18,11 +18,11 @@ class ProgressBar {
     const int filled = static_cast<int>(done * kWidth);
     fmt::print(stderr, "\r\x1b[K[{:=<{}}{: <{}}] {:3.0f} % {}", "", filled, "", kWidth - filled,
                100.0 * done, what);
-    std::fflush(stderr);
+    static_cast<void>(std::fflush(stderr));
     shown_ = true;
   }
   ~ProgressBar() {
-    if (shown_) std::fputs("\r\x1b[K", stderr);
+    if (shown_) static_cast<void>(std::fputs("\r\x1b[K", stderr));
   }
   ProgressBar() = default;
   ProgressBar(const ProgressBar&) = delete;

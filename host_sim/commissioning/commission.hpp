@@ -27,7 +27,7 @@ struct CommissionOptions {
   std::size_t refine = 0;  // 0: as the machine file says
 };
 
-// Owns everything its parts refer to; not copyable.
+// Owns everything its parts refer to: the model points at the tables beside it.
 struct Commissioned {
   MachineChain chain;                                // of the chosen model
   std::vector<std::unique_ptr<BuiltTable>> built;    // by NC axis, as measured and averaged
@@ -38,10 +38,6 @@ struct Commissioned {
   MachineTables tables;
   double model_bound_nm = 0.0;        // first-order run-time model against the exact chain
   std::vector<std::string> warnings;  // in words
-
-  Commissioned() = default;
-  Commissioned(const Commissioned&) = delete;
-  Commissioned& operator=(const Commissioned&) = delete;
 };
 
 // One run file per axis of the machine. Throws UserError naming file and place.

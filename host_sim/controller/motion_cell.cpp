@@ -114,8 +114,8 @@ void MotionCell::move_to(const Vec3& to_mm, double feed_mm_per_s, const OnTick& 
   const Trapezoid profile(path.norm(), feed_mm_per_s);
   if (profile.duration() > 0.0) {
     const Vec3 direction = path / path.norm();
-    for (double t = period_s_; t < profile.duration(); t += period_s_) {
-      servo_period(from + profile.at(t) * direction, on_tick);
+    for (int k = 1; k * period_s_ < profile.duration(); ++k) {
+      servo_period(from + profile.at(k * period_s_) * direction, on_tick);
     }
     servo_period(to_mm, on_tick);
   }
@@ -127,8 +127,8 @@ void MotionCell::circle(const Vec3& centre_mm, double radius_mm, double feed_mm_
   const double length = 2.0 * kPi * radius_mm * std::abs(turns);
   const Trapezoid profile(length, feed_mm_per_s);
   const double sense = turns < 0 ? -1.0 : 1.0;
-  for (double t = period_s_; t < profile.duration(); t += period_s_) {
-    const double angle = sense * profile.at(t) / radius_mm;
+  for (int k = 1; k * period_s_ < profile.duration(); ++k) {
+    const double angle = sense * profile.at(k * period_s_) / radius_mm;
     servo_period(centre_mm + radius_mm * Vec3(std::cos(angle), std::sin(angle), 0.0), on_tick);
   }
 }

@@ -19,7 +19,8 @@ void TomlSection::fail(const Value& at, const std::string& text) const {
 }
 
 void TomlSection::complain(const std::string& key, const std::string& text) const {
-  fail(has(key) ? *find(key) : *value_, text);
+  const Value* const at = find(key);
+  fail(at == nullptr ? *value_ : *at, text);
 }
 
 const TomlSection::Value* TomlSection::find(const std::string& key) const {

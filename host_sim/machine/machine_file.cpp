@@ -256,7 +256,7 @@ MachineFile read_machine_file(const std::filesystem::path& path) {
 
 std::filesystem::path bundled_machine(const std::string& name) {
   const char* const folder = std::getenv("VOLCOMP_MACHINES");
-  const std::filesystem::path path =
+  std::filesystem::path path =
       std::filesystem::path(folder != nullptr ? folder : VOLCOMP_MACHINES_DIR) / (name + ".toml");
   if (!std::filesystem::exists(path)) {
     throw UserError(fmt::format(

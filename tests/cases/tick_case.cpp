@@ -36,7 +36,7 @@ TickCase::TickCase(const XyfzCase& c, const TickLimits& limits) {
   std::array<std::int32_t, 5> start{};
   for (std::size_t a = 0; a < 3; ++a)
     start[a] = static_cast<std::int32_t>(to_nm(limits.start_mm[a]));
-  compensator_->start_from(start);
+  require(compensator_->start_from(start));
   require(compensator_->stage(*loaded, c.model.tool_point, 0));
   require(compensator_->activate());
 }

@@ -91,7 +91,7 @@ struct XyfzResult {
       std::size_t mode) const;  // PNP, noise-free, between the knots, per cent
   [[nodiscard]] double rate_on_knots(std::size_t mode) const;
   [[nodiscard]] double draw_quantile(std::size_t model, double fraction) const;
-  [[nodiscard]] double draws_reaching(double rate) const;  // share of abbe_closed
+  [[nodiscard]] double draws_reaching(double wanted) const;  // share of abbe_closed
 };
 
 inline constexpr double kPaperRate = 87.07;

@@ -1,0 +1,109 @@
+// Any bytes as a table image: once as they are, once with length and checksum repaired so that the
+// checks behind them are reached. What is accepted must survive a round trip and must be safe to
+// stage and to run: no output beyond its limit, none faster than its rate.
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "comp/realtime/instances.hpp"
+#include "comp/tables/crc32.hpp"
+#include "comp/tables/image.hpp"
+
+namespace volcomp {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void write_u32(Bytes& bytes, std::size_t at, std::uint32_t value) {
+  for (unsigned i = 0; i < 4; ++i)
+    bytes[at + i] = static_cast<std::uint8_t>(value >> (8U * i));
+}
+
+void repair(Bytes& bytes) {
+  if (bytes.size() < 16) return;
+  write_u32(bytes, 8, static_cast<std::uint32_t>(bytes.size()));
+  write_u32(bytes, bytes.size() - 4, crc32({bytes.data(), bytes.size() - 4}));
+}
+
+void round_trip(const MachineTables& tables) {
+  Bytes once(image_size(tables));
+  std::size_t written = 0;
+  require(encode_image(tables, once, written).ok() && written == once.size());
+  const auto again = std::make_unique<MachineTables>();
+  require(decode_image({once.data(), once.size()}, kTableKnots, *again).ok());
+  Bytes twice(image_size(*again));
+  require(encode_image(*again, twice, written).ok() && twice == once);
+}
+
+void run(const MachineTables& tables) {
+  constexpr std::int32_t kLimit = 300'000;
+  constexpr std::int32_t kRate = 5'000;
+  const RuntimeChain chain = make_runtime_chain(tables.machine);
+  if (chain.axes > LoadedCompensator::kAxes) return;
+  const auto compensator = std::make_unique<LoadedCompensator>(LoadedMachine<5>{chain});
+  LoadedCompensator::Settings settings;
+  for (AxisLimits& l : settings.axis) {
+    l.limit = kLimit;
+    l.rate = kRate;
+  }
+  settings.ramp_ticks = 3;
+  require(compensator->configure(settings).ok());
+  const Vec3 tool(tables.machine.tool_point[0], tables.machine.tool_point[1],
+                  tables.machine.tool_point[2]);
+  if (!compensator->stage(tables, tool, 0).ok()) return;
+  require(compensator->activate().ok());
+  LoadedCompensator::Input in;
+  LoadedCompensator::Output out;
+  std::array<std::int32_t, LoadedCompensator::kAxes> last{};
+  for (int n = 0; n < 64; ++n) {
+    for (std::size_t a = 0; a < chain.axes; ++a) {
+      const AxisTable& t = tables.axis[a];
+      const std::int64_t places[] = {t.q0,
+                                     t.q0 - 1,
+                                     t.last(),
+                                     t.last() + 1,
+                                     t.q0 + t.pitch,
+                                     t.q0 + t.pitch - 1,
+                                     0,
+                                     std::numeric_limits<std::int64_t>::min(),
+                                     std::numeric_limits<std::int64_t>::max()};
+      in.axis[a].position = places[(static_cast<std::size_t>(n) * (a + 1)) % 9];
+      in.axis[a].valid = n % 13 != 5;
+      in.axis[a].homed = n % 29 != 7;
+    }
+    compensator->tick(in, out);
+    for (std::size_t a = 0; a < chain.axes; ++a) {
+      require(std::abs(out.offset[a]) <= kLimit);
+      require(std::abs(out.offset[a] - last[a]) <= kRate);
+      last[a] = out.offset[a];
+    }
+  }
+}
+
+void decode_and_use(const Bytes& bytes) {
+  const auto tables = std::make_unique<MachineTables>();
+  if (!decode_image({bytes.data(), bytes.size()}, kTableKnots, *tables).ok()) return;
+  round_trip(*tables);
+  run(*tables);
+}
+
+}  // namespace
+}  // namespace volcomp
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  volcomp::Bytes bytes(data, data + size);
+  volcomp::decode_and_use(bytes);
+  volcomp::repair(bytes);
+  volcomp::decode_and_use(bytes);
+  return 0;
+}

@@ -1,0 +1,44 @@
+// Every reason has its own code and its own sentence.
+
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include "comp/status.hpp"
+
+namespace volcomp::test {
+namespace {
+
+constexpr int kReasons = static_cast<int>(Reason::hand_over_pending) + 1;
+
+TEST(Reason, CodesAndSentencesAreDistinct) {
+  std::set<std::string> codes;
+  std::set<std::string> sentences;
+  for (int i = 0; i < kReasons; ++i) {
+    const auto reason = static_cast<Reason>(i);
+    EXPECT_TRUE(codes.insert(code(reason)).second) << code(reason);
+    EXPECT_TRUE(sentences.insert(sentence(reason)).second) << sentence(reason);
+  }
+}
+
+TEST(Reason, CodesAreIdentifiersAndSentencesAreSentences) {
+  for (int i = 0; i < kReasons; ++i) {
+    const std::string name = code(static_cast<Reason>(i));
+    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"), std::string::npos)
+        << name;
+    const std::string text = sentence(static_cast<Reason>(i));
+    ASSERT_GT(text.size(), 8U) << name;
+    EXPECT_EQ(text.back(), '.') << name;
+    EXPECT_TRUE(text.front() >= 'A' && text.front() <= 'Z') << name;
+  }
+}
+
+TEST(Reason, StableNames) {
+  EXPECT_STREQ(code(Reason::ok), "ok");
+  EXPECT_STREQ(code(Reason::crc_mismatch), "crc_mismatch");
+  EXPECT_STREQ(code(Reason::axes_mismatch), "axes_mismatch");
+  EXPECT_STREQ(code(Reason::not_staged), "not_staged");
+}
+
+}  // namespace
+}  // namespace volcomp::test
