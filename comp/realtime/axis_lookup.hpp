@@ -50,7 +50,7 @@ struct Index {
 
 // `rotary` decides the unit: 2^-40 turn is reduced to 2^-32, which wraps like the axis does.
 VOLCOMP_INLINE Index locate(const AxisLookup& axis, std::int64_t position, bool rotary) {
-  std::int64_t r = (rotary ? clamp_turning(position) : clamp_position(position)) - axis.q0;
+  std::int64_t r = position - axis.q0;  // both clamped before: no overflow
   if (rotary) r >>= 8;
   Index at;
   at.u = static_cast<std::uint32_t>(r);

@@ -32,13 +32,16 @@ class Compensator {
   using Settings = CompensatorSettings<kAxes>;
   using Tables = TableSet<kAxes, Knots>;
 
-  Compensator() = default;
+  Compensator() : Compensator(Machine{}) {}
   // A machine with more axes than fit is treated as none: every stage() is then refused.
   explicit Compensator(const Machine& machine)
-      : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {}
+      : machine_(machine.chain.axes <= kAxes ? machine : Machine{}),
+        unknown_axes_(machine_.chain.axes) {
+    for (std::size_t a = 0; a < kAxes; ++a)
+      apply_limits(a);
+  }
 
   // --- background
-  // -----------------------------------------------------------------------------------------------------
 
   // Before the first tick or while stopped. Refuses bad_setting with the field named.
   Status configure(const Settings& settings);
@@ -72,7 +75,6 @@ class Compensator {
   [[nodiscard]] const Machine& machine() const { return machine_; }
 
   // --- interrupt
-  // ------------------------------------------------------------------------------------------------------
 
   void tick(const Input& in, Output& out);
 
@@ -82,36 +84,58 @@ class Compensator {
  private:
   enum class Request : std::uint8_t { none, activate, deactivate };
 
+  // No two accepted positions of a linear axis are further apart.
+  static constexpr std::int64_t kAnyStep = 2 * kMaxPosition;
+  static constexpr std::int64_t kAnyTurn = 2 * kMaxTurningPosition;
+
+  // One cache line per axis: what was configured, then what changes.
   struct AxisState {
-    DirectionTracker direction;
+    std::int64_t most_step = kAnyStep;  // largest plausible |Δposition|
+    float limit = 0.0F;
+    std::int32_t rate = 1;
+    std::int32_t soft_rate = 1;
+    std::int32_t hysteresis = 0;
     std::int64_t position = 0;  // last good one
     std::int64_t seen = 0;      // last one given, good or implausible
     std::int32_t output = 0;
     std::int32_t ramp_from = 0;
+    DirectionTracker direction;
     std::uint16_t stale_ticks = 0;
     std::uint16_t status = 0;
-    bool known = false;  // has ever had a valid position
-    bool soft = false;   // dropped, not homed or coming back: soft_rate instead of rate
+    bool known = false;   // has ever had a valid position
+    bool steady = false;  // known, and the last sample was good
+    bool soft = false;    // dropped, not homed or coming back: soft_rate instead of rate
+  };
+  using StatusWords = std::array<std::uint32_t, kAxes>;
+  struct PutOut {
+    std::int32_t output;
+    std::uint32_t status;
   };
 
+  template <class Visit>
+  void for_each_axis(const Visit& visit) const;
   void begin_change();
   void take_request();
-  void take_sample(std::size_t axis, const AxisSample& sample);
-  Located place(std::size_t axis, const Tables& set);
-  kernel::Offsets wanted_offsets();
+  [[nodiscard]] bool in_reach(std::size_t axis, std::int64_t position) const;
+  std::uint32_t take_sample(std::size_t axis, const AxisSample& sample);
+  std::uint32_t take_unusual_sample(std::size_t axis, const AxisSample& sample);
+  Located place(std::size_t axis, const Tables& set, bool add_offset, std::uint32_t& status);
+  kernel::Offsets wanted_offsets(StatusWords& status);
+  PutOut put_out(AxisState& s, float wanted, float ramp, std::uint32_t status);
+  PutOut put_out_unusual(AxisState& s, float wanted, float ramp, std::uint32_t status);
+  void count_changes(std::size_t axis, std::uint32_t status);
+  void apply_limits(std::size_t axis);
   Status reject(const Status& status);
   static std::uint32_t checksum(const Tables& set);
-  void put_out(std::size_t axis, float wanted_nm, float ramp);
-  void count_changes(std::size_t axis, std::uint16_t before);
   [[nodiscard]] bool rotary(std::size_t axis) const {
     return machine_.chain.kind[axis] == JointKind::rotary;
   }
-  [[nodiscard]] bool all_known() const;
 
   Machine machine_{};
   Settings settings_{};
   std::array<Tables, 2> buffer_{};
   std::array<AxisState, kAxes> axis_{};
+  std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
   Ramp ramp_{};
   Float3 error_nm_{};
   FoldReport report_{};

@@ -30,7 +30,21 @@ Status Compensator<Machine, Knots>::configure(const Settings& settings) {
     return refuse(Reason::bad_setting, where);
   }
   settings_ = settings;
+  for (std::size_t a = 0; a < kAxes; ++a)
+    apply_limits(a);
   return {};
+}
+
+template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
+  const AxisLimits& l = settings_.axis[axis];
+  AxisState& s = axis_[axis];
+  const std::int64_t any = rotary(axis) ? kAnyTurn : kAnyStep;
+  s.most_step = l.max_step == 0 || l.max_step > any ? any : l.max_step;
+  s.limit = static_cast<float>(l.limit);
+  s.rate = l.rate;
+  s.soft_rate = l.soft_rate;
+  s.hysteresis = l.hysteresis;
 }
 
 template <class Machine, std::size_t Knots>
@@ -46,8 +60,10 @@ Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kA
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
     axis_[a] = {};
+    apply_limits(a);
     axis_[a].output = offsets[a];
   }
+  unknown_axes_ = machine_.chain.axes;
   begin_change();
   return {};
 }

@@ -92,16 +92,17 @@ VOLCOMP_INLINE Float3 folded_error(const Machine& machine, const Set& set, const
     interpolate(at[a], v);
     const float x = travel_nm(set.lookup[a], at[a]) * step.sign;
     const Float3 w{v[3], v[4], v[5]};
+    const bool first = i == machine.chain.first_folded && !machine.chain.has_constant_error;
     if (machine.chain.has_constant_error) add(omega, set.turn_before[a]);
-    if (step.work) add(omega, w);
-    add(e, {v[0], v[1], v[2]});
+    if (step.work) first ? void(omega = w) : add(omega, w);
+    first ? void(e = {v[0], v[1], v[2]}) : add(e, {v[0], v[1], v[2]});
     const float lever = step.work ? -x : x;
     if (machine.chain.has_orientation) {
       add_cross(e, omega, set.travel_axis[a], lever);
     } else {
       add_cross_axis(e, omega, step.axis, lever);
     }
-    if (!step.work) add(omega, w);
+    if (!step.work) first ? void(omega = w) : add(omega, w);
   });
   return e;
 }

@@ -19,18 +19,25 @@ struct Limiter {
   static constexpr T kDeadZone =
       std::is_same_v<T, double> ? static_cast<T>(1e-12) : static_cast<T>(0);
 
-  VOLCOMP_INLINE T clamp(T wanted, bool& hit) const {
-    const T v = wanted > limit ? limit : (wanted < -limit ? -limit : wanted);
-    hit = wanted > limit + kDeadZone || wanted < -limit - kDeadZone;
-    return v;
-  }
+  VOLCOMP_INLINE T clamp(T wanted, bool& hit) const { return between(-limit, limit, wanted, hit); }
 
   VOLCOMP_INLINE T slew(T wanted, T previous, bool& hit) const {
-    const T hi = previous + rate;
-    const T lo = previous - rate;
-    const T v = wanted > hi ? hi : (wanted < lo ? lo : wanted);
-    hit = wanted > hi + kDeadZone || wanted < lo - kDeadZone;
-    return v;
+    return between(previous - rate, previous + rate, wanted, hit);
+  }
+
+ private:
+  // Branches, not selections: what is limited is the exception.
+  VOLCOMP_INLINE static T between(T lo, T hi, T wanted, bool& hit) {
+    hit = false;
+    if (wanted > hi) {
+      hit = wanted > hi + kDeadZone;
+      return hi;
+    }
+    if (wanted < lo) {
+      hit = wanted < lo - kDeadZone;
+      return lo;
+    }
+    return wanted;
   }
 };
 

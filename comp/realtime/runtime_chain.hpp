@@ -54,6 +54,7 @@ struct RuntimeChain {
   std::array<std::uint8_t, kMaxCorrecting> correcting{};  // NC axes
   std::array<JointKind, kMaxAxes> kind{};                 // by NC axis
   std::array<char, kMaxAxes> letter{};
+  std::uint8_t first_folded = 0;  // step of the first axis met from the work tip
   bool folded = true;
   bool has_orientation = false;
   bool has_constant_error = false;
@@ -139,6 +140,7 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
         step.correcting = static_cast<std::uint8_t>(c);
       }
     }
+    if (step.kind != JointKind::fixed) chain.first_folded = static_cast<std::uint8_t>(i);
     any_rotary = any_rotary || step.kind == JointKind::rotary;
     chain.has_orientation = chain.has_orientation || step.has_orientation;
     chain.has_constant_error = chain.has_constant_error || step.has_error;
