@@ -3,8 +3,8 @@
 //   cmake --preset host && cmake --build build/host --target volcomp_bench
 //   build/host/tests/bench/volcomp_bench --benchmark_repetitions=5
 //
-// Compare Tick/xyfz_compiled_in with Baseline/eighteen_lookups of the same run. Positions follow a
-// random walk prepared beforehand, so that every tick looks somewhere else.
+// Compare Tick/xyfz_compiled_in with the Baseline/eighteen_lookups of the same run. Positions
+// follow a random walk prepared beforehand, so that every tick looks somewhere else.
 
 #include <cstdlib>
 

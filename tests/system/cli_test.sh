@@ -48,33 +48,34 @@ expect 0 'CRC-32' "$volcomp" build-tables --machine "$machine" --runs "${runs[@]
 
 # Bad input: exit 2, one sentence that names file and place, the last good image untouched.
 cp "$work/tables.vct" "$work/before.vct"
-build() { "$volcomp" build-tables --machine "${2:-$machine}" --runs "$1" "${runs[@]:1}" --out "$work/tables.vct"; }
+build=("$volcomp" build-tables --machine "$machine" --runs "$work/bad.csv" "${runs[@]:1}" --out "$work/tables.vct")
 damage() { sed "$1" "${runs[0]}" >"$work/bad.csv"; }
 
 damage '4s/,\([^,]*\)$/,nan/'
-expect 2 'not_finite' build "$work/bad.csv"
-one_line build "$work/bad.csv"
+expect 2 'not_finite' "${build[@]}"
+one_line "${build[@]}"
 damage '5s/up/sideways/'
-expect 2 'bad.csv:5' build "$work/bad.csv"
+expect 2 'bad.csv:5' "${build[@]}"
 damage '1s/EXX \[mm\]/EXX/'
-expect 2 'unit in brackets' build "$work/bad.csv"
+expect 2 'unit in brackets' "${build[@]}"
 damage '1s/EAX \[rad\]/EAX [mm]/'
-expect 2 'wrong kind' build "$work/bad.csv"
+expect 2 'wrong kind' "${build[@]}"
 damage '1s/,ECX \[rad\]//'
-expect 2 'lacks the column' build "$work/bad.csv"
+expect 2 'lacks the column' "${build[@]}"
 damage '7d'
-expect 2 'run_length' build "$work/bad.csv"
+expect 2 'run_length' "${build[@]}"
 damage '3s/^/x/'
-expect 2 'not a number' build "$work/bad.csv"
+expect 2 'not a number' "${build[@]}"
 damage '1s/EXX \[mm\]/EXX [nm]/;1s/EAX \[rad\]/EAX [deg]/'
-expect 0 'CRC-32' build "$work/bad.csv"
+expect 0 'CRC-32' "${build[@]}"
 cp "$work/before.vct" "$work/tables.vct"
 : >"$work/bad.csv"
-expect 2 'empty' build "$work/bad.csv"
+expect 2 'empty' "${build[@]}"
 head -c 300 /dev/urandom >"$work/bad.csv"
-expect 2 'bad.csv:' build "$work/bad.csv"
-expect 2 'cannot be opened' build "$work/none.csv"
-expect 2 'cannot be opened' build "$work"
+expect 2 'bad.csv:' "${build[@]}"
+for path in "$work/none.csv" "$work"; do
+  expect 2 'cannot be opened' "$volcomp" build-tables --machine "$machine" --runs "$path" "${runs[@]:1}" --out "$work/tables.vct"
+done
 expect 2 'both hold axis X' "$volcomp" build-tables --machine "$machine" --runs "${runs[@]}" "${runs[0]}" --out "$work/tables.vct"
 expect 2 'no runs given for axis Z' "$volcomp" build-tables --machine "$machine" --runs "${runs[0]}" "${runs[1]}" --out "$work/tables.vct"
 expect 2 'cannot be written' "$volcomp" build-tables --machine "$machine" --runs "${runs[@]}" --out "$work/none/tables.vct"
