@@ -47,11 +47,12 @@ VOLCOMP_INLINE std::uint32_t Compensator<Machine, Knots>::take_sample(std::size_
   const auto most = static_cast<std::uint64_t>(s.most_step);
   const auto moved =
       static_cast<std::uint64_t>(sample.position) - static_cast<std::uint64_t>(s.seen);
-  std::uint32_t status = sample.homed ? 0U : static_cast<std::uint32_t>(kNotHomed);
-  if (sample.valid && s.steady && moved + most <= 2U * most && in_reach(axis, sample.position)) {
+  std::uint32_t status = 0;
+  if (sample.valid && sample.homed && s.steady && moved + most <= 2U * most &&
+      in_reach(axis, sample.position)) {
     s.seen = s.position = sample.position;
   } else {
-    status |= take_unusual_sample(axis, sample);
+    status = take_unusual_sample(axis, sample);
     if (!s.steady) return status;
   }
   const std::int64_t low = rotary(axis) ? s.position >> 8 : s.position;
@@ -59,13 +60,14 @@ VOLCOMP_INLINE std::uint32_t Compensator<Machine, Knots>::take_sample(std::size_
   return status;
 }
 
-// A first, lost, implausible, returning or absurdly large sample.
+// A first, lost, implausible, returning, unreferenced or absurdly large sample.
 template <class Machine, std::size_t Knots>
 [[gnu::noinline]] std::uint32_t Compensator<Machine, Knots>::take_unusual_sample(
     std::size_t axis, const AxisSample& sample) {
   AxisState& s = axis_[axis];
   const std::int64_t position =
       rotary(axis) ? clamp_turning(sample.position) : clamp_position(sample.position);
+  std::uint32_t status = sample.homed ? 0U : std::uint32_t{kNotHomed};
   const std::int64_t moved = position - s.seen;
   const bool plausible = !s.known || (moved <= s.most_step && moved >= -s.most_step);
   s.steady = sample.valid && plausible;
@@ -75,9 +77,9 @@ template <class Machine, std::size_t Knots>
     s.known = true;
     s.stale_ticks = 0;
     s.position = position;
-    return 0;
+    return status;
   }
-  std::uint32_t status = kStale;
+  status |= kStale;
   if (sample.valid) status |= kImplausible;
   if (s.stale_ticks >= settings_.stale_drop_ticks) status |= kDropped;
   if (s.stale_ticks < UINT16_MAX) ++s.stale_ticks;
