@@ -12,7 +12,7 @@ struct Entry {
   const char* sentence;
 };
 
-constexpr std::array kEntries{
+constexpr std::array<Entry, 40> kEntries{
     Entry{Reason::ok, "ok", "Accepted."},
     Entry{Reason::not_finite, "not_finite", "A value is NaN or infinite."},
     Entry{Reason::missing_field, "missing_field",
