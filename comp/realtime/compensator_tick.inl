@@ -38,8 +38,8 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::in_reach(std::size_t axis,
   return rotary(axis) || static_cast<std::uint32_t>(position >> 32) + kBlocks < 2U * kBlocks;
 }
 
-// Returns the first bits of the status word of this tick. The usual sample is valid, follows a good
-// one and is within reach of it: one comparison, which also keeps extreme integers out.
+// Returns the first bits of the status word of this tick. The usual sample is valid, referenced,
+// follows a good one and is no further from it than the axis can have moved.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE std::uint32_t Compensator<Machine, Knots>::take_sample(std::size_t axis,
                                                                       const AxisSample& sample) {

@@ -38,6 +38,10 @@ expect 0 'good' "$volcomp" machine check "$machine"
 expect 2 'subcommand' "$volcomp"
 expect 2 '--draws' "$volcomp" run xyfz --draws many
 
+touch "$work/file"
+expect 2 'cannot be created' "$volcomp" run xyfz --draws 0 --report "$work/file"
+one_line "$volcomp" run xyfz --draws 0 --report "$work/file"
+
 # The whole road of a user's own data, with the run files of a simulated campaign.
 expect 0 'PASS' "$volcomp" run xyfz --draws 1 --report "$work/report" --json "$work/figures.json"
 for file in report/report.html report/report.json figures.json report/campaign/draw_001/runs_X.csv; do

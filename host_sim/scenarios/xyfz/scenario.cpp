@@ -31,7 +31,9 @@ struct Bench {
 
 // The road of a user's own data: the runs go through files.
 Campaign through_files(const Campaign& campaign, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw UserError(fmt::format("{}: cannot be created", folder.string()));
   Campaign reread{campaign.machine, {}};
   for (const RunsFile& runs : campaign.runs) {
     const std::filesystem::path path = folder / runs.name;
