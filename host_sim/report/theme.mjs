@@ -39,7 +39,9 @@ function assignSlots(names) {
   }
   const taken = new Set(slots.values());
   const free = ORDER_OF_OTHERS.filter((slot) => !taken.has(slot));
-  const pool = free.length ? free : ORDER_OF_OTHERS;
+  const others = names.filter((name) => !slots.has(name));
+  // Six channels of one axis have to differ from each other more than from a mode in another chart.
+  const pool = others.length <= free.length ? free : ORDER_OF_OTHERS;
   let next = 0;
   for (const name of names) {
     if (!slots.has(name)) slots.set(name, pool[next++ % pool.length]);
