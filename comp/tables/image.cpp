@@ -12,9 +12,9 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kMagic{'V', 'C', 'T', '1'};
 constexpr std::size_t kHeaderBytes = 4 + 2 + 1 + 1 + 4 + 4 + 4 + 8 + 4 + 16;
 constexpr std::size_t kMachineBytes = 3 + 3 + 24;
-constexpr std::size_t kBodyBytes = 6 + 18 * sizeof(double);
+constexpr std::size_t kBodyBytes = 6 + sizeof(double) * 18;
 constexpr std::size_t kAxisHeaderBytes = 8 + 8 + 4 + 1 + 24;
-constexpr std::size_t kKnotBytes = 2 * 6 * sizeof(float);
+constexpr std::size_t kKnotBytes = sizeof(float) * 12;  // two directions, six channels
 constexpr std::size_t kCrcBytes = 4;
 
 std::size_t axis_bytes(std::size_t knots) {
