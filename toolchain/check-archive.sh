@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Proves from its object files that the library comp keeps its promises:
-#   no heap, no exceptions, no work before main, no mutable globals, no C library mathematics in comp/realtime.
+# Proves from their object files that the libraries of the target (comp, canopen, node, hal/linux) keep their
+# promises: no heap, no exceptions, no work before main, no mutable globals, no C library mathematics in comp/realtime.
 #
 #   toolchain/check-archive.sh [BUILD_FOLDER]   default build/host; a Release build
 #   toolchain/check-archive.sh --self-test      proves that each kind of offence is found
@@ -109,9 +109,9 @@ check_realtime() {
       matches "$libm")"
 }
 
-# check ARCHIVE REALTIME_OBJECT_FOLDER: false if there is an offender.
+# check ARCHIVE [REALTIME_OBJECT_FOLDER]: false if there is an offender.
 check() {
-  local archive=$1 realtime=$2 folder rule kind what pattern symbols filled
+  local archive=$1 realtime=${2:-} folder rule kind what pattern symbols filled
   [ -f "$archive" ] || die "there is no archive $archive: build it first."
   archive=$(realpath "$archive")
   folder=$(mktemp -d "$work/split.XXXXXX")
@@ -129,7 +129,7 @@ check() {
     IFS='|' read -r kind what pattern <<< "$rule"
     report "$kind" "$what (section)" "$(matches "$pattern" <<< "$filled" | sort -u)"
   done
-  check_realtime "$folder" "$realtime"
+  [ -z "$realtime" ] || check_realtime "$folder" "$realtime"
   printf '  %s checks, %s offenders\n' "$checks" "$offenders"
   [ "$offenders" = 0 ]
 }
@@ -225,5 +225,8 @@ case "${1:-}" in
     build=${1:-build/host}
     check "$build/comp/libvolcomp_comp.a" "$build/comp/CMakeFiles/volcomp_comp.dir/realtime" ||
       die "the library comp breaks a promise, see FOUND above."
+    for library in firmware/canopen/libvolcomp_canopen firmware/node/libvolcomp_node hal/libvolcomp_hal_linux; do
+      check "$build/$library.a" || die "$library breaks a promise, see FOUND above."
+    done
     ;;
 esac

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Proves from GCC's call graph that no function of comp recurses or takes memory from the stack dynamically.
+"""Proves from GCC's call graph that no function of the target recurses or takes memory from the stack dynamically.
 
     toolchain/check-recursion.py [BUILD_FOLDER]   default build/host
     toolchain/check-recursion.py --self-test      proves that each kind of offence is found
 
-Every source of comp is compiled twice into a temporary folder with the flags of BUILD_FOLDER's
+Every source of comp, hal/linux, firmware/canopen and firmware/node is compiled twice into a temporary folder with the flags of BUILD_FOLDER's
 compile_commands.json: as it is built, and without optimization, where no call has been inlined and no tail
 recursion has become a loop. Both graphs must be free of cycles. The stack figures belong to the first.
 
@@ -226,17 +226,21 @@ def print_realtime_mathematics(graph):
         print("    " + " <- ".join(graph.functions[t].name if graph.is_defined(t) else t for t in path))
 
 
-def comp_units(build):
+# What runs on a target, or beside one as a Linux process.
+TARGET_FOLDERS = ("comp", "hal/linux", "firmware/canopen", "firmware/node")
+
+
+def target_units(build):
     database = build / "compile_commands.json"
     if not database.exists():
         raise Failure(f"{database} is missing: configure the build first.")
     units = []
     for entry in json.loads(database.read_text()):
         source = pathlib.Path(entry["directory"], entry["file"]).resolve()
-        if ROOT / "comp" in source.parents and source.exists():
+        if any(ROOT / folder in source.parents for folder in TARGET_FOLDERS) and source.exists():
             units.append((compile_command(entry), source, entry["directory"]))
     if not units:
-        raise Failure(f"{database} names no source of comp, so nothing can be proved.")
+        raise Failure(f"{database} names no source of {', '.join(TARGET_FOLDERS)}, so nothing can be proved.")
     return sorted(units, key=lambda unit: unit[1])
 
 
@@ -279,16 +283,16 @@ def main():
     jobs = int(os.environ.get("VOLCOMP_JOBS") or os.cpu_count() or 1)
     if options.self_test:
         return self_test(jobs)
-    units = comp_units(options.build)
+    units = target_units(options.build)
     built, plain = build_graph(units, [], jobs), build_graph(units, ["-O0"], jobs)
     defined = sum(f.defined for f in built.functions.values())
-    print(f"call graph of {len(units)} sources of comp: {defined} functions, "
+    print(f"call graph of {len(units)} sources of the target: {defined} functions, "
           f"{sum(f.defined for f in plain.functions.values())} before inlining")
     offences = judge(built, plain)
     for offence in offences:
         print(f"  FOUND {offence}")
     if offences:
-        raise Failure("comp breaks a promise, see FOUND above.")
+        raise Failure("the target code breaks a promise, see FOUND above.")
     print("  no recursion, no dynamic stack memory")
     print_figures(built)
     print_realtime_mathematics(plain)

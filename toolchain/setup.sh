@@ -11,6 +11,8 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 build_packages=(g++ cmake ninja-build binutils ca-certificates libeigen3-dev libfmt-dev libcli11-dev
   libtoml11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libbenchmark-dev)
 check_packages=(ccache git clang clang-format clang-tidy cppcheck llvm gcovr python3 shellcheck)
+bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
+vm_packages=(qemu-system-x86 busybox-static cpio kmod xz-utils)
 report_folder=host_sim/report
 
 installed() {
@@ -32,7 +34,7 @@ missing_packages() {
   local package
   local wanted=("${build_packages[@]}")
   if [ "$mode" = all ]; then
-    wanted+=("${check_packages[@]}" "$(clang_runtime_package)")
+    wanted+=("${check_packages[@]}" "$(clang_runtime_package)" "${bus_packages[@]}" "${vm_packages[@]}")
   fi
   for package in "${wanted[@]}"; do
     installed "$package" || printf '%s\n' "$package"

@@ -11,10 +11,11 @@
 #   scripts     shellcheck over the scripts
 #   build       the optimized host build
 #   test        its tests
-#   proofs      no heap, exceptions, globals, recursion ... in the library comp
+#   can         and those that need a CAN interface of the kernel, below toolchain/with-vcan
+#   proofs      no heap, exceptions, globals, recursion ... in the libraries of the target
 #   asan        build and tests with the address and undefined-behaviour sanitizers
 #   tidy        clang-tidy
-#   cppcheck    cppcheck over comp
+#   cppcheck    cppcheck over comp, hal and firmware
 #   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 30) seconds
 #   coverage    build and tests with gcov; table in build/cov/coverage.txt
 #   bench       the benchmarks are built, not run
@@ -25,7 +26,7 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 # shellcheck source=toolchain/common.sh
 . "$script_folder/common.sh"
 
-readonly all_steps=(setup format scripts build test proofs asan tidy cppcheck fuzz coverage bench)
+readonly all_steps=(setup format scripts build test can proofs asan tidy cppcheck fuzz coverage bench)
 readonly quick_steps=(format build test)
 readonly code_folders=(comp hal firmware host_sim tests)
 readonly logs=build/log
@@ -64,8 +65,9 @@ step_scripts() {
   local files
   need shellcheck
   mapfile -t files < <(sources '*.sh' toolchain "${code_folders[@]}")
-  shellcheck -x "${files[@]}" .ci/run
-  printf '%s files\n' "$((${#files[@]} + 1))"
+  files+=(toolchain/with-vcan toolchain/vm/init .ci/run)
+  shellcheck -x "${files[@]}"
+  printf '%s files\n' "${#files[@]}"
 }
 
 step_build() {
@@ -78,9 +80,17 @@ step_test() {
   test_preset host
 }
 
+step_can() {
+  local way
+  build_preset host
+  way=$(bash toolchain/with-vcan --how)
+  printf 'way to vcan0: %s\n' "$way"
+  VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/vcan/run_all.sh 2>&1 | tee "$logs/ctest-can.txt"
+}
+
 step_proofs() {
   need python3
-  build_preset host --target volcomp_comp
+  build_preset host --target volcomp_comp volcomp_canopen volcomp_node volcomp_hal_linux
   bash toolchain/check-archive.sh --self-test
   bash toolchain/check-archive.sh build/host
   python3 toolchain/check-recursion.py --self-test
@@ -101,8 +111,8 @@ step_tidy() {
 step_cppcheck() {
   local files
   need cppcheck
-  mapfile -t files < <(sources '*.[ch]pp' comp)
-  [ ${#files[@]} -gt 0 ] || die "there is no C++ file of comp to check."
+  mapfile -t files < <(sources '*.[ch]pp' comp hal firmware/canopen firmware/node)
+  [ ${#files[@]} -gt 0 ] || die "there is no C++ file of the target to check."
   cppcheck --quiet --std=c++17 --language=c++ --enable=warning,performance,portability --inline-suppr \
     --inconclusive --suppress=missingInclude --suppress=missingIncludeSystem --suppress=unmatchedSuppression \
     --error-exitcode=1 -I . -j "$(jobs_allowed)" "${files[@]}"

@@ -46,6 +46,10 @@ class Compensator {
   // Before the first tick or while stopped. Refuses bad_setting with the field named.
   Status configure(const Settings& settings);
 
+  // As if constructed anew for this machine; the settings stay, tables and diagnostics go. Only
+  // while no tick can come.
+  void restart(const Machine& machine);
+
   // Offsets the drives hold at start-up (read back): the first tick continues from them instead of
   // jumping to 0. Refuses bad_setting beyond ±2^30 units (1.07 m): no drive stands there.
   Status start_from(const std::array<std::int32_t, kAxes>& offsets);
@@ -60,6 +64,11 @@ class Compensator {
 
   // Corrections ramp to 0 and stay there until the next activate().
   void deactivate() { request_.store(Request::deactivate, std::memory_order_release); }
+
+  // Does at once what the next tick would begin with. Only while no tick can come.
+  void settle() {
+    if (pending()) take_request();
+  }
 
   // Recomputes the checksum of the active tables; call it from time to time. A bit that changed in
   // memory means: crc_mismatch, corrections ramp to 0, every axis shows kTableDamaged until new

@@ -48,6 +48,25 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
 }
 
 template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::restart(const Machine& machine) {
+  machine_ = machine.chain.axes <= kAxes ? machine : Machine{};
+  request_.store(Request::none, std::memory_order_relaxed);
+  damaged_.store(false, std::memory_order_relaxed);
+  active_ = -1;
+  next_ = 0;
+  staged_ = false;
+  diagnostics_ = {};
+  report_ = {};
+  error_nm_ = {};
+  ramp_ = {};
+  unknown_axes_ = machine_.chain.axes;
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    axis_[a] = {};
+    apply_limits(a);
+  }
+}
+
+template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kAxes>& offsets) {
   constexpr std::int32_t kMostStart = 1 << 30;
   for (std::size_t a = 0; a < kAxes; ++a) {

@@ -9,5 +9,6 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code);
 void add_build_tables_command(CLI::App& app, int& code);
 void add_machine_command(CLI::App& app, int& code);
 void add_list_command(CLI::App& app, int& code);
+void add_device_files_command(CLI::App& app, int& code);
 
 }  // namespace volcomp::sim

@@ -25,6 +25,7 @@ int run(int argc, char** argv) {
   volcomp::sim::add_build_tables_command(app, code);
   volcomp::sim::add_machine_command(app, code);
   volcomp::sim::add_list_command(app, code);
+  volcomp::sim::add_device_files_command(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -69,6 +69,10 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   xyfz->add_option("--machine-seed", a->options.machine_seed,
                    "Seed of the machine's error functions")
       ->capture_default_str();
+  xyfz->add_option("--volume-points", a->options.volume_points,
+                   "Random places behind the figure of the volume")
+      ->check(CLI::Range(10, 100000))
+      ->capture_default_str();
   xyfz->add_option("--machine", a->machine,
                    "Machine file (default: the XYFZ machine that comes with the program)");
   xyfz->add_option("--json", a->json_file, "Write the figures to this file");

@@ -127,6 +127,12 @@ MachineChain naive_chain(const MachineFile& machine) {
   return chain;
 }
 
+double model_bound_nm(const VolumetricModel& model) {
+  const int steps =
+      model.chain.axis_count() <= 3 ? kBoundSteps : 3;  // the grid grows with every axis
+  return kNmPerMm * first_order_distance(model, steps);
+}
+
 }  // namespace
 
 std::unique_ptr<Commissioned> commission(const MachineFile& machine,
@@ -148,9 +154,7 @@ std::unique_ptr<Commissioned> commission(const MachineFile& machine,
   out->tables.machine = out->chain.description();
   out->tables.directions = out->model.directions;
   out->tables.provenance.machine_id = machine.id;
-  const int steps =
-      out->chain.axis_count() <= 3 ? kBoundSteps : 3;  // the grid grows with every axis
-  out->model_bound_nm = 1e6 * first_order_distance(out->model, steps);
+  if (options.bound) out->model_bound_nm = model_bound_nm(out->model);
   return out;
 }
 

@@ -25,7 +25,16 @@ struct CommissionOptions {
   SlopeFit slope = SlopeFit::least_squares;
   bool allow_resampling = true;
   std::size_t refine = 0;  // 0: as the machine file says
+  bool bound = true;       // compute model_bound_nm: dearer than all the rest together
 };
+
+// For callers that want the tables of a model and nothing else.
+[[nodiscard]] inline CommissionOptions tables_only(ModelKind model) {
+  CommissionOptions options;
+  options.model = model;
+  options.bound = false;
+  return options;
+}
 
 // Owns everything its parts refer to: the model points at the tables beside it.
 struct Commissioned {
@@ -36,7 +45,8 @@ struct Commissioned {
   XyfzSquareness apparent;    // what the tables show at the place of the ball bar
   XyfzSquareness parameters;  // what goes into the model
   MachineTables tables;
-  double model_bound_nm = 0.0;        // first-order run-time model against the exact chain
+  double model_bound_nm = 0.0;        // first-order run-time model against the exact chain, 0 if
+                                      // not asked for
   std::vector<std::string> warnings;  // in words
 };
 

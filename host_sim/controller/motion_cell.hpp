@@ -1,29 +1,27 @@
 #pragma once
-// A simulated machine under control: interpolator, servo interrupt with the real compensator in it,
-// drives, and the true machine that all of them move.
+// A simulated machine under control: an interpolator, the axes it moves, and the true machine that
+// all of them are.
 
 #include <functional>
 #include <memory>
+#include <vector>
 
-#include "comp/tables/machine_tables.hpp"
-#include "firmware/integrated/servo_loop.hpp"
-#include "host_sim/controller/simulated_axes.hpp"
+#include "host_sim/controller/axis_group.hpp"
 #include "host_sim/machine/machine_file.hpp"
+#include "host_sim/machine/true_machine.hpp"
 
 namespace volcomp::sim {
 
 class MotionCell {
  public:
-  // `image`: table image of the compensation, empty for an uncompensated machine. The image goes
-  // the whole way: decoded, validated, folded, activated, ramped in. Throws UserError.
-  MotionCell(const TrueMachine& machine, const CorrectionFile& settings,
-             const std::vector<std::uint8_t>& image);
+  // `machine` must outlive the cell.
+  MotionCell(const TrueMachine& machine, std::unique_ptr<AxisGroup> axes);
 
   using OnTick = std::function<void(const MotionCell&)>;
 
   // Stands still at a place until everything has settled, without travelling there.
   void place(const Vec3& at_mm);
-  // Straight line with trapezoidal speed, then settles. `on_tick` sees every servo period of the
+  // Straight line with trapezoidal speed, then settles. `on_tick` sees every control period of the
   // motion.
   void move_to(const Vec3& to_mm, double feed_mm_per_s, const OnTick& on_tick = {});
   // Full circle in the XY plane, counter-clockwise (turns > 0) or clockwise, starting and ending at
@@ -35,25 +33,22 @@ class MotionCell {
   // target, plus its error.
   [[nodiscard]] Vec3 deviation_mm() const;  // actual − target
   [[nodiscard]] Vec3 target_mm() const { return target_; }
-  [[nodiscard]] const SimulatedAxes& axes() const { return axes_; }
-  [[nodiscard]] const LoadedCompensator& compensator() const { return *compensator_; }
-  [[nodiscard]] std::uint64_t ticks() const { return ticks_; }
-  [[nodiscard]] double period_s() const { return period_s_; }
+  [[nodiscard]] const AxisGroup& axes() const { return *axes_; }
 
  private:
-  void servo_period(const Vec3& target_mm, const OnTick& on_tick);
-  void settle(const OnTick& on_tick);
+  void cycle(const Vec3& target_mm, const OnTick& on_tick);
+  void settle();
 
   const TrueMachine& machine_;
+  std::unique_ptr<AxisGroup> axes_;
   double period_s_;
-  SimulatedAxes axes_;
-  std::unique_ptr<LoadedCompensator> compensator_;
-  ServoLoop<LoadedCompensator, SimulatedAxes> loop_;
   Vec3 target_ = Vec3::Zero();
-  std::uint64_t ticks_ = 0;
 };
 
-// Settings of the compensator for a machine file: mm and seconds turned into units and ticks.
-[[nodiscard]] LoadedCompensator::Settings compensator_settings(const CorrectionFile& correction);
+// Builds a cell around a true machine, which must outlive it. `image`: tables of the compensation,
+// empty for none. Throws UserError.
+using CellFactory = std::function<std::unique_ptr<MotionCell>(
+    const TrueMachine& machine, const CorrectionFile& correction,
+    const std::vector<std::uint8_t>& image)>;
 
 }  // namespace volcomp::sim

@@ -8,6 +8,9 @@
 
 namespace volcomp::sim {
 
+// Of the position loop, in every simulated drive whatever commands it.
+inline constexpr double kDriveTimeConstant_s = 0.002;
+
 class AxisDrive {
  public:
   AxisDrive(double period_s, double time_constant_s)

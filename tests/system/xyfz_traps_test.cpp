@@ -32,9 +32,9 @@ class XyfzTraps : public testing::Test {
   static double pnp_um(const std::vector<std::uint8_t>& image) {
     Random unused(0);
     const DiagonalBox box = travel_box(*file);
-    MotionCell cell(*truth, file->correction, image);
-    cell.place(box.lo);
-    return measure_diagonal(cell, body_diagonals(box)[kPnp], kDiagonalPoints, {}, unused)
+    const auto cell = make_integrated_cell(*truth, file->correction, image);
+    cell->place(box.lo);
+    return measure_diagonal(*cell, body_diagonals(box)[kPnp], kDiagonalPoints, {}, unused)
         .max_abs_um;
   }
 
@@ -105,11 +105,11 @@ TEST_F(XyfzTraps, ClosureIsRobustOverMachinesThePapersVariantIsNot) {
     const Campaign measured = perfect_campaign(other, *file);
     const auto worst_of = [&](ModelKind kind) {
       const auto tables = commission(measured.machine, measured.runs, {kind});
-      MotionCell cell(other, file->correction, make_image(tables->tables));
+      const auto cell = make_integrated_cell(other, file->correction, make_image(tables->tables));
       const DiagonalBox box = travel_box(*file);
-      cell.place(box.lo);
+      cell->place(box.lo);
       Random unused(0);
-      return measure_diagonal(cell, body_diagonals(box)[kPnp], kDiagonalPoints, {}, unused)
+      return measure_diagonal(*cell, body_diagonals(box)[kPnp], kDiagonalPoints, {}, unused)
           .max_abs_um;
     };
     ++machines;

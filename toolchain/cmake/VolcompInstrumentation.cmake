@@ -1,7 +1,9 @@
 # VOLCOMP_SANITIZE, VOLCOMP_COVERAGE and VOLCOMP_FUZZ: flags for every target below the project folder.
 
 if(VOLCOMP_SANITIZE)
-  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all)
+  # No vptr check: it needs the type information that the libraries of the target are built without.
+  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
+    -fno-sanitize-recover=all)
   add_compile_options(${volcomp_sanitizers} -O1 -fno-omit-frame-pointer)
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
   add_link_options(${volcomp_sanitizers})
@@ -17,7 +19,8 @@ if(VOLCOMP_FUZZ)
     message(FATAL_ERROR "VOLCOMP_FUZZ needs clang: configure with the preset \"fuzz\".")
   endif()
   # Without -fno-sanitize-recover an undefined-behaviour report would not end the run.
-  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all)
+  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
+    -fno-sanitize-recover=all)
   add_compile_options(-fsanitize=fuzzer-no-link ${volcomp_sanitizers} -O1 -fno-omit-frame-pointer)
   add_link_options(${volcomp_sanitizers})
   add_custom_target(volcomp_fuzzers)

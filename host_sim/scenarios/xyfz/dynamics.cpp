@@ -33,12 +33,14 @@ void keep(Trace& trace, double x, double y) {
 // model stand at the (integer) target.
 template <class ErrorAt>
 double offset_error_nm(const MotionCell& cell, const ErrorAt& error_at) {
+  const TargetsNm target_nm = cell.axes().target_nm();
+  const OffsetsNm offset_nm = cell.axes().offset_nm();
   Vec3 target;
   Vec3 applied;
-  for (std::size_t a = 0; a < 3; ++a) {
+  for (std::size_t a = 0; a < kGroupAxes; ++a) {
     const auto i = static_cast<Eigen::Index>(a);
-    target(i) = static_cast<double>(cell.axes().target_nm()[a]) / kNmPerMm;
-    applied(i) = static_cast<double>(cell.axes().offset_nm()[a]);
+    target(i) = static_cast<double>(target_nm[a]) / kNmPerMm;
+    applied(i) = static_cast<double>(offset_nm[a]);
   }
   const Vec3 wanted = compensated_command(error_at, target, 4) - target;
   return (applied - kNmPerMm * wanted).cwiseAbs().maxCoeff();
@@ -57,15 +59,13 @@ Trace straightness(const std::vector<double>& path, const std::vector<Vec3>& dev
   return trace;
 }
 
-void run_line(const TrueMachine& truth, const MachineFile& machine, const Commissioned& closed,
+void run_line(MotionCell& cell, const MachineFile& machine, const Commissioned& closed,
               bool compensated, Dynamics& out) {
   const Diagonal line = body_diagonals(travel_box(machine))[kPnp];
   const Travels travels = travels_of(line.direction());
   const auto error_at = [&](const Vec3& q) {
     return closed.model.first_order(pose_of(q), travels, Beyond::stand_at_end);
   };
-  MotionCell cell(truth, machine.correction,
-                  compensated ? make_image(closed.tables) : std::vector<std::uint8_t>{});
   cell.place(line.start);
   std::vector<double> path;
   std::vector<Vec3> deviation;
@@ -89,11 +89,7 @@ void run_line(const TrueMachine& truth, const MachineFile& machine, const Commis
 }
 
 // One turn to get going, one turn measured.
-void run_circle(const TrueMachine& truth, const MachineFile& machine,
-                const std::vector<std::uint8_t>& image, Trace& out) {
-  const DiagonalBox box = travel_box(machine);
-  const Vec3 centre = 0.5 * (box.lo + box.hi);
-  MotionCell cell(truth, machine.correction, image);
+void run_circle(MotionCell& cell, const Vec3& centre, Trace& out) {
   cell.place(centre + Vec3(kCircleRadius_mm, 0.0, 0.0));
   std::size_t tick = 0;
   double travelled = 0.0;
@@ -140,12 +136,17 @@ std::int64_t random_position(const AxisTable& table, Random& random) {
 }  // namespace
 
 Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
-                      const Commissioned& closed) {
+                      const Commissioned& closed, const CellFactory& make_cell) {
+  const DiagonalBox box = travel_box(machine);
+  const Vec3 centre = 0.5 * (box.lo + box.hi);
+  const std::vector<std::uint8_t> image = make_image(closed.tables);
+  const auto raw = [&] { return make_cell(truth, machine.correction, {}); };
+  const auto compensated = [&] { return make_cell(truth, machine.correction, image); };
   Dynamics out;
-  run_line(truth, machine, closed, false, out);
-  run_line(truth, machine, closed, true, out);
-  run_circle(truth, machine, {}, out.circle_raw_um);
-  run_circle(truth, machine, make_image(closed.tables), out.circle_um);
+  run_line(*raw(), machine, closed, false, out);
+  run_line(*compensated(), machine, closed, true, out);
+  run_circle(*raw(), centre, out.circle_raw_um);
+  run_circle(*compensated(), centre, out.circle_um);
   return out;
 }
 

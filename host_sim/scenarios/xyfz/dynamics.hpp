@@ -7,7 +7,7 @@ namespace volcomp::sim {
 
 // With and without the compensation of `closed`, noise-free.
 [[nodiscard]] Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
-                                    const Commissioned& closed);
+                                    const Commissioned& closed, const CellFactory& make_cell);
 
 // Integer tick against the same first-order model in double at random integer positions, inside the
 // tables, at their knots and ends, and beyond; nm.

@@ -45,27 +45,27 @@ Campaign through_files(const Campaign& campaign, const std::filesystem::path& fo
 
 ModeResult verify_mode(const Bench& bench, const std::vector<std::uint8_t>& image) {
   Random unused(0);
-  MotionCell cell(bench.truth, bench.machine.correction, image);
-  cell.place(bench.box.lo);
+  const auto cell = bench.options.make_cell(bench.truth, bench.machine.correction, image);
+  cell->place(bench.box.lo);
   ModeResult result;
   for (const Diagonal& d : body_diagonals(bench.box)) {
-    result.body.push_back(measure_diagonal(cell, d, kDiagonalPoints, {}, unused));
+    result.body.push_back(measure_diagonal(*cell, d, kDiagonalPoints, {}, unused));
   }
   for (const Diagonal& d : face_diagonals(bench.box)) {
-    result.face.push_back(measure_diagonal(cell, d, kDiagonalPoints, {}, unused));
+    result.face.push_back(measure_diagonal(*cell, d, kDiagonalPoints, {}, unused));
   }
   result.pnp_on_knots =
-      measure_diagonal(cell, body_diagonals(bench.box)[kPnp], kKnotPoints, {}, unused);
-  result.volume = measure_volume(cell, bench.box, bench.options.volume_points, bench.options.seed);
+      measure_diagonal(*cell, body_diagonals(bench.box)[kPnp], kKnotPoints, {}, unused);
+  result.volume = measure_volume(*cell, bench.box, bench.options.volume_points, bench.options.seed);
   return result;
 }
 
 double measure_pnp(const TrueMachine& truth, const Bench& bench,
                    const std::vector<std::uint8_t>& image, const InterferometerSetup& setup,
                    Random& random) {
-  MotionCell cell(truth, bench.machine.correction, image);
-  cell.place(bench.box.lo);
-  return measure_diagonal(cell, body_diagonals(bench.box)[kPnp], kDiagonalPoints, setup, random)
+  const auto cell = bench.options.make_cell(truth, bench.machine.correction, image);
+  cell->place(bench.box.lo);
+  return measure_diagonal(*cell, body_diagonals(bench.box)[kPnp], kDiagonalPoints, setup, random)
       .max_abs_um;
 }
 
@@ -86,7 +86,7 @@ DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
   DrawResult out;
   out.raw_um = measure_pnp(at_check, bench, {}, setup, random);
   for (std::size_t m = 0; m < kModels.size(); ++m) {
-    auto tables = commission(campaign.machine, campaign.runs, {kModels[m]});
+    auto tables = commission(campaign.machine, campaign.runs, tables_only(kModels[m]));
     out.residual_um[m] = measure_pnp(at_check, bench, make_image(tables->tables), setup, random);
     const bool keep = draw == 0 && kModels[m] == ModelKind::abbe_closed;
     if (!keep) continue;
@@ -190,7 +190,7 @@ XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress) {
       travel_box(result.machine), options.campaign.empty() ? temporary.path() : options.campaign};
   std::unique_ptr<Commissioned> closed = run_noise_free(bench, progress, result);
   progress(0.2, "line and circle");
-  result.dynamics = run_dynamics(bench.truth, bench.machine, *closed);
+  result.dynamics = run_dynamics(bench.truth, bench.machine, *closed, options.make_cell);
   result.tick_max_error_nm = measure_tick_error_nm(*closed, options.seed);
   result.per_axis = per_axis_remainder(*closed);
   Random lever_noise(options.seed);

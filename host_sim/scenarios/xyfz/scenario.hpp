@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_sim/commissioning/commission.hpp"
+#include "host_sim/controller/integrated_axes.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/truth.hpp"
 #include "host_sim/scenarios/xyfz/verification.hpp"
@@ -27,6 +28,7 @@ struct XyfzOptions {
   std::uint64_t machine_seed = kXyfzMachineSeed;
   std::size_t runs = 5;  // bidirectional, per axis, in a noisy campaign
   int volume_points = 800;
+  CellFactory make_cell = make_integrated_cell;  // what drives the machine
 };
 
 // 0 = uncompensated, then the three models in the order of ModelKind.

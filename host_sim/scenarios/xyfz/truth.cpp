@@ -1,5 +1,7 @@
 #include "host_sim/scenarios/xyfz/truth.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -77,7 +79,7 @@ double naive_residual_um(const MachineFile& file, std::uint64_t phase_seed,
                          const XyfzTuning& tuning) {
   const TrueMachine machine = make_xyfz_truth(file, phase_seed, tuning);
   const Campaign campaign = perfect_campaign(machine, file);
-  const auto naive = commission(campaign.machine, campaign.runs, {ModelKind::naive});
+  const auto naive = commission(campaign.machine, campaign.runs, tables_only(ModelKind::naive));
   return pnp_um(machine, file, naive.get());
 }
 
@@ -85,29 +87,47 @@ double raw_um(const MachineFile& file, std::uint64_t phase_seed, const XyfzTunin
   return pnp_um(make_xyfz_truth(file, phase_seed, tuning), file, nullptr);
 }
 
-// Root of f between lo and hi where it changes sign.
-double bisect(double lo, double hi, const std::function<double(double)>& f) {
-  const bool rising = f(hi) > f(lo);
-  for (int i = 0; i < 60; ++i) {
-    const double mid = 0.5 * (lo + hi);
-    ((f(mid) > 0.0) == rising ? hi : lo) = mid;
+// A function, and a value of it with the place where it was taken.
+using Function = std::function<double(double)>;
+struct Sample {
+  double x = 0.0;
+  double f = 0.0;
+};
+
+// Where f changes sign between two samples, to `tolerance` in x: interpolate, truncate, project
+// (Oliveira and Takahashi, ACM Trans. Math. Softw. 47(1), 2020). Readings are rounded to their
+// resolution, so close up f is a staircase where a secant alone crawls; this stays within one call
+// of bisection. The side nearer to zero is returned.
+double root_between(Sample lo, Sample hi, double tolerance, const Function& f) {
+  const double whole = hi.x - lo.x;
+  double reach = tolerance * std::exp2(std::ceil(std::log2(whole / tolerance)));
+  while (hi.x - lo.x > tolerance) {
+    const double width = hi.x - lo.x;
+    const double middle = 0.5 * (lo.x + hi.x);
+    const double secant = (hi.f * lo.x - lo.f * hi.x) / (hi.f - lo.f);
+    const double inwards = std::min(0.2 * width * width / whole, std::abs(middle - secant));
+    const double aim = secant + std::copysign(inwards, middle - secant);
+    const double room = std::max(0.0, reach - 0.5 * width);
+    const double x = std::clamp(aim, middle - room, middle + room);
+    const Sample next{x, f(x)};
+    ((next.f > 0.0) == (hi.f > 0.0) ? hi : lo) = next;
+    reach *= 0.5;
   }
-  return 0.5 * (lo + hi);
+  return std::abs(lo.f) < std::abs(hi.f) ? lo.x : hi.x;
 }
 
-// The root nearest to `start` on a grid of equal steps, then bisection; throws if there is none.
-double nearest_root(double start, double step, int steps, const std::function<double(double)>& f) {
-  double up = f(start);
-  double down = up;
+// The root nearest to `start` on a grid of equal steps, then refined; throws if there is none.
+double nearest_root(double start, double step, int steps, const Function& f) {
+  const double tolerance = 1e-8 * step;  // far below what one rounded reading changes
+  Sample up{start, f(start)};
+  Sample down = up;
   for (int i = 1; i <= steps; ++i) {
-    const double a = start + i * step;
-    const double b = start - i * step;
-    const double fa = f(a);
-    if ((fa > 0.0) != (up > 0.0)) return bisect(a - step, a, f);
-    const double fb = f(b);
-    if ((fb > 0.0) != (down > 0.0)) return bisect(b, b + step, f);
-    up = fa;
-    down = fb;
+    const Sample above{start + i * step, f(start + i * step)};
+    if ((above.f > 0.0) != (up.f > 0.0)) return root_between(up, above, tolerance, f);
+    const Sample below{start - i * step, f(start - i * step)};
+    if ((below.f > 0.0) != (down.f > 0.0)) return root_between(below, down, tolerance, f);
+    up = above;
+    down = below;
   }
   throw UserError(
       "this phase seed has no machine with the paper's figures; try another --machine-seed");
@@ -142,7 +162,7 @@ TrueMachine make_xyfz_truth(const MachineFile& file, std::uint64_t phase_seed,
 
 XyfzTuning tune_xyfz(const MachineFile& file, std::uint64_t phase_seed) {
   XyfzTuning tuning;
-  constexpr int kRounds = 3;  // the two figures hardly influence each other
+  constexpr int kRounds = 2;  // the two figures hardly influence each other
   for (int round = 0; round < kRounds; ++round) {
     const bool first = round == 0;
     tuning.angle_scale =

@@ -56,6 +56,15 @@ TEST_F(Commissioning, ImageOfTheTablesDecodesToTheSameTables) {
   EXPECT_EQ(make_image(*decoded), image);
 }
 
+TEST_F(Commissioning, BoundOfTheModelIsExtraWorkThatChangesNoTable) {
+  const auto full = commission(campaign.machine, campaign.runs, {ModelKind::abbe_closed});
+  const auto quick =
+      commission(campaign.machine, campaign.runs, tables_only(ModelKind::abbe_closed));
+  EXPECT_GT(full->model_bound_nm, 0.0);
+  EXPECT_DOUBLE_EQ(quick->model_bound_nm, 0.0);
+  EXPECT_EQ(make_image(quick->tables), make_image(full->tables));
+}
+
 TEST_F(Commissioning, EveryAxisNeedsExactlyOneFile) {
   EXPECT_THAT(refusal({campaign.runs[0], campaign.runs[1]}),
               testing::HasSubstr("no runs given for axis Z"));

@@ -1,9 +1,13 @@
 // The simulated machine under control: it goes where it is told, and what the compensation does to
 // it is what the model says.
 
+#include <algorithm>
+#include <memory>
+
 #include <gtest/gtest.h>
 
 #include "host_sim/commissioning/commission.hpp"
+#include "host_sim/controller/integrated_axes.hpp"
 #include "host_sim/controller/motion_cell.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
@@ -18,27 +22,92 @@ class Cell : public testing::Test {
   TrueMachine truth = make_xyfz_truth(file, 5, {});
 };
 
-TEST_F(Cell, UncompensatedMachineStandsOnItsTargetAndShowsItsError) {
-  MotionCell cell(truth, file.correction, {});
-  const Vec3 target(-123.456, -78.9, -321.0);
+// Axes that follow at once, write down where they were sent, and pretend a ramp for a while.
+class IdealAxes final : public AxisGroup {
+ public:
+  explicit IdealAxes(double period_s, int ramp_cycles = 0)
+      : period_s_(period_s), ramp_cycles_(ramp_cycles) {}
+
+  void stand_at(const Vec3& mm) override { target_ = to_targets(mm); }
+  void cycle(const TargetsNm& target) override {
+    target_ = target;
+    ramp_cycles_ = std::max(0, ramp_cycles_ - 1);
+  }
+  [[nodiscard]] double period_s() const override { return period_s_; }
+  [[nodiscard]] TargetsNm target_nm() const override { return target_; }
+  [[nodiscard]] OffsetsNm offset_nm() const override { return {}; }
+  [[nodiscard]] Pose position() const override {
+    Pose q{};
+    for (std::size_t a = 0; a < kGroupAxes; ++a)
+      q[a] = static_cast<double>(target_[a]) / kNmPerMm;
+    return q;
+  }
+  [[nodiscard]] Approach approach() const override { return {}; }
+  [[nodiscard]] double following_error_nm() const override { return 0.0; }
+  [[nodiscard]] bool ramping() const override { return ramp_cycles_ > 0; }
+
+ private:
+  double period_s_;
+  int ramp_cycles_;
+  TargetsNm target_{};
+};
+
+double distance_mm(const TargetsNm& a, const TargetsNm& b) {
+  Vec3 d;
+  for (std::size_t i = 0; i < kGroupAxes; ++i)
+    d(static_cast<Eigen::Index>(i)) = static_cast<double>(a[i] - b[i]) / kNmPerMm;
+  return d.norm();
+}
+
+// A trapezoid of feed v and acceleration a needs L / v + v / a for a length L, and the interpolator
+// does not care how long a control period is.
+TEST_F(Cell, LineKeepsItsFeedAndItsDurationAtAnyPeriod) {
+  constexpr double kFeed = 100.0;
+  constexpr double kAcceleration = 2000.0;
+  for (const double period_s : {0.0005, 0.001, 0.004}) {
+    MotionCell cell(truth, std::make_unique<IdealAxes>(period_s));
+    const Vec3 from(-400.0, -200.0, -300.0);
+    const Vec3 to(-100.0, -250.0, -50.0);
+    cell.place(from);
+    TargetsNm last = cell.axes().target_nm();
+    int cycles = 0;
+    cell.move_to(to, kFeed, [&](const MotionCell& c) {
+      EXPECT_LE(distance_mm(c.axes().target_nm(), last), kFeed * period_s + 2e-6);
+      last = c.axes().target_nm();
+      ++cycles;
+    });
+    EXPECT_EQ(last, to_targets(to));
+    EXPECT_NEAR(cycles * period_s, (to - from).norm() / kFeed + kFeed / kAcceleration, period_s);
+  }
+}
+
+TEST_F(Cell, StandsUntilTheRampOfTheCompensationIsOver) {
+  MotionCell cell(truth, std::make_unique<IdealAxes>(0.004, 250));
   cell.place(Vec3(-100.0, -50.0, -300.0));
-  cell.move_to(target, 100.0);
-  EXPECT_LT(cell.axes().following_error_nm(), 0.5);
+  EXPECT_FALSE(cell.axes().ramping());
+}
+
+TEST_F(Cell, UncompensatedMachineStandsOnItsTargetAndShowsItsError) {
+  const auto cell = make_integrated_cell(truth, file.correction, {});
+  const Vec3 target(-123.456, -78.9, -321.0);
+  cell->place(Vec3(-100.0, -50.0, -300.0));
+  cell->move_to(target, 100.0);
+  EXPECT_LT(cell->axes().following_error_nm(), 0.5);
   const Vec3 expected =
-      truth.error(cell.axes().position(), cell.axes().approach(), truth.chain.tool_point())
+      truth.error(cell->axes().position(), cell->axes().approach(), truth.chain.tool_point())
           .position_work;
-  EXPECT_LT((cell.deviation_mm() - expected).norm(), 1e-6);
+  EXPECT_LT((cell->deviation_mm() - expected).norm(), 1e-6);
 }
 
 TEST_F(Cell, ArrivingFromBelowAndAboveDiffersByTheReversal) {
-  MotionCell cell(truth, file.correction, {});
+  const auto cell = make_integrated_cell(truth, file.correction, {});
   const Vec3 middle(-250.0, -150.0, -200.0);
-  cell.place(middle - Vec3(1.0, 0.0, 0.0));
-  cell.move_to(middle, 50.0);
-  const double up = cell.deviation_mm().x();
-  cell.move_to(middle + Vec3(1.0, 0.0, 0.0), 50.0);
-  cell.move_to(middle, 50.0);
-  const double down = cell.deviation_mm().x();
+  cell->place(middle - Vec3(1.0, 0.0, 0.0));
+  cell->move_to(middle, 50.0);
+  const double up = cell->deviation_mm().x();
+  cell->move_to(middle + Vec3(1.0, 0.0, 0.0), 50.0);
+  cell->move_to(middle, 50.0);
+  const double down = cell->deviation_mm().x();
   // The own reversal of X plus what its angular reversals do at the functional point.
   const Vec3 lever(truth.chain.tool_point() + Vec3(220.0, 670.0, 950.0) + middle);
   const Vec3 turn(truth.axis[0].reversal[3], truth.axis[0].reversal[4], truth.axis[0].reversal[5]);
@@ -50,7 +119,7 @@ TEST_F(Cell, DamagedImageNeverReachesTheMachine) {
   std::vector<std::uint8_t> image =
       make_image(commission(campaign.machine, campaign.runs, {})->tables);
   image[image.size() / 2] ^= 1U;
-  EXPECT_THROW(MotionCell(truth, file.correction, image), UserError);
+  EXPECT_THROW(static_cast<void>(make_integrated_cell(truth, file.correction, image)), UserError);
 }
 
 TEST_F(Cell, EveryOffsetObeysLimitAndRate) {
@@ -58,12 +127,12 @@ TEST_F(Cell, EveryOffsetObeysLimitAndRate) {
   CorrectionFile tight = file.correction;
   tight.limit_mm = 0.02;
   tight.rate_mm_per_s = 0.5;
-  MotionCell cell(truth, tight,
-                  make_image(commission(campaign.machine, campaign.runs, {})->tables));
-  cell.place(Vec3(-500.0, -300.0, -400.0));
-  auto before = cell.axes().offset_nm();
+  const auto cell = make_integrated_cell(
+      truth, tight, make_image(commission(campaign.machine, campaign.runs, {})->tables));
+  cell->place(Vec3(-500.0, -300.0, -400.0));
+  auto before = cell->axes().offset_nm();
   bool limit_reached = false;
-  cell.move_to(Vec3(0.0, 0.0, 0.0), 400.0, [&](const MotionCell& c) {
+  cell->move_to(Vec3(0.0, 0.0, 0.0), 400.0, [&](const MotionCell& c) {
     for (std::size_t a = 0; a < 3; ++a) {
       const std::int32_t now = c.axes().offset_nm()[a];
       EXPECT_LE(std::abs(now), 20'000);

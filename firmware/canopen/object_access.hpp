@@ -1,0 +1,40 @@
+#pragma once
+// What an SDO server does with the objects of its device: whole values in, whole values out. Both
+// directions work on bytes in place; a domain (table image) is never copied.
+
+#include "comp/span.hpp"
+#include "firmware/canopen/abort_code.hpp"
+
+namespace volcomp::canopen {
+
+struct ObjectId {
+  std::uint16_t index = 0;
+  std::uint8_t sub = 0;
+};
+
+constexpr bool operator==(ObjectId a, ObjectId b) { return a.index == b.index && a.sub == b.sub; }
+constexpr bool operator!=(ObjectId a, ObjectId b) { return !(a == b); }
+
+class ObjectAccess {
+ public:
+  // The bytes of the object, little-endian as they go over the bus. `source` stays valid until the
+  // next call of any member, for a domain until the next download to it.
+  virtual AbortCode begin_upload(ObjectId object, Span<const std::uint8_t>& source) = 0;
+
+  // Where to put the incoming bytes: `sink` is as large as the object may become. `announced` is
+  // the size the client promises, 0 = not said; a promise that cannot be kept is refused here.
+  virtual AbortCode begin_download(ObjectId object, std::size_t announced,
+                                   Span<std::uint8_t>& sink) = 0;
+  // The first `size` bytes of the sink are complete: check them and make them the value.
+  virtual AbortCode finish_download(ObjectId object, std::size_t size) = 0;
+  // A download that began will not be finished (abort, timeout, new request).
+  virtual void abandon_download(ObjectId object) = 0;
+
+ protected:
+  ObjectAccess() = default;
+  ObjectAccess(const ObjectAccess&) = default;
+  ObjectAccess& operator=(const ObjectAccess&) = default;
+  ~ObjectAccess() = default;
+};
+
+}  // namespace volcomp::canopen

@@ -1,0 +1,182 @@
+#include "firmware/canopen/pdo.hpp"
+
+#include <cstring>
+
+#include "firmware/canopen/cob_id.hpp"
+
+namespace volcomp::canopen {
+namespace {
+
+// Types as indices: placeholders that skip bytes of an RPDO (CiA 301, section 7.4.7).
+constexpr std::uint16_t kLastDummy = 0x0007;
+
+AbortCode resolve(std::uint32_t mapping, PdoKind kind, const ObjectDictionary& objects,
+                  std::uint8_t*& value) {
+  const ObjectId object = object_of(mapping);
+  const std::size_t bits = mapping & 0xFFU;
+  value = nullptr;
+  if (object.index <= kLastDummy) {
+    const bool whole = bits == 8U * size_of(static_cast<DataType>(object.index));
+    const bool dummy = kind == PdoKind::receive && object.index > 1 && object.sub == 0 && whole;
+    return dummy ? AbortCode::none : AbortCode::not_mappable;
+  }
+  const ObjectDictionary::Found found = objects.find(object);
+  if (found.why != AbortCode::none) return found.why;
+  const bool allowed = found.entry != nullptr &&
+                       found.entry->has(kind == PdoKind::receive ? kReceive : kTransmit) &&
+                       bits == 8U * size_of(found.entry->type);
+  if (!allowed) return AbortCode::not_mappable;
+  value = found.value;
+  return AbortCode::none;
+}
+
+}  // namespace
+
+AbortCode Pdo::configure(const PdoParameters& parameters, PdoKind kind,
+                         const ObjectDictionary& objects) {
+  std::array<Piece, kMostMapped> pieces{};
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < parameters.count; ++i) {
+    const AbortCode why = resolve(parameters.mapping[i], kind, objects, pieces[i].value);
+    if (why != AbortCode::none) return why;
+    pieces[i].bytes = static_cast<std::uint8_t>((parameters.mapping[i] & 0xFFU) / 8U);
+    bytes += pieces[i].bytes;
+    if (bytes > 8) return AbortCode::mapping_too_long;
+  }
+  parameters_ = parameters;
+  piece_ = pieces;
+  bytes_ = static_cast<std::uint8_t>(bytes);
+  return AbortCode::none;
+}
+
+void Pdo::set_communication(const PdoParameters& parameters) {
+  parameters_.cob_id = parameters.cob_id;
+  parameters_.type = parameters.type;
+  parameters_.inhibit_100us = parameters.inhibit_100us;
+  parameters_.event_timer_ms = parameters.event_timer_ms;
+}
+
+void Pdo::scatter(const hal::CanFrame& frame) const {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < parameters_.count; ++i) {
+    if (piece_[i].value != nullptr)
+      std::memcpy(piece_[i].value, frame.data.data() + at, piece_[i].bytes);
+    at += piece_[i].bytes;
+  }
+}
+
+void Pdo::gather(hal::CanFrame& frame) const {
+  frame = {};
+  frame.id = id();
+  for (std::size_t i = 0; i < parameters_.count; ++i) {
+    std::memcpy(frame.data.data() + frame.size, piece_[i].value, piece_[i].bytes);
+    frame.size = static_cast<std::uint8_t>(frame.size + piece_[i].bytes);
+  }
+}
+
+PdoTable::Place PdoTable::place(std::uint16_t index) const {
+  Place at;
+  at.mapping = (index & 0x0200U) != 0;
+  at.kind = index < kTransmitCommunication ? PdoKind::receive : PdoKind::transmit;
+  const Span<Pdo>& pdos = at.kind == PdoKind::receive ? receive_ : transmit_;
+  const std::size_t number = index & 0x01FFU;
+  if (owns(index) && number < pdos.size()) at.pdo = &pdos[number];
+  return at;
+}
+
+AbortCode PdoTable::read(ObjectId object, Value& value) const {
+  const Place at = place(object.index);
+  if (at.pdo == nullptr) return AbortCode::no_object;
+  const PdoParameters& p = at.pdo->parameters();
+  if (at.mapping) {
+    if (object.sub > kMostMapped) return AbortCode::no_subindex;
+    value = object.sub == 0 ? Value{p.count, 1} : Value{p.mapping[object.sub - 1U], 4};
+    return AbortCode::none;
+  }
+  switch (object.sub) {
+    case 0:
+      value = {at.kind == PdoKind::receive ? 2U : 5U, 1};
+      return AbortCode::none;
+    case 1:
+      value = {p.cob_id, 4};
+      return AbortCode::none;
+    case 2:
+      value = {p.type, 1};
+      return AbortCode::none;
+    default:
+      break;
+  }
+  if (at.kind == PdoKind::transmit && object.sub == 3)
+    value = {p.inhibit_100us, 2};
+  else if (at.kind == PdoKind::transmit && object.sub == 5)
+    value = {p.event_timer_ms, 2};
+  else
+    return AbortCode::no_subindex;
+  return AbortCode::none;
+}
+
+AbortCode PdoTable::writable(ObjectId object, std::uint8_t& bytes) const {
+  Value value;
+  const AbortCode why = read(object, value);
+  if (why != AbortCode::none) return why;
+  bytes = value.bytes;
+  const bool count_of_record = !place(object.index).mapping && object.sub == 0;
+  return count_of_record ? AbortCode::read_only : AbortCode::none;
+}
+
+AbortCode PdoTable::write(ObjectId object, std::uint32_t value) {
+  const Place at = place(object.index);
+  if (at.pdo == nullptr) return AbortCode::no_object;
+  return at.mapping ? write_mapping(at, object.sub, value)
+                    : write_communication(at, object.sub, value);
+}
+
+// The identifier may change only while the PDO is invalid.
+AbortCode PdoTable::write_cob_id(const Place& place, PdoParameters& p, std::uint32_t value) {
+  const auto id = static_cast<std::uint16_t>(value & hal::kMaxCanId);
+  const bool turns_valid = (value & kPdoInvalid) == 0;
+  const bool extended = (value & 0x1FFF'F800U) != 0 || (value & (1U << 29U)) != 0;
+  if (extended || (turns_valid && restricted(id))) return AbortCode::invalid_value;
+  if (turns_valid && place.pdo->valid() && id != place.pdo->id()) return AbortCode::invalid_value;
+  p.cob_id = value;
+  return AbortCode::none;
+}
+
+AbortCode PdoTable::write_communication(const Place& place, std::uint8_t sub, std::uint32_t value) {
+  PdoParameters p = place.pdo->parameters();
+  if (sub == 1) {
+    const AbortCode why = write_cob_id(place, p, value);
+    if (why != AbortCode::none) return why;
+  } else if (sub == 2) {
+    if (value > kMostCyclicType && value < kEventType) return AbortCode::invalid_value;
+    p.type = static_cast<std::uint8_t>(value);
+  } else if (sub == 3 && place.kind == PdoKind::transmit) {
+    if (place.pdo->valid()) return AbortCode::unsupported_access;
+    p.inhibit_100us = static_cast<std::uint16_t>(value);
+  } else if (sub == 5 && place.kind == PdoKind::transmit) {
+    p.event_timer_ms = static_cast<std::uint16_t>(value);
+  } else {
+    return AbortCode::no_subindex;
+  }
+  place.pdo->set_communication(p);
+  return AbortCode::none;
+}
+
+AbortCode PdoTable::write_mapping(const Place& place, std::uint8_t sub, std::uint32_t value) {
+  PdoParameters p = place.pdo->parameters();
+  if (sub > kMostMapped) return AbortCode::no_subindex;
+  if (place.pdo->valid()) return AbortCode::unsupported_access;
+  if (sub == 0) {
+    if (value > kMostMapped) return AbortCode::mapping_too_long;
+    p.count = static_cast<std::uint8_t>(value);
+    return place.pdo->configure(p, place.kind, objects_);
+  }
+  if (p.count != 0) return AbortCode::unsupported_access;
+  std::uint8_t* unused = nullptr;
+  const AbortCode why = value == 0 ? AbortCode::none : resolve(value, place.kind, objects_, unused);
+  if (why != AbortCode::none) return why;
+  p.mapping[sub - 1U] = value;
+  return place.pdo->configure(p, place.kind, objects_);
+}
+
+}  // namespace volcomp::canopen

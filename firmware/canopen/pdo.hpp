@@ -1,0 +1,110 @@
+#pragma once
+// Process data objects (CiA 301, sections 7.2.2 and 7.5.2.35–38): parameters that can be changed
+// over SDO, mapping resolved to addresses once, frames copied at run time.
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/canopen/object_dictionary.hpp"
+#include "hal/can_port.hpp"
+
+namespace volcomp::canopen {
+
+inline constexpr std::size_t kMostMapped = 8;
+inline constexpr std::uint32_t kPdoInvalid = 1U << 31U;
+inline constexpr std::uint32_t kPdoNoRtr = 1U << 30U;
+
+// Transmission types (CiA 301, tables 67 and 72).
+inline constexpr std::uint8_t kMostCyclicType = 240;  // 1…240: every n-th SYNC; 0: acyclic, at SYNC
+inline constexpr std::uint8_t kEventType = 254;       // 254, 255: when the application says so
+
+// index << 16 | sub-index << 8 | bits.
+constexpr std::uint32_t mapped(std::uint16_t index, std::uint8_t sub, std::uint8_t bits) {
+  return std::uint32_t{index} << 16U | std::uint32_t{sub} << 8U | bits;
+}
+constexpr ObjectId object_of(std::uint32_t mapping) {
+  return {static_cast<std::uint16_t>(mapping >> 16U), static_cast<std::uint8_t>(mapping >> 8U)};
+}
+
+struct PdoParameters {
+  std::uint32_t cob_id = kPdoInvalid;
+  std::uint8_t type = kEventType;
+  std::uint16_t inhibit_100us = 0;   // TPDO
+  std::uint16_t event_timer_ms = 0;  // TPDO: sent at least so often; RPDO: not used
+  std::uint8_t count = 0;
+  std::array<std::uint32_t, kMostMapped> mapping{};
+};
+
+enum class PdoKind : std::uint8_t { receive, transmit };
+
+// One PDO: its parameters and where its bytes come from or go to.
+class Pdo {
+ public:
+  [[nodiscard]] const PdoParameters& parameters() const { return parameters_; }
+  [[nodiscard]] bool valid() const { return (parameters_.cob_id & kPdoInvalid) == 0; }
+  [[nodiscard]] std::uint16_t id() const {
+    return static_cast<std::uint16_t>(parameters_.cob_id & hal::kMaxCanId);
+  }
+  [[nodiscard]] std::uint8_t bytes() const { return bytes_; }
+  [[nodiscard]] bool synchronous() const { return parameters_.type <= kMostCyclicType; }
+
+  // Replaces all parameters. Refuses no_object, not_mappable, mapping_too_long.
+  AbortCode configure(const PdoParameters& parameters, PdoKind kind,
+                      const ObjectDictionary& objects);
+  void set_communication(const PdoParameters& parameters);
+
+  void scatter(const hal::CanFrame& frame) const;  // frame.size ≥ bytes()
+  void gather(hal::CanFrame& frame) const;
+
+ private:
+  struct Piece {
+    std::uint8_t* value = nullptr;  // nullptr: dummy, skipped
+    std::uint8_t bytes = 0;
+  };
+  PdoParameters parameters_{};
+  std::array<Piece, kMostMapped> piece_{};
+  std::uint8_t bytes_ = 0;
+};
+
+// What 1400h, 1600h, 1800h and 1A00h and following say, read and written over SDO.
+class PdoTable {
+ public:
+  PdoTable(Span<Pdo> receive, Span<Pdo> transmit, const ObjectDictionary& objects)
+      : receive_(receive), transmit_(transmit), objects_(objects) {}
+
+  static constexpr std::uint16_t kReceiveCommunication = 0x1400;
+  static constexpr std::uint16_t kReceiveMapping = 0x1600;
+  static constexpr std::uint16_t kTransmitCommunication = 0x1800;
+  static constexpr std::uint16_t kTransmitMapping = 0x1A00;
+  [[nodiscard]] static bool owns(std::uint16_t index) { return index >= 0x1400 && index < 0x1C00; }
+
+  struct Value {
+    std::uint32_t value = 0;
+    std::uint8_t bytes = 0;
+  };
+  AbortCode read(ObjectId object, Value& value) const;
+  // How many bytes an object has; refuses read_only ones and what does not exist.
+  AbortCode writable(ObjectId object, std::uint8_t& bytes) const;
+  // The order CiA 301 prescribes: invalid, count 0, entries, count, valid.
+  AbortCode write(ObjectId object, std::uint32_t value);
+
+  [[nodiscard]] Span<Pdo> receive() const { return receive_; }
+  [[nodiscard]] Span<Pdo> transmit() const { return transmit_; }
+
+ private:
+  struct Place {
+    Pdo* pdo = nullptr;
+    PdoKind kind = PdoKind::receive;
+    bool mapping = false;
+  };
+  [[nodiscard]] Place place(std::uint16_t index) const;
+  static AbortCode write_communication(const Place& place, std::uint8_t sub, std::uint32_t value);
+  AbortCode write_mapping(const Place& place, std::uint8_t sub, std::uint32_t value);
+  static AbortCode write_cob_id(const Place& place, PdoParameters& p, std::uint32_t value);
+
+  Span<Pdo> receive_;
+  Span<Pdo> transmit_;
+  const ObjectDictionary& objects_;
+};
+
+}  // namespace volcomp::canopen

@@ -1,0 +1,83 @@
+#pragma once
+// The SDO server of a device (CiA 301, section 7.2.4): expedited, segmented and block transfer with
+// CRC in both directions. One transfer at a time; frames are handed in and taken out, time is told.
+//
+//   server.request(frame, now);  or  server.poll(now);
+//   while (server.response(frame)) send(frame);
+//
+// Incoming bytes go straight into the object's memory, outgoing ones come straight from it.
+
+#include "firmware/canopen/sdo_transfer.hpp"
+
+namespace volcomp::canopen {
+
+class SdoServer {
+ public:
+  // `access` must outlive the server.
+  explicit SdoServer(ObjectAccess& access) : access_(access) {}
+
+  // A transfer without a request for that long is aborted. After half of it in the middle of a
+  // block download the client is told what has arrived, once, in case the end of the block was
+  // lost.
+  void set_timeout_us(std::uint64_t timeout_us) { timeout_us_ = timeout_us; }
+
+  // One frame from the client. An initiate request in the middle of a transfer drops that transfer.
+  void request(const SdoData& frame, std::uint64_t now_us);
+  // The next frame to send, false when there is none: one per request, up to 127 segments after the
+  // request for a block, made when they are asked for.
+  [[nodiscard]] bool response(SdoData& out);
+  // Time passed; may produce a response.
+  void poll(std::uint64_t now_us);
+  // Communication reset: transfer and response are dropped without a word.
+  void reset();
+
+ private:
+  enum class Phase : std::uint8_t {
+    idle,
+    download,
+    upload,
+    block_download,
+    block_download_end,
+    block_download_aborted,  // segments that were under way when the transfer failed still arrive
+    block_upload_start,
+    block_upload,
+    block_upload_end,
+  };
+
+  void initiate_download(const SdoData& frame);
+  void download_segment(const SdoData& frame);
+  void initiate_upload(const SdoData& frame);
+  void upload_segment(const SdoData& frame);
+  void answer_upload();
+  void block_download(const SdoData& frame);
+  void initiate_block_download(const SdoData& frame);
+  void block_download_segment(const SdoData& frame);
+  void confirm_block();
+  void block_upload(const SdoData& frame);
+  void initiate_block_upload(const SdoData& frame);
+  void block_upload_confirmed(const SdoData& frame);
+
+  [[nodiscard]] bool open_download(const SdoData& frame, std::optional<std::size_t> announced);
+  [[nodiscard]] bool open_upload(const SdoData& frame);
+  [[nodiscard]] bool in(Phase phase);
+  void finish_download(const SdoData& response);
+  void answer(const SdoData& frame);
+  void abort(AbortCode code);
+  void drop();
+
+  ObjectAccess& access_;
+  SdoSender sender_;
+  SdoReceiver receiver_;
+  ObjectId object_{};
+  SdoData response_{};
+  std::uint64_t timeout_us_ = kSdoTimeout_us;
+  std::uint64_t last_active_us_ = 0;
+  Phase phase_ = Phase::idle;
+  std::uint8_t toggle_ = 0;
+  bool response_waiting_ = false;
+  bool download_open_ = false;  // begun at the ObjectAccess, neither finished nor abandoned
+  bool sending_ = false;        // block segments left since the last poll
+  bool prompted_ = false;       // the client, since its last request
+};
+
+}  // namespace volcomp::canopen

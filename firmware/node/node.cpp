@@ -1,0 +1,177 @@
+#include "firmware/node/node.hpp"
+
+#include "firmware/canopen/bytes.hpp"
+
+namespace volcomp::node {
+
+using canopen::AbortCode;
+using canopen::ErrorCode;
+using canopen::NmtState;
+
+namespace {
+
+constexpr std::uint64_t kScrubPeriod_us = 10'000'000;
+
+bool is_image(canopen::ObjectId object) { return object.index == 0x2110 && object.sub == 1; }
+
+// What the cycle relies on may change only while there is no cycle.
+bool is_setting(std::uint16_t index) {
+  return index == 0x2000 || index == 0x2010 || (index >= 0x2030 && index <= 0x2033) ||
+         (index >= 0x2200 && index <= 0x2205);
+}
+
+}  // namespace
+
+Node::Node(std::uint8_t node_id, Storage* storage)
+    : device_({node_dictionary(),
+               &objects_.communication,
+               {receive_.data(), receive_.size()},
+               {transmit_.data(), transmit_.size()}},
+              *this),
+      download_(objects_, compensator_),
+      storage_(storage) {
+  device_.set_node_id(node_id);
+}
+
+// --- resets
+
+void Node::reset_application() {
+  objects_ = {};
+  compensator_.restart({});
+  download_.reset();
+  running_ = cycle_open_ = false;
+  load_stored(true);
+}
+
+void Node::reset_communication() {
+  canopen::CommunicationObjects& c = objects_.communication;
+  canopen::CommunicationObjects fresh;
+  fresh.error_register = c.error_register;
+  fresh.error_count = c.error_count;
+  fresh.error_history = c.error_history;
+  c = fresh;
+  c.device_type = 0;  // no standard device profile
+  c.device_name = {"volcomp compensation"};
+  c.hardware_version = {"1"};
+  c.software_version = {VOLCOMP_NODE_VERSION};
+  c.identity = {0, 0x564F4C43, 1, 0};  // "VOLC"; a vendor id has to be bought
+  c.producer_heartbeat_ms = 100;
+  c.sync_counter_overflow = 240;
+  c.emergency_inhibit_100us = 100;
+  set_default_pdos();
+  load_stored(false);
+}
+
+void Node::state_changed(NmtState state, std::uint64_t now_us) {
+  running_ = cycle_open_ = false;
+  arrived_ = {};
+  for (OffsetGate& gate : gate_)
+    gate.forget();
+  for (WirePosition& position : position_)
+    position.reset();
+  next_scrub_us_ = now_us + kScrubPeriod_us;
+  objects_.state = static_cast<std::uint8_t>(NodeState::idle);
+  if (state != NmtState::operational) return;
+  report(configure(), objects_);
+  report_status();
+}
+
+void Node::poll(std::uint64_t now_us) {
+  device_.poll(now_us);
+  if (cycle_open_ && now_us >= deadline_us_) {
+    ++objects_.deadline_missed;
+    compute(now_us);
+  }
+  if (now_us < next_scrub_us_) return;
+  next_scrub_us_ = now_us + kScrubPeriod_us;
+  const Status status = compensator_.scrub();
+  if (status.ok()) return;
+  if (!running_) compensator_.settle();
+  report(status, objects_);
+  download_.lost_active();
+  device_.emergency().raise(ErrorCode::table_damaged, 0);
+}
+
+// --- other nodes
+
+bool Node::heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint64_t /*now_us*/) {
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    const bool gone = event != canopen::HeartbeatEvent::back;
+    if (gone && objects_.drive[a] == node) gate_[a].forget();
+  }
+  return node == objects_.controller;
+}
+
+void Node::bad_sync(canopen::SyncVerdict verdict, std::uint64_t /*now_us*/) {
+  clean_syncs_ = 0;
+  const bool foreign = verdict == canopen::SyncVerdict::foreign;
+  device_.emergency().raise(foreign ? ErrorCode::foreign_sync : ErrorCode::sync_length, 0);
+}
+
+// --- objects
+
+AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*entry*/,
+                             Span<const std::uint8_t> bytes) {
+  if (is_setting(object.index) && device_.state() == NmtState::operational)
+    return AbortCode::device_state;
+  switch (object.index) {
+    case 0x1010:
+      return run_store(bytes);
+    case 0x1011:
+      return run_restore(bytes);
+    case 0x2111:
+      return run_table_command(static_cast<TableCommand>(bytes[0]));
+    default:
+      return AbortCode::none;
+  }
+}
+
+AbortCode Node::run_table_command(TableCommand command) {
+  const AbortCode why = download_.command(command, running_);
+  canopen::Emergency& emergency = device_.emergency();
+  if (why == AbortCode::general)
+    emergency.raise(ErrorCode::table_refused, objects_.where_axis, {objects_.reason});
+  if (why != AbortCode::none || command < TableCommand::validate) return why;
+  for (std::size_t letter = 0; letter < 128; ++letter)
+    emergency.clear(ErrorCode::table_refused, static_cast<std::uint8_t>(letter));
+  if (command == TableCommand::activate) emergency.clear(ErrorCode::table_damaged, 0);
+  return why;
+}
+
+void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
+  objects_.store = objects_.restore = 1;
+  if (object.index == 0x2010) set_default_pdos();
+  if (object.index == 0x2206 && objects_.drives_report == 0) {
+    const std::size_t axis = object.sub - 1U;
+    gate_[axis].start_at(offset_to_wire(objects_.start_offset[axis], scale_[axis]));
+  }
+}
+
+void Node::before_read(canopen::ObjectId object) {
+  if (object.index < 0x2600) return;
+  const Diagnostics<kNodeAxes>& d = compensator_.diagnostics();
+  objects_.activations = d.activations;
+  objects_.rejections = d.rejections;
+  objects_.sync_missed = device_.sync().missed();
+  objects_.sync_foreign = device_.sync().foreign();
+  objects_.largest = d.largest;
+  objects_.began = d.began;
+}
+
+AbortCode Node::read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) {
+  return is_image(object) ? download_.read(source) : AbortCode::no_data;
+}
+
+AbortCode Node::begin_domain(canopen::ObjectId object, std::size_t announced,
+                             Span<std::uint8_t>& sink) {
+  return is_image(object) ? download_.begin(announced, sink) : AbortCode::unsupported_access;
+}
+
+AbortCode Node::finish_domain(canopen::ObjectId /*object*/, std::size_t size) {
+  download_.finish(size);
+  return AbortCode::none;
+}
+
+void Node::abandon_domain(canopen::ObjectId /*object*/) { download_.abandon(); }
+
+}  // namespace volcomp::node

@@ -1,0 +1,123 @@
+#pragma once
+// The compensation node: a CANopen device that listens to what motion controller and drives tell
+// each other, and sends every drive the offset 60B0h that makes the tool point stand where the
+// controller meant it.
+//
+// One cycle: SYNC n comes; controller and drives send their process data; when all of it is there,
+// or at the deadline, the compensator ticks and the offsets leave in the same cycle; the drives
+// take them together with 607Ah at SYNC n + 1. What is missing at the deadline is stale: the axis
+// is held, then ramped down, the others go on.
+//
+// Like the Device inside it, the node does no input or output of its own; see canopen/device.hpp
+// for the loop around it. Everything is allocated statically; no call blocks.
+
+#include "comp/realtime/instances.hpp"
+#include "firmware/canopen/device.hpp"
+#include "firmware/node/node_objects.hpp"
+#include "firmware/node/offset_gate.hpp"
+#include "firmware/node/storage.hpp"
+#include "firmware/node/table_download.hpp"
+#include "firmware/node/wire_scale.hpp"
+
+namespace volcomp::node {
+
+class Node final : private canopen::Application {
+ public:
+  // `storage` may be nullptr: 1010h and 1011h then refuse. `node_id` 1…127.
+  Node(std::uint8_t node_id, Storage* storage);
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+
+  void power_on(std::uint64_t now_us) { device_.power_on(now_us); }
+  void receive(const hal::CanFrame& frame, std::uint64_t now_us) { device_.receive(frame, now_us); }
+  // At least every millisecond: deadlines, heartbeats, SDO timeouts, the scrub of the tables.
+  void poll(std::uint64_t now_us);
+  [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us) {
+    return device_.offer(frame, now_us);
+  }
+  void taken(std::uint64_t now_us) { device_.taken(now_us); }
+  // When poll() has something to do at the latest, while a cycle is open; UINT64_MAX otherwise.
+  [[nodiscard]] std::uint64_t deadline_us() const {
+    return cycle_open_ ? deadline_us_ : UINT64_MAX;
+  }
+
+  [[nodiscard]] const canopen::Device& device() const { return device_; }
+  [[nodiscard]] const NodeObjects& objects() const { return objects_; }
+  [[nodiscard]] const LoadedCompensator& compensator() const { return compensator_; }
+
+ private:
+  // What has arrived in this cycle, a bit per axis.
+  struct Arrived {
+    std::uint32_t target = 0;
+    std::uint32_t actual = 0;
+    std::uint32_t held = 0;
+  };
+
+  void reset_application() override;
+  void reset_communication() override;
+  void state_changed(canopen::NmtState state, std::uint64_t now_us) override;
+  void sync(std::uint8_t counter, std::uint64_t now_us) override;
+  void received(const canopen::Pdo& pdo, std::uint64_t now_us) override;
+  bool heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint64_t now_us) override;
+  void bad_sync(canopen::SyncVerdict verdict, std::uint64_t now_us) override;
+  canopen::AbortCode before_write(canopen::ObjectId object, const canopen::Entry& entry,
+                                  Span<const std::uint8_t> bytes) override;
+  void written(canopen::ObjectId object, std::uint64_t now_us) override;
+  void before_read(canopen::ObjectId object) override;
+  canopen::AbortCode read_domain(canopen::ObjectId object,
+                                 Span<const std::uint8_t>& source) override;
+  canopen::AbortCode begin_domain(canopen::ObjectId object, std::size_t announced,
+                                  Span<std::uint8_t>& sink) override;
+  canopen::AbortCode finish_domain(canopen::ObjectId object, std::size_t size) override;
+  void abandon_domain(canopen::ObjectId object) override;
+
+  // --- cycle (node_cycle.cpp)
+  [[nodiscard]] bool uses(std::size_t axis) const { return objects_.drive[axis] != 0; }
+  [[nodiscard]] bool complete() const;
+  [[nodiscard]] std::uint64_t deadline_after_sync_us() const;
+  void compute(std::uint64_t now_us);
+  bool start_compensating();
+  void take_inputs();
+  [[nodiscard]] AxisSample sample(std::size_t axis);
+  [[nodiscard]] std::uint32_t correcting_axes() const;
+  void send_offset(std::size_t axis);
+  void report_status();
+  void report_axis_errors(std::size_t axis, std::uint16_t status);
+  void raise_if(bool present, canopen::ErrorCode code, std::size_t axis, std::uint16_t status);
+
+  // --- settings (node_settings.cpp)
+  Status configure();
+  void configure_gates();
+  void set_default_pdos();
+  canopen::AbortCode run_table_command(TableCommand command);
+  canopen::AbortCode run_store(Span<const std::uint8_t> signature);
+  canopen::AbortCode run_restore(Span<const std::uint8_t> signature);
+  void load_stored(bool application);
+  std::size_t collect_parameters();
+  void apply_parameters(Span<const std::uint8_t> stored, bool application);
+
+  NodeObjects objects_{};
+  std::array<canopen::Pdo, kReceivePdos> receive_{};
+  std::array<canopen::Pdo, kTransmitPdos> transmit_{};
+  canopen::Device device_;
+  LoadedCompensator compensator_{};
+  TableDownload download_;
+  Storage* storage_;
+
+  PerAxis<OffsetGate> gate_{};
+  PerAxis<WireScale> scale_{};
+  PerAxis<WirePosition> position_{};
+  Arrived arrived_{};
+  TickInput<kNodeAxes> input_{};
+  TickOutput<kNodeAxes> output_{};
+  std::uint64_t deadline_us_ = 0;
+  std::uint64_t next_scrub_us_ = 0;
+  std::uint8_t open_counter_ = 0;                // of the SYNC that opened the cycle
+  bool cycle_open_ = false;                      // SYNC has come, not yet computed
+  bool running_ = false;                         // the compensator ticks
+  PerAxis<std::uint16_t> clean_cycles_{};        // without trouble, per axis
+  std::uint16_t clean_syncs_ = 0;                // since the last bad SYNC
+  std::array<std::uint8_t, 2048> parameters_{};  // as stored
+};
+
+}  // namespace volcomp::node

@@ -1,0 +1,213 @@
+#include "firmware/node/node_objects.hpp"
+
+#include <cstddef>
+
+#include "firmware/canopen/cob_id.hpp"
+#include "firmware/canopen/pdo.hpp"
+
+namespace volcomp::node {
+namespace {
+
+using canopen::Access;
+using canopen::DataType;
+using canopen::Entry;
+using canopen::kPlain;
+using canopen::kReceive;
+using canopen::kStored;
+using canopen::kTransmit;
+
+#define VOLCOMP_AT(member) static_cast<std::uint16_t>(offsetof(NodeObjects, member))
+
+constexpr std::uint16_t at_began(std::size_t axis) {
+  return static_cast<std::uint16_t>(VOLCOMP_AT(began) +
+                                    axis * sizeof(std::array<std::uint16_t, kStatusBits>));
+}
+
+constexpr std::array<Entry, 61> kOwn{{
+    {0x1010, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(store), 0,
+     "Save all parameters"},
+    {0x1011, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(restore), 0,
+     "Restore all default parameters"},
+    {0x2000, 1, 1, DataType::unsigned32, Access::read_write, kStored, VOLCOMP_AT(machine_id), 0,
+     "Machine id"},
+    {0x2000, 2, 2, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(controller), 0,
+     "Node id of the motion controller", 1, 127},
+    {0x2000, 3, 3, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(position_source), 0,
+     "Position source: 0 target, 1 actual", 0, 1},
+    {0x2000, 4, 4, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(axes), 0,
+     "Axes of the active machine"},
+    {0x2000, 5, 5, DataType::visible_string, Access::read_only, kPlain, VOLCOMP_AT(axis_letters), 8,
+     "Axis letters"},
+    {0x2010, 1, kNodeAxes, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(drive), 0,
+     "Node id of the drive", 0, 127},
+    {0x2011, 1, kNodeAxes, DataType::integer32, Access::read_write, kReceive, VOLCOMP_AT(target), 0,
+     "Target position"},
+    {0x2012, 1, kNodeAxes, DataType::unsigned16, Access::read_write, kReceive, VOLCOMP_AT(control),
+     0, "Control word"},
+    {0x2013, 1, kNodeAxes, DataType::integer32, Access::read_write, kReceive, VOLCOMP_AT(actual), 0,
+     "Actual position"},
+    {0x2014, 1, kNodeAxes, DataType::unsigned16, Access::read_write, kReceive,
+     VOLCOMP_AT(drive_status), 0, "Status word of the drive"},
+    {0x2015, 1, kNodeAxes, DataType::unsigned16, Access::read_write, kReceive,
+     VOLCOMP_AT(probe_status), 0, "Touch probe status of the drive"},
+    {0x2016, 1, kNodeAxes, DataType::integer32, Access::read_write, kReceive,
+     VOLCOMP_AT(held_offset), 0, "Offset the drive holds"},
+    {0x2020, 1, kNodeAxes, DataType::integer32, Access::read_only, kTransmit, VOLCOMP_AT(offset), 0,
+     "Offset to the drive"},
+    {0x2030, 1, kNodeAxes, DataType::unsigned32, Access::read_write, kStored,
+     VOLCOMP_AT(scale_numerator), 0, "Run-time units per drive unit, numerator", 1, 1048576},
+    {0x2031, 1, kNodeAxes, DataType::unsigned32, Access::read_write, kStored,
+     VOLCOMP_AT(scale_denominator), 0, "Run-time units per drive unit, denominator", 1, 1048576},
+    {0x2032, 1, kNodeAxes, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(rotary), 0,
+     "Kind of axis: 0 linear, 1 rotary", 0, 1},
+    {0x2033, 1, kNodeAxes, DataType::unsigned16, Access::read_write, kStored,
+     VOLCOMP_AT(homed_mask), 0, "Bits of the drive status that mean referenced"},
+    {0x2110, 1, 1, DataType::domain, Access::read_write, kPlain, 0, 0, "Table image"},
+    {0x2110, 2, 2, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(staged_crc), 0,
+     "CRC-32 of the staged image"},
+    {0x2110, 3, 3, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(staged_bytes), 0,
+     "Bytes of the staged image"},
+    {0x2110, 4, 4, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(image_capacity), 0,
+     "Largest image in bytes"},
+    {0x2111, 0, 0, DataType::unsigned8, Access::read_write, kPlain, VOLCOMP_AT(table_command), 0,
+     "Table command", 0, 5},
+    {0x2112, 1, 1, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(table_state), 0,
+     "Table state"},
+    {0x2112, 2, 2, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(reason), 0,
+     "Reason of the last refusal"},
+    {0x2112, 3, 3, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(where_axis), 0,
+     "Refused at axis (letter)"},
+    {0x2112, 4, 4, DataType::integer16, Access::read_only, kPlain, VOLCOMP_AT(where_index), 0,
+     "Refused at knot or entry"},
+    {0x2112, 5, 5, DataType::integer8, Access::read_only, kPlain, VOLCOMP_AT(where_channel), 0,
+     "Refused at channel"},
+    {0x2112, 6, 6, DataType::visible_string, Access::read_only, kPlain, VOLCOMP_AT(reason_text),
+     160, "Reason in words"},
+    {0x2112, 7, 7, DataType::unsigned32, Access::read_only, kTransmit, VOLCOMP_AT(active_crc), 0,
+     "CRC-32 of the active image"},
+    {0x2112, 8, 8, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(active_sequence), 0,
+     "Sequence number of the active image"},
+    {0x2200, 1, 1, DataType::unsigned32, Access::read_write, kStored, VOLCOMP_AT(ramp_cycles), 0,
+     "Ramp of every change, cycles", 1, 16777216},
+    {0x2200, 2, 2, DataType::unsigned16, Access::read_write, kStored, VOLCOMP_AT(drop_cycles), 0,
+     "Stale for more cycles: ramped to zero", 1, 65534},
+    {0x2200, 3, 3, DataType::unsigned32, Access::read_write, kStored, VOLCOMP_AT(deadline_us), 0,
+     "Deadline after SYNC, us; 0: 60 % of the period", 0, 60000000},
+    {0x2200, 4, 4, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(late_cycles), 0,
+     "Cycles a frame may be late", 0, 7},
+    {0x2200, 5, 5, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(drives_report), 0,
+     "Drives report their offset", 0, 1},
+    {0x2201, 1, kNodeAxes, DataType::integer32, Access::read_write, kStored, VOLCOMP_AT(limit), 0,
+     "Largest offset", 1, 4194303},
+    {0x2202, 1, kNodeAxes, DataType::integer32, Access::read_write, kStored, VOLCOMP_AT(slew), 0,
+     "Largest step of an offset per cycle", 1, 1000000000},
+    {0x2203, 1, kNodeAxes, DataType::integer32, Access::read_write, kStored, VOLCOMP_AT(soft_rate),
+     0, "Step per cycle of an axis going or coming back", 1, 1000000000},
+    {0x2204, 1, kNodeAxes, DataType::integer32, Access::read_write, kStored, VOLCOMP_AT(hysteresis),
+     0, "Hysteresis of the direction", 0, 4194303},
+    {0x2205, 1, kNodeAxes, DataType::integer64, Access::read_write, kStored, VOLCOMP_AT(max_step),
+     0, "Largest plausible step of a position; 0: unchecked", 0, 1152921504606846976},
+    {0x2206, 1, kNodeAxes, DataType::integer32, Access::read_write, kPlain,
+     VOLCOMP_AT(start_offset), 0, "Offset held by a drive that cannot report it", -1073741824,
+     1073741824},
+    {0x2600, 1, 1, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(state), 0,
+     "State of the node"},
+    {0x2600, 2, 2, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(sync_counter), 0,
+     "SYNC counter of the last cycle"},
+    {0x2600, 3, 3, DataType::unsigned16, Access::read_only, kTransmit, VOLCOMP_AT(any_status), 0,
+     "Status bits of all axes"},
+    {0x2600, 4, 4, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(cycles), 0,
+     "Cycles computed"},
+    {0x2600, 5, 5, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(deadline_missed), 0,
+     "Cycles incomplete at the deadline"},
+    {0x2600, 6, 6, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(cycles_skipped), 0,
+     "Cycles cut short by the next SYNC"},
+    {0x2600, 7, 7, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(sync_missed), 0,
+     "SYNC messages missed"},
+    {0x2600, 8, 8, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(sync_foreign), 0,
+     "SYNC messages of another producer"},
+    {0x2600, 9, 9, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(activations), 0,
+     "Tables activated"},
+    {0x2600, 10, 10, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(rejections), 0,
+     "Tables refused"},
+    {0x2600, 11, 11, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(stored), 0,
+     "Result of reading the stored parameters"},
+    {0x2601, 1, kNodeAxes, DataType::unsigned16, Access::read_only, kTransmit, VOLCOMP_AT(status),
+     0, "Status word of the axis"},
+    {0x2602, 1, kNodeAxes, DataType::integer32, Access::read_only, kPlain, VOLCOMP_AT(largest), 0,
+     "Largest offset put out"},
+    {0x2610, 1, kStatusBits, DataType::unsigned16, Access::read_only, kPlain, at_began(0), 0,
+     "Times each status bit of axis 1 began"},
+    {0x2611, 1, kStatusBits, DataType::unsigned16, Access::read_only, kPlain, at_began(1), 0,
+     "Times each status bit of axis 2 began"},
+    {0x2612, 1, kStatusBits, DataType::unsigned16, Access::read_only, kPlain, at_began(2), 0,
+     "Times each status bit of axis 3 began"},
+    {0x2613, 1, kStatusBits, DataType::unsigned16, Access::read_only, kPlain, at_began(3), 0,
+     "Times each status bit of axis 4 began"},
+    {0x2614, 1, kStatusBits, DataType::unsigned16, Access::read_only, kPlain, at_began(4), 0,
+     "Times each status bit of axis 5 began"},
+}};
+
+#undef VOLCOMP_AT
+
+constexpr auto kDictionary = canopen::with_communication(kOwn);
+
+// The axis number in front of the sub-index: arrays start at sub-index 1.
+constexpr std::uint8_t sub(std::size_t axis) { return static_cast<std::uint8_t>(axis + 1); }
+
+}  // namespace
+
+Span<const Entry> node_dictionary() { return {kDictionary.data(), kDictionary.size()}; }
+
+// The node listens to what controller and drives tell each other: RPDO1 of the drive, its TPDO1 and
+// TPDO4.
+canopen::PdoParameters default_receive_pdo(std::size_t number,
+                                           const PerAxis<std::uint8_t>& drives) {
+  using canopen::mapped;
+  const std::size_t axis = number % kNodeAxes;
+  const std::uint8_t s = sub(axis);
+  canopen::PdoParameters p;
+  std::uint32_t function = 0;
+  switch (number / kNodeAxes) {
+    case 0:
+      function = canopen::kRpdo1;
+      p.count = 2;
+      p.mapping = {mapped(0x2012, s, 16), mapped(0x2011, s, 32)};
+      break;
+    case 1:
+      function = canopen::kTpdo1;
+      p.count = 3;
+      p.mapping = {mapped(0x2013, s, 32), mapped(0x2014, s, 16), mapped(0x2015, s, 16)};
+      break;
+    default:
+      function = canopen::kTpdo1 + 0x300U;
+      p.count = 1;
+      p.mapping = {mapped(0x2016, s, 32)};
+      break;
+  }
+  p.cob_id = function + drives[axis];
+  if (drives[axis] == 0) p.cob_id |= canopen::kPdoInvalid;
+  return p;
+}
+
+canopen::PdoParameters default_transmit_pdo(std::size_t number, const PerAxis<std::uint8_t>& drives,
+                                            std::uint8_t node_id) {
+  using canopen::mapped;
+  canopen::PdoParameters p;
+  if (number == kStatusPdo) {
+    p.cob_id = canopen::kPdoNoRtr | (canopen::kTpdo1 + std::uint32_t{node_id});
+    p.event_timer_ms = 1000;
+    p.inhibit_100us = 1000;
+    p.count = 4;
+    p.mapping = {mapped(0x2112, 7, 32), mapped(0x2600, 1, 8), mapped(0x2600, 2, 8),
+                 mapped(0x2600, 3, 16)};
+    return p;
+  }
+  p.cob_id = canopen::kPdoNoRtr | (canopen::kRpdo1 + 0x100U + std::uint32_t{drives[number]});
+  if (drives[number] == 0) p.cob_id |= canopen::kPdoInvalid;
+  p.count = 1;
+  p.mapping = {mapped(0x2020, sub(number), 32)};
+  return p;
+}
+
+}  // namespace volcomp::node

@@ -1,0 +1,136 @@
+#pragma once
+// The values behind the object dictionary of the compensation node, with their defaults, and the
+// table that describes them (firmware/volcomp.eds says the same to configuration tools).
+//
+//   2000h machine and identity      2010h…201Fh process data of the axes, drive position units
+//   2020h offsets to the drives     2030h scaling between drive and run-time units
+//   2100h tables                    2200h limits and ramps
+//   2600h diagnostics
+//
+// Run-time units: nm, or 2^-32 turn for offsets and limits of a rotary axis.
+
+#include <array>
+#include <cstdint>
+
+#include "comp/realtime/instances.hpp"
+#include "firmware/canopen/communication_objects.hpp"
+#include "firmware/canopen/pdo.hpp"
+
+namespace volcomp::node {
+
+inline constexpr std::size_t kNodeAxes = LoadedCompensator::kAxes;
+
+template <class T>
+using PerAxis = std::array<T, kNodeAxes>;
+
+// 2111h: what to do with the staged image.
+enum class TableCommand : std::uint8_t {
+  none = 0,
+  validate = 1,    // check it: 2112h:02 says ok or why not
+  arm = 2,         // fold it into the spare half of the double buffer
+  activate = 3,    // ramp it in
+  deactivate = 4,  // ramp to zero and stay there
+  discard = 5,     // forget the staged image
+};
+
+// 2112h:01.
+enum class TableState : std::uint8_t {
+  empty = 0,
+  receiving = 1,  // a download is under way or was broken off
+  received = 2,   // complete, unchecked
+  valid = 3,
+  armed = 4,
+  active = 5,   // the staged image is the one behind the active tables
+  refused = 6,  // 2112h:02 says why
+};
+
+// 2600h:01.
+enum class NodeState : std::uint8_t {
+  idle = 0,          // not OPERATIONAL
+  no_tables = 1,     // nothing to compensate with
+  waiting = 2,       // for a drive to report the offset it holds
+  compensating = 3,  // every axis
+  degraded = 4,      // at least one axis is held, ramped down or limited: status words 2601h
+};
+
+struct NodeObjects {
+  canopen::CommunicationObjects communication{};
+  std::uint32_t store = 0x1;    // 1010h:01; reads: saves on command
+  std::uint32_t restore = 0x1;  // 1011h:01; reads: restores on command
+
+  std::uint32_t machine_id = 0;        // 2000h:01; 0: any machine's tables
+  std::uint8_t controller = 127;       // 2000h:02 node id of the motion controller
+  std::uint8_t position_source = 0;    // 2000h:03 0 target (607Ah), 1 actual (6064h)
+  std::uint8_t axes = 0;               // 2000h:04 of the active machine
+  std::array<char, 8> axis_letters{};  // 2000h:05
+
+  PerAxis<std::uint8_t> drive{};          // 2010h node id, 0: axis not there
+  PerAxis<std::int32_t> target{};         // 2011h as 607Ah
+  PerAxis<std::uint16_t> control{};       // 2012h as 6040h
+  PerAxis<std::int32_t> actual{};         // 2013h as 6064h
+  PerAxis<std::uint16_t> drive_status{};  // 2014h as 6041h
+  PerAxis<std::uint16_t> probe_status{};  // 2015h as 60B9h
+  PerAxis<std::int32_t> held_offset{};    // 2016h as 60B0h, reported by the drive
+  PerAxis<std::int32_t> offset{};         // 2020h to 60B0h
+
+  PerAxis<std::uint32_t> scale_numerator{1, 1, 1, 1, 1};                 // 2030h run-time units per
+  PerAxis<std::uint32_t> scale_denominator{1, 1, 1, 1, 1};               // 2031h drive unit
+  PerAxis<std::uint8_t> rotary{};                                        // 2032h
+  PerAxis<std::uint16_t> homed_mask{0x100, 0x100, 0x100, 0x100, 0x100};  // 2033h bits of 6041h
+
+  std::uint8_t table_command = 0;       // 2111h
+  std::uint8_t table_state = 0;         // 2112h:01
+  std::uint8_t reason = 0;              // 2112h:02 Reason of the last refusal
+  std::uint8_t where_axis = 0;          // 2112h:03 letter, 0: does not apply
+  std::int16_t where_index = -1;        // 2112h:04 knot or entry, from 0
+  std::int8_t where_channel = -1;       // 2112h:05 0…5 = EX EY EZ EA EB EC
+  std::array<char, 160> reason_text{};  // 2112h:06
+  std::uint32_t staged_crc = 0;         // 2110h:02
+  std::uint32_t staged_bytes = 0;       // 2110h:03
+  std::uint32_t image_capacity = 0;     // 2110h:04
+  std::uint32_t active_crc = 0;         // 2112h:07
+  std::uint32_t active_sequence = 0;    // 2112h:08
+
+  std::uint32_t ramp_cycles = 100;  // 2200h:01
+  std::uint16_t drop_cycles = 10;   // 2200h:02 stale for longer: ramped to zero
+  std::uint32_t deadline_us = 0;    // 2200h:03 0: 60 % of 1006h
+  std::uint8_t late_cycles = 2;     // 2200h:04 a frame may be late by so many cycles
+  std::uint8_t drives_report = 1;   // 2200h:05 drives report 60B0h in a TPDO
+  PerAxis<std::int32_t> limit{200'000, 200'000, 200'000, 200'000, 200'000};  // 2201h
+  PerAxis<std::int32_t> slew{20'000, 20'000, 20'000, 20'000, 20'000};        // 2202h
+  PerAxis<std::int32_t> soft_rate{1'000, 1'000, 1'000, 1'000, 1'000};        // 2203h
+  PerAxis<std::int32_t> hysteresis{2'000, 2'000, 2'000, 2'000, 2'000};       // 2204h
+  PerAxis<std::int64_t> max_step{};                                          // 2205h 0: unchecked
+  PerAxis<std::int32_t> start_offset{};  // 2206h offset a drive holds that cannot report it
+
+  std::uint8_t state = 0;             // 2600h:01 NodeState
+  std::uint8_t sync_counter = 0;      // 2600h:02 of the cycle last computed
+  std::uint16_t any_status = 0;       // 2600h:03 status bits of all axes together
+  std::uint32_t cycles = 0;           // 2600h:04 computed
+  std::uint32_t deadline_missed = 0;  // 2600h:05 cycles that were incomplete at the deadline
+  std::uint32_t cycles_skipped = 0;   // 2600h:06 SYNC came before the cycle was computed
+  std::uint32_t sync_missed = 0;      // 2600h:07
+  std::uint32_t sync_foreign = 0;     // 2600h:08
+  std::uint32_t activations = 0;      // 2600h:09
+  std::uint32_t rejections = 0;       // 2600h:0A
+  std::uint8_t stored = 0;            // 2600h:0B StoreResult of the start
+  PerAxis<std::uint16_t> status{};    // 2601h
+  PerAxis<std::int32_t> largest{};    // 2602h
+  PerAxis<std::array<std::uint16_t, kStatusBits>> began{};  // 2610h… how often each bit began
+};
+
+[[nodiscard]] Span<const canopen::Entry> node_dictionary();
+
+// Numbers of the PDOs, from 0.
+inline constexpr std::size_t kReceivePdos = 3 * kNodeAxes;   // targets, actual values, held offsets
+inline constexpr std::size_t kTransmitPdos = kNodeAxes + 1;  // offsets, node status
+inline constexpr std::size_t kStatusPdo = kNodeAxes;
+
+// Default parameters of the PDOs for the drives of 2010h; PDOs of absent drives are invalid.
+[[nodiscard]] canopen::PdoParameters default_receive_pdo(std::size_t number,
+                                                         const PerAxis<std::uint8_t>& drives);
+[[nodiscard]] canopen::PdoParameters default_transmit_pdo(std::size_t number,
+                                                          const PerAxis<std::uint8_t>& drives,
+                                                          std::uint8_t node_id);
+
+}  // namespace volcomp::node

@@ -1,0 +1,130 @@
+#include "firmware/node/table_download.hpp"
+
+#include <cstring>
+
+#include "comp/tables/crc32.hpp"
+#include "comp/tables/image.hpp"
+
+namespace volcomp::node {
+
+using canopen::AbortCode;
+
+void report(const Status& status, NodeObjects& objects) {
+  const Where& where = status.where;
+  objects.reason = static_cast<std::uint8_t>(status.reason);
+  objects.where_axis = static_cast<std::uint8_t>(where.axis);
+  objects.where_index = static_cast<std::int16_t>(where.index);
+  objects.where_channel = static_cast<std::int8_t>(where.channel);
+  objects.reason_text = {};
+  const char* const text = sentence(status.reason);
+  std::strncpy(objects.reason_text.data(), text, objects.reason_text.size() - 1);
+}
+
+AbortCode TableDownload::begin(std::size_t announced, Span<std::uint8_t>& sink) {
+  if (compensator_.pending()) return AbortCode::device_state;
+  if (announced > image_.size()) return AbortCode::out_of_memory;
+  enter(TableState::receiving);
+  objects_.staged_bytes = 0;
+  objects_.staged_crc = 0;
+  sink = {image_.data(), image_.size()};
+  return AbortCode::none;
+}
+
+void TableDownload::finish(std::size_t size) {
+  objects_.staged_bytes = static_cast<std::uint32_t>(size);
+  objects_.staged_crc = crc32({image_.data(), size});
+  enter(TableState::received);
+}
+
+void TableDownload::abandon() { enter(TableState::empty); }
+
+void TableDownload::reset() {
+  enter(TableState::empty);
+  objects_.staged_bytes = 0;
+  objects_.staged_crc = 0;
+  objects_.active_crc = 0;
+  objects_.active_sequence = 0;
+  report({}, objects_);
+}
+
+AbortCode TableDownload::read(Span<const std::uint8_t>& source) const {
+  if (objects_.staged_bytes == 0) return AbortCode::no_data;
+  source = {image_.data(), objects_.staged_bytes};
+  return AbortCode::none;
+}
+
+Span<const std::uint8_t> TableDownload::active_image() const {
+  if (state() != TableState::active) return {};
+  return {image_.data(), objects_.staged_bytes};
+}
+
+AbortCode TableDownload::judge(const Status& status, TableState next) {
+  report(status, objects_);
+  enter(status.ok() ? next : TableState::refused);
+  return status.ok() ? AbortCode::none : AbortCode::general;
+}
+
+AbortCode TableDownload::validate() {
+  Status status = decode_image({image_.data(), objects_.staged_bytes}, kDefaultKnots, tables_);
+  const std::uint32_t wanted = objects_.machine_id;
+  if (status.ok() && wanted != 0 && tables_.provenance.machine_id != wanted)
+    status = refuse(Reason::machine_mismatch);
+  return judge(status, TableState::valid);
+}
+
+// The first tables after a start decide which machine this is; later ones have to match.
+AbortCode TableDownload::arm(bool running) {
+  const RuntimeChain chain = make_runtime_chain(tables_.machine);
+  if (!running && !same_chain(chain, compensator_.machine().chain)) {
+    if (chain.axes > kNodeAxes) return judge(refuse(Reason::too_many_axes), TableState::armed);
+    compensator_.restart(LoadedMachine<kNodeAxes>{chain});
+    objects_.active_crc = 0;
+    objects_.active_sequence = 0;
+  }
+  const Vec3 tool = Eigen::Map<const Vec3>(tables_.machine.tool_point.data());
+  return judge(compensator_.stage(tables_, tool, objects_.staged_crc), TableState::armed);
+}
+
+AbortCode TableDownload::activate(bool running) {
+  const AbortCode why = judge(compensator_.activate(), TableState::active);
+  if (why != AbortCode::none) return why;
+  if (!running) compensator_.settle();
+  const RuntimeChain& chain = compensator_.machine().chain;
+  objects_.axes = chain.axes;
+  objects_.axis_letters = {};
+  for (std::size_t a = 0; a < chain.axes; ++a)
+    objects_.axis_letters[a] = chain.letter[a];
+  objects_.active_crc = objects_.staged_crc;
+  objects_.active_sequence = tables_.provenance.sequence;
+  return AbortCode::none;
+}
+
+AbortCode TableDownload::command(TableCommand command, bool running) {
+  if (command == TableCommand::none) return AbortCode::none;
+  if (compensator_.pending()) return AbortCode::device_state;
+  if (command == TableCommand::deactivate) {
+    compensator_.deactivate();
+    if (!running) compensator_.settle();
+    lost_active();
+    return AbortCode::none;
+  }
+  if (command == TableCommand::discard) {
+    abandon();
+    objects_.staged_bytes = 0;
+    return AbortCode::none;
+  }
+  if (objects_.staged_bytes == 0 || state() == TableState::receiving)
+    return AbortCode::device_state;
+  AbortCode why = validate();
+  if (why == AbortCode::none && command >= TableCommand::arm) why = arm(running);
+  if (why == AbortCode::none && command >= TableCommand::activate) why = activate(running);
+  return why;
+}
+
+void TableDownload::lost_active() {
+  objects_.active_crc = 0;
+  objects_.active_sequence = 0;
+  if (state() == TableState::active) enter(TableState::valid);
+}
+
+}  // namespace volcomp::node

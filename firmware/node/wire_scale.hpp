@@ -1,0 +1,37 @@
+#pragma once
+// Position units of a drive to run-time units and back, exactly: an axis has numerator/denominator
+// run-time units per wire unit (conventions, section 5). Run-time units of a position: nm or
+// 2^-40 turn; of an offset: nm or 2^-32 turn.
+
+#include <cstdint>
+
+namespace volcomp::node {
+
+inline constexpr std::uint32_t kMostScale = 1U << 20U;
+
+struct WireScale {
+  std::uint32_t numerator = 1;    // 1…kMostScale
+  std::uint32_t denominator = 1;  // 1…kMostScale
+  bool rotary = false;
+};
+
+// Offset of the run time in wire units, half to even, saturating.
+[[nodiscard]] std::int32_t offset_to_wire(std::int32_t offset, const WireScale& scale);
+// The nearest run-time offset, saturating.
+[[nodiscard]] std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale);
+
+// A position on the wire is 32 bits wide. A linear axis uses it as it is; a rotary axis wraps and
+// is counted through by differences, which must stay below half the range per cycle.
+class WirePosition {
+ public:
+  std::int64_t update(std::int32_t wire, const WireScale& scale);
+  void reset() { started_ = false; }
+
+ private:
+  std::int64_t whole_ = 0;
+  std::int64_t rest_ = 0;  // 0 ≤ rest < denominator
+  std::int32_t last_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace volcomp::node

@@ -1,0 +1,113 @@
+#include "hal/linux/file_blocks.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+
+namespace volcomp::hal {
+namespace {
+
+constexpr std::size_t kChunkBytes = 1024;  // on the stack
+using Chunk = std::array<std::uint8_t, kChunkBytes>;
+
+bool inside(std::size_t at, std::size_t size) {
+  return at <= FileBlocks::kBytes && size <= FileBlocks::kBytes - at;
+}
+
+// The system may move fewer bytes than asked for; every round moves at least one.
+bool read_all(int descriptor, std::size_t at, Span<std::uint8_t> out) {
+  for (std::size_t done = 0; done < out.size();) {
+    const ssize_t n =
+        ::pread(descriptor, out.data() + done, out.size() - done, static_cast<off_t>(at + done));
+    if (n <= 0) return false;
+    done += static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool write_all(int descriptor, std::size_t at, Span<const std::uint8_t> bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t n = ::pwrite(descriptor, bytes.data() + done, bytes.size() - done,
+                               static_cast<off_t>(at + done));
+    if (n <= 0) return false;
+    done += static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+}  // namespace
+
+OpenStatus FileBlocks::open(const char* path) {
+  close();
+  const OpenStatus status = attach(path);
+  if (!status.ok()) close();
+  return status;
+}
+
+OpenStatus FileBlocks::attach(const char* path) {
+  descriptor_ = ::open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) return {OpenResult::failed, errno};
+  // Some network file systems know no locks; only a lock held by somebody else is a reason to stop.
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return {OpenResult::in_use, errno};
+  struct stat info {};
+  if (::fstat(descriptor_, &info) != 0) return {OpenResult::failed, errno};
+  if (!S_ISREG(info.st_mode)) return {OpenResult::wrong_size, 0};
+  if (info.st_size == 0) return create();
+  return info.st_size == off_t{kBytes} ? OpenStatus{} : OpenStatus{OpenResult::wrong_size, 0};
+}
+
+OpenStatus FileBlocks::create() {
+  if (::ftruncate(descriptor_, off_t{kBytes}) != 0) return {OpenResult::failed, errno};
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    if (!erase(sector)) return {OpenResult::failed, errno};
+  }
+  return {};
+}
+
+void FileBlocks::close() {
+  if (descriptor_ >= 0) static_cast<void>(::close(descriptor_));
+  descriptor_ = -1;
+}
+
+bool FileBlocks::read(std::size_t at, Span<std::uint8_t> out) const {
+  return inside(at, out.size()) && descriptor_ >= 0 && read_all(descriptor_, at, out);
+}
+
+// write() and erase() change the file, if not the object.
+// NOLINTNEXTLINE(readability-make-member-function-const)
+bool FileBlocks::write(std::size_t at, Span<const std::uint8_t> bytes) {
+  if (!inside(at, bytes.size()) || descriptor_ < 0 || !only_clears_bits(at, bytes)) return false;
+  return write_all(descriptor_, at, bytes) && ::fdatasync(descriptor_) == 0;
+}
+
+// NOLINTNEXTLINE(readability-make-member-function-const)
+bool FileBlocks::erase(std::size_t sector) {
+  if (sector >= kSectors || descriptor_ < 0) return false;
+  Chunk erased{};
+  erased.fill(0xFF);
+  for (std::size_t at = 0; at < kSectorBytes; at += kChunkBytes) {
+    if (!write_all(descriptor_, sector * kSectorBytes + at, {erased.data(), erased.size()}))
+      return false;
+  }
+  return ::fdatasync(descriptor_) == 0;
+}
+
+bool FileBlocks::only_clears_bits(std::size_t at, Span<const std::uint8_t> bytes) const {
+  Chunk present{};
+  for (std::size_t done = 0; done < bytes.size(); done += kChunkBytes) {
+    const std::size_t n = std::min(kChunkBytes, bytes.size() - done);
+    if (!read_all(descriptor_, at + done, {present.data(), n})) return false;
+    for (std::size_t i = 0; i < n; ++i) {
+      if ((present[i] & bytes[done + i]) != bytes[done + i]) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace volcomp::hal

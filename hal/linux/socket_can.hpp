@@ -1,0 +1,69 @@
+#pragma once
+// The CAN port of hal/can_port.hpp over SocketCAN: a raw socket on one interface, by name. One
+// thread at a time.
+//
+//   SocketCan port;
+//   if (const OpenStatus s = port.open("can0"); !s.ok()) print("can0: ", sentence(s.result));
+//
+// An interface that goes down leaves the socket open: network_down() tells, and traffic resumes by
+// itself when it is up again. One that was removed needs open() once more.
+
+#include <cstdint>
+
+#include "hal/can_port.hpp"
+#include "hal/linux/open_status.hpp"
+
+struct can_frame;
+
+namespace volcomp::hal {
+
+// Frames heard that CANopen has no use for: 29-bit identifiers, remote requests, error reports of
+// the controller. They wrap around.
+struct SkippedFrames {
+  std::uint32_t extended = 0;
+  std::uint32_t remote = 0;
+  std::uint32_t error = 0;
+};
+
+class SocketCan {
+ public:
+  SocketCan() = default;
+  SocketCan(const SocketCan&) = delete;
+  SocketCan& operator=(const SocketCan&) = delete;
+  ~SocketCan() { close(); }
+
+  // Closes what was open before. Fails with failed, no_can_in_kernel, no_such_interface,
+  // not_a_can_interface or interface_down; the port is then closed.
+  OpenStatus open(const char* interface);
+  void close();
+
+  // False when the queue of the interface is full, the network is down or the port is closed.
+  bool send(const CanFrame& frame);
+
+  // False when nothing is there, and after kMaxSkippedAtOnce useless frames in a row.
+  bool receive(CanFrame& frame);
+
+  // Sleeps until there is something to receive or the time is over; true in the first case. A
+  // signal ends it early with false.
+  [[nodiscard]] bool wait(std::uint32_t timeout_us) const;
+
+  // The last attempt to send or receive found the interface down or gone.
+  [[nodiscard]] bool network_down() const { return network_down_; }
+  [[nodiscard]] const SkippedFrames& skipped() const { return skipped_; }
+
+  // For a caller that waits for several things at once; -1 when closed.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+
+  static constexpr int kMaxSkippedAtOnce = 64;
+
+ private:
+  [[nodiscard]] OpenStatus attach(const char* interface);
+  void note_failure();
+  bool skip(const ::can_frame& raw);
+
+  int descriptor_ = -1;
+  bool network_down_ = false;
+  SkippedFrames skipped_;
+};
+
+}  // namespace volcomp::hal

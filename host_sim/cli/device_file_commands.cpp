@@ -1,0 +1,89 @@
+// volcomp device-files
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "firmware/canopen/cob_id.hpp"
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/data/whole_file.hpp"
+#include "host_sim/device_files/dbc.hpp"
+#include "host_sim/device_files/eds.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct DeviceFileArguments {
+  std::string eds;
+  std::string dbc;
+  std::string axes = "XYZ";
+  std::vector<int> drives{1, 2, 3};
+  int node = 32;
+  int controller = 127;
+};
+
+// ISO 841: A, B and C turn.
+bool is_rotary(char letter) { return letter >= 'A' && letter <= 'C'; }
+
+BusSettings bus_of(const DeviceFileArguments& a) {
+  if (a.axes.size() != a.drives.size()) {
+    throw UserError(
+        fmt::format("--axes names {} axes, --drives {} drives", a.axes.size(), a.drives.size()));
+  }
+  BusSettings bus;
+  bus.node = static_cast<std::uint8_t>(a.node);
+  bus.controller = static_cast<std::uint8_t>(a.controller);
+  for (std::size_t i = 0; i < a.axes.size(); ++i) {
+    BusAxis axis;
+    axis.letter = a.axes[i];
+    axis.drive = static_cast<std::uint8_t>(a.drives[i]);
+    axis.rotary = is_rotary(axis.letter);
+    bus.axes.push_back(axis);
+  }
+  return bus;
+}
+
+void write(const std::string& path, const std::string& content) {
+  if (path.empty()) return;
+  if (path == "-") {
+    fmt::print("{}", content);
+    return;
+  }
+  write_whole_file(path, content);
+}
+
+int write_device_files(const DeviceFileArguments& a) {
+  if (a.eds.empty() && a.dbc.empty()) throw UserError("nothing to write: give --eds or --dbc");
+  const std::string dbc = make_dbc(bus_of(a));
+  write(a.eds, make_eds());
+  write(a.dbc, dbc);
+  return 0;
+}
+
+}  // namespace
+
+void add_device_files_command(CLI::App& app, int& code) {
+  CLI::App* files = app.add_subcommand(
+      "device-files", "Write the compensation node's EDS and the CAN database of a machine's bus");
+  auto a = std::make_shared<DeviceFileArguments>();
+  const CLI::Range node_id(1, static_cast<int>(canopen::kMaxNodeId));
+  files->add_option("--eds", a->eds,
+                    "Electronic data sheet to write, for configuration tools (-: standard output)");
+  files->add_option("--dbc", a->dbc, "CAN database to write, for log tools (-: standard output)");
+  files->add_option("--node-id", a->node, "Node id of the compensation node (database)")
+      ->check(node_id)
+      ->capture_default_str();
+  files->add_option("--controller", a->controller, "Node id of the motion controller (database)")
+      ->check(node_id)
+      ->capture_default_str();
+  files->add_option("--axes", a->axes, "Letters of the axes; A, B and C are rotary (database)")
+      ->capture_default_str();
+  files->add_option("--drives", a->drives, "Node ids of their drives, in this order (database)")
+      ->delimiter(',')
+      ->check(node_id)
+      ->capture_default_str();
+  files->callback([a, &code] { code = write_device_files(*a); });
+}
+
+}  // namespace volcomp::sim

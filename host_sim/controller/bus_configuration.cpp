@@ -1,0 +1,180 @@
+// What the motion controller writes into drives and node before it starts them.
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "comp/tables/crc32.hpp"
+#include "comp/units.hpp"
+#include "firmware/canopen/cob_id.hpp"
+#include "firmware/node/node_objects.hpp"
+#include "host_sim/controller/bus_controller.hpp"
+#include "host_sim/controller/integrated_axes.hpp"
+#include "host_sim/data/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+// 60A8h: prefix 10^-9, unit metre (CiA 303-2).
+constexpr std::uint32_t kNanometre = 0xF701'0000;
+
+}  // namespace
+
+void BusController::configure(Station& s) {
+  s.phase = Station::Phase::configuring;
+  s.refusal.clear();
+  s.not_started = 0;
+  s.channel.clear();
+  if (s.state == canopen::NmtState::operational)
+    command(canopen::NmtCommand::enter_pre_operational, s.id);
+  configure_common(s.channel);
+  if (!is_drive(s)) {
+    configure_node(s.channel);
+    return;
+  }
+  const auto axis = static_cast<std::size_t>(&s - stations_.data());
+  axis_[axis].drive_lost();
+  configure_drive(s, axis);
+}
+
+// Heartbeats both ways and the SYNC they all share.
+void BusController::configure_common(SdoChannel& sdo) {
+  const auto watch = [this](std::uint8_t node) {
+    return std::uint32_t{node} << 16U | settings_.heartbeat_timeout_ms;
+  };
+  // The counter may change only while there is no period (CiA 301, 7.5.2.22).
+  sdo.write_value<std::uint32_t>({0x1006, 0}, 0, "cycle period");
+  sdo.write_value<std::uint8_t>({0x1019, 0}, 240, "SYNC counter overflow");
+  sdo.write_value<std::uint32_t>({0x1006, 0}, settings_.period_us, "cycle period");
+  sdo.write_value<std::uint16_t>({0x1017, 0}, settings_.heartbeat_ms, "heartbeat time");
+  sdo.write_value<std::uint32_t>({0x1016, 1}, watch(settings_.controller),
+                                 "heartbeat of the controller");
+}
+
+// The drive's own idea of its units against the machine file: 60A8h for a linear axis, position
+// units per revolution (6092h through the gear 6091h) for a rotary one.
+void BusController::check_scaling(Station& s, std::size_t axis) {
+  const BusAxis& a = settings_.axes[axis];
+  const auto differ = [&s, letter = a.letter](const std::string& what) {
+    s.refusal = fmt::format("{}: axis {} has other units than the machine file says: {}", s.name,
+                            letter, what);
+  };
+  if (!a.rotary) {
+    s.channel.read({0x60A8, 0}, 4, "position unit", [a, differ](const SdoChannel::Bytes& unit) {
+      const bool nanometre = number(unit) == kNanometre;
+      const bool one_to_one = a.scale_numerator == a.scale_denominator;
+      if (nanometre != one_to_one) differ(fmt::format("60A8h is {:08X}h", number(unit)));
+    });
+    return;
+  }
+  auto ratio = std::make_shared<std::array<double, 4>>();
+  const std::array<canopen::ObjectId, 4> objects{
+      {{0x6091, 1}, {0x6091, 2}, {0x6092, 1}, {0x6092, 2}}};
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    s.channel.read(objects[i], 4, "gear and feed",
+                   [a, differ, ratio, i](const SdoChannel::Bytes& v) {
+                     (*ratio)[i] = static_cast<double>(number(v));
+                     if (i + 1 < ratio->size()) return;
+                     // 6092h counts position units per revolution of the shaft, which is the axis.
+                     const double per_turn = (*ratio)[2] / (*ratio)[3];
+                     const double expected = static_cast<double>(volcomp::kUnitsPerTurn) *
+                                             static_cast<double>(a.scale_denominator) /
+                                             static_cast<double>(a.scale_numerator);
+                     if (std::abs(per_turn - expected) > 0.5)
+                       differ(fmt::format("{:.0f} units per turn", per_turn));
+                   });
+  }
+}
+
+void BusController::configure_drive(Station& s, std::size_t axis) {
+  const BusAxis& a = settings_.axes[axis];
+  SdoChannel& sdo = s.channel;
+  check_scaling(s, axis);
+  sdo.write_value<std::uint32_t>(
+      {0x1016, 2}, std::uint32_t{settings_.node} << 16U | settings_.heartbeat_timeout_ms,
+      "heartbeat of the compensation node");
+  if (a.lowest != a.highest) {
+    sdo.write_value<std::uint32_t>({0x607D, 1}, static_cast<std::uint32_t>(a.lowest),
+                                   "lower software limit");
+    sdo.write_value<std::uint32_t>({0x607D, 2}, static_cast<std::uint32_t>(a.highest),
+                                   "upper software limit");
+  }
+  sdo.write_value<std::uint8_t>({0x6060, 0}, static_cast<std::uint8_t>(kHomingMode),
+                                "mode of operation",
+                                [this, axis] { axis_[axis].mode_is(kHomingMode); });
+}
+
+void BusController::configure_node(SdoChannel& sdo) {
+  const BusSettings& b = settings_;
+  sdo.write_value<std::uint32_t>({0x2000, 1}, b.machine_id, "machine id");
+  sdo.write_value<std::uint8_t>({0x2000, 2}, b.controller, "controller");
+  sdo.write_value<std::uint8_t>({0x2000, 3}, static_cast<std::uint8_t>(b.limits.source),
+                                "position source");
+  sdo.write_value<std::uint32_t>({0x2200, 1}, b.limits.ramp_ticks, "ramp");
+  sdo.write_value<std::uint16_t>({0x2200, 2}, b.limits.stale_drop_ticks, "cycles until dropped");
+  sdo.write_value<std::uint32_t>({0x2200, 3}, b.deadline_us, "deadline");
+  for (std::size_t i = 0; i < b.axes.size(); ++i) {
+    const BusAxis& a = b.axes[i];
+    const AxisLimits& l = b.limits.axis[i];
+    const auto sub = static_cast<std::uint8_t>(i + 1);
+    const auto heartbeat = static_cast<std::uint8_t>(i + 2);
+    sdo.write_value<std::uint32_t>({0x1016, heartbeat},
+                                   std::uint32_t{a.drive} << 16U | b.heartbeat_timeout_ms,
+                                   "heartbeat of a drive");
+    sdo.write_value<std::uint8_t>({0x2010, sub}, a.drive, "drive of an axis");
+    sdo.write_value<std::uint32_t>({0x2030, sub}, a.scale_numerator, "scale numerator");
+    sdo.write_value<std::uint32_t>({0x2031, sub}, a.scale_denominator, "scale denominator");
+    sdo.write_value<std::uint8_t>({0x2032, sub}, a.rotary ? 1 : 0, "kind of axis");
+    sdo.write_value<std::uint16_t>({0x2033, sub}, kReferencedBit, "referenced bit");
+    sdo.write_value<std::int32_t>({0x2201, sub}, l.limit, "limit");
+    sdo.write_value<std::int32_t>({0x2202, sub}, l.rate, "slew limit");
+    sdo.write_value<std::int32_t>({0x2203, sub}, l.soft_rate, "soft rate");
+    sdo.write_value<std::int32_t>({0x2204, sub}, l.hysteresis, "hysteresis");
+    sdo.write_value<std::int64_t>({0x2205, sub}, l.max_step, "largest plausible step");
+  }
+  if (b.status_every_cycle) {
+    constexpr auto kStatus = static_cast<std::uint16_t>(0x1800 + node::kStatusPdo);
+    const std::uint32_t id = canopen::kPdoNoRtr | (canopen::kTpdo1 + std::uint32_t{b.node});
+    sdo.write_value<std::uint32_t>({kStatus, 1}, id | canopen::kPdoInvalid, "status PDO off");
+    sdo.write_value<std::uint16_t>({kStatus, 3}, 0, "status PDO without inhibit time");
+    sdo.write_value<std::uint32_t>({kStatus, 1}, id, "status PDO on");
+  }
+  if (!image_.empty()) queue_tables(sdo);
+}
+
+// Asks first: a node that has them stored or kept them need not get them again.
+void BusController::queue_tables(SdoChannel& sdo) {
+  sdo.read({0x2112, 7}, 4, "CRC of the active tables", [this, &sdo](const SdoChannel::Bytes& crc) {
+    if (number(crc) == image_crc_) return;
+    sdo.write({0x2110, 1}, image_, "table image");
+    sdo.write_value<std::uint8_t>({0x2111, 0},
+                                  static_cast<std::uint8_t>(node::TableCommand::activate),
+                                  "activation of the tables");
+  });
+}
+
+BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
+  BusSettings b;
+  b.period_us = static_cast<std::uint32_t>(std::lround(1e6 / cycle_hz));
+  b.machine_id = machine.id;
+  CorrectionFile correction = machine.correction;
+  correction.tick_hz = cycle_hz;
+  b.limits = compensator_settings(correction);
+  if (machine.axes.size() > LoadedCompensator::kAxes) {
+    throw UserError(fmt::format("{}: a node on the bus has room for {} axes, this machine has {}",
+                                machine.path, LoadedCompensator::kAxes, machine.axes.size()));
+  }
+  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    BusAxis a;
+    a.letter = machine.axes[i].letter;
+    a.drive = static_cast<std::uint8_t>(i + 1);
+    a.rotary = machine.chain.axis(i).kind == JointKind::rotary;
+    if (a.rotary) a.scale_numerator = 512;  // 2^31 units per turn on the wire, 2^40 inside
+    b.axes.push_back(a);
+  }
+  return b;
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,245 @@
+#include "host_sim/controller/bus_controller.hpp"
+
+#include <fmt/format.h>
+
+#include "comp/realtime/tick_types.hpp"
+#include "comp/tables/crc32.hpp"
+#include "firmware/canopen/cob_id.hpp"
+#include "firmware/node/node_objects.hpp"
+
+namespace volcomp::sim {
+
+using canopen::NmtCommand;
+using canopen::NmtState;
+
+namespace {
+
+constexpr std::uint8_t kCounterOverflow = 240;
+constexpr std::uint64_t kRetryPause_us = 200'000;
+constexpr int kUnheededStarts = 3;  // heartbeats before a node that should run is started again
+
+std::uint64_t le(const hal::CanFrame& frame, std::size_t at, std::size_t count) {
+  return canopen::load_le(&frame.data.at(at), count);
+}
+
+}  // namespace
+
+BusController::BusController(BusSettings settings, std::vector<std::uint8_t> image)
+    : settings_(std::move(settings)), axis_(settings_.axes.size()) {
+  stations_.reserve(settings_.axes.size() + 1);
+  for (const BusAxis& axis : settings_.axes)
+    stations_.emplace_back(axis.drive, fmt::format("drive {} (node {})", axis.letter, axis.drive));
+  stations_.emplace_back(settings_.node, fmt::format("compensation node {}", settings_.node));
+  load_tables(std::move(image));
+}
+
+void BusController::load_tables(std::vector<std::uint8_t> image) {
+  image_ = std::move(image);
+  image_crc_ = crc32({image_.data(), image_.size()});
+  Station& node = stations_.back();
+  if (node.phase == Station::Phase::running && !image_.empty()) queue_tables(node.channel);
+}
+
+void BusController::command(NmtCommand what, std::uint8_t node) {
+  outgoing_.push_back({canopen::kNmt, 2, {static_cast<std::uint8_t>(what), node}});
+}
+
+void BusController::power_on(std::uint64_t now_us) {
+  next_heartbeat_us_ = now_us;
+  outgoing_.clear();
+  for (Station& s : stations_) {
+    s.phase = Station::Phase::absent;
+    s.boots = 0;
+  }
+  command(NmtCommand::reset_node, 0);
+}
+
+Station* BusController::station(std::uint8_t id) {
+  for (Station& s : stations_) {
+    if (s.id == id) return &s;
+  }
+  return nullptr;
+}
+
+// --- in
+
+void BusController::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
+  const auto node = static_cast<std::uint8_t>(frame.id & canopen::kMaxNodeId);
+  switch (frame.id & ~unsigned{canopen::kMaxNodeId}) {
+    case canopen::kHeartbeat:
+      if (Station* s = station(node); s != nullptr && frame.size == 1)
+        take_heartbeat(*s, frame.data[0], now_us);
+      return;
+    case canopen::kSdoResponse:
+      if (Station* s = station(node)) s->channel.receive(frame, now_us);
+      return;
+    case canopen::kEmergency:
+      if (node == 0 || frame.size != 8) return;
+      emergencies_.push_back(
+          {now_us,
+           node,
+           static_cast<std::uint16_t>(le(frame, 0, 2)),
+           frame.data[2],
+           {frame.data[3], frame.data[4], frame.data[5], frame.data[6], frame.data[7]}});
+      return;
+    default:
+      take_drive_pdo(frame);
+      return;
+  }
+}
+
+void BusController::take_drive_pdo(const hal::CanFrame& frame) {
+  if (frame.id == canopen::kTpdo1 + settings_.node && frame.size == 8) {
+    report_ = {static_cast<std::uint32_t>(le(frame, 0, 4)), frame.data[4], frame.data[5],
+               static_cast<std::uint16_t>(le(frame, 6, 2)), report_.count + 1};
+    return;
+  }
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    const std::uint8_t drive = settings_.axes[a].drive;
+    if (frame.id == canopen::kTpdo1 + drive && frame.size == 8) {
+      axis_[a].actual(static_cast<std::int32_t>(le(frame, 0, 4)),
+                      static_cast<std::uint16_t>(le(frame, 4, 2)));
+    } else if (frame.id == canopen::kTpdo1 + 0x300 + drive && frame.size == 4) {
+      axis_[a].held(static_cast<std::int32_t>(le(frame, 0, 4)));
+    }
+  }
+}
+
+void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t now_us) {
+  s.last_heard_us = now_us;
+  s.state = static_cast<NmtState>(state & 0x7FU);
+  if (s.state == NmtState::boot_up) {
+    ++s.boots;
+    configure(s);
+    return;
+  }
+  if (s.boots == 0) return;  // has not heeded our reset yet
+  if (s.phase == Station::Phase::absent) {
+    // Back without a boot: whatever it was told is still there.
+    s.phase = Station::Phase::running;
+    s.not_started = 0;
+  }
+  const bool heeds = s.phase != Station::Phase::running || s.state == NmtState::operational;
+  s.not_started = heeds ? 0 : s.not_started + 1;
+  if (s.not_started < kUnheededStarts) return;
+  s.not_started = 0;
+  command(NmtCommand::start, s.id);
+}
+
+// --- time
+
+void BusController::poll(std::uint64_t now_us) {
+  if (now_us >= next_heartbeat_us_) {
+    next_heartbeat_us_ = now_us + 1000U * std::uint64_t{settings_.heartbeat_ms};
+    outgoing_.push_back({static_cast<std::uint16_t>(canopen::kHeartbeat + settings_.controller),
+                         1,
+                         {static_cast<std::uint8_t>(NmtState::operational)}});
+  }
+  for (Station& s : stations_)
+    supervise(s, now_us);
+}
+
+void BusController::supervise(Station& s, std::uint64_t now_us) {
+  s.channel.poll(now_us);
+  const std::uint64_t timeout_us = 1000U * std::uint64_t{settings_.heartbeat_timeout_ms};
+  const bool silent = now_us - s.last_heard_us > timeout_us;
+  if (silent && s.phase == Station::Phase::running) {
+    s.phase = Station::Phase::absent;
+    if (is_drive(s)) axis_[static_cast<std::size_t>(&s - stations_.data())].drive_lost();
+    return;
+  }
+  const bool refused = !s.channel.failure().empty() || !s.refusal.empty();
+  if (refused && s.phase == Station::Phase::configuring) {
+    s.phase = Station::Phase::failed;
+    s.retry_us = now_us + kRetryPause_us;
+  } else if (s.phase == Station::Phase::configuring && s.channel.idle()) {
+    s.phase = Station::Phase::running;
+    command(NmtCommand::start, s.id);
+  } else if (s.phase == Station::Phase::failed && now_us >= s.retry_us) {
+    configure(s);
+  }
+}
+
+// --- out
+
+bool BusController::offer(hal::CanFrame& frame, std::uint64_t /*now_us*/) {
+  offered_sdo_ = nullptr;
+  if (!outgoing_.empty()) {
+    frame = outgoing_.front();
+    return true;
+  }
+  for (Station& s : stations_) {
+    if (!s.channel.offer(frame)) continue;
+    offered_sdo_ = &s.channel;
+    return true;
+  }
+  return false;
+}
+
+void BusController::taken(std::uint64_t /*now_us*/) {
+  if (offered_sdo_ != nullptr) {
+    offered_sdo_->taken();
+  } else {
+    outgoing_.pop_front();
+  }
+}
+
+void BusController::send_sync() {
+  counter_ = static_cast<std::uint8_t>(counter_ % kCounterOverflow + 1);
+  outgoing_.push_back({canopen::kSync, 1, {counter_}});
+}
+
+void BusController::send_targets(const std::vector<std::int32_t>& path) {
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    if (stations_[a].phase != Station::Phase::running) continue;
+    axis_[a].step(path.at(a));
+    hal::CanFrame frame;
+    frame.id = static_cast<std::uint16_t>(canopen::kRpdo1 + settings_.axes[a].drive);
+    frame.size = 6;
+    canopen::store_le(frame.data.data(), 2, axis_[a].control_word());
+    canopen::store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()));
+    outgoing_.push_back(frame);
+  }
+  set_modes();
+}
+
+// The mode of operation is not in a PDO: one SDO at a time.
+void BusController::set_modes() {
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    const std::int8_t mode = axis_[a].wanted_mode();
+    SdoChannel& sdo = stations_[a].channel;
+    if (mode == 0 || !sdo.idle()) continue;
+    if (!sdo.failure().empty()) sdo.clear();
+    sdo.write({0x6060, 0}, {static_cast<std::uint8_t>(mode)}, "mode of operation",
+              [this, a, mode] { axis_[a].mode_is(mode); });
+  }
+}
+
+// --- verdict
+
+std::string BusController::trouble() const {
+  for (const Station& s : stations_) {
+    if (s.phase == Station::Phase::failed)
+      return s.refusal.empty() ? s.channel.failure() : s.refusal;
+    if (s.phase == Station::Phase::configuring) return s.name + " is being configured";
+    if (s.phase == Station::Phase::absent) return s.name + " is silent";
+    if (s.state != NmtState::operational) return s.name + " has not started";
+  }
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    if (!axis_[a].following()) {
+      return fmt::format("axis {} does not follow: status word {:04X}h", settings_.axes[a].letter,
+                         axis_[a].status_word());
+    }
+  }
+  if (image_.empty()) return {};
+  if (!stations_.back().channel.failure().empty()) return stations_.back().channel.failure();
+  if (report_.active_crc != image_crc_) return "the node does not have the tables yet";
+  if (report_.state != static_cast<std::uint8_t>(node::NodeState::compensating))
+    return fmt::format("the node does not compensate every axis: status {:04X}h",
+                       report_.any_status);
+  return {};
+}
+
+bool BusController::motion_allowed() const { return trouble().empty(); }
+
+}  // namespace volcomp::sim

@@ -1,0 +1,86 @@
+#pragma once
+// The motion controller as a CANopen manager: NMT master, configuration manager, SYNC and heartbeat
+// producer. It brings drives and compensation node up, keeps them up after any of them was gone,
+// and lets the axes move only while all of them work.
+
+#include <deque>
+#include <vector>
+
+#include "host_sim/controller/axis_commander.hpp"
+#include "host_sim/controller/bus_settings.hpp"
+#include "host_sim/controller/station.hpp"
+
+namespace volcomp::sim {
+
+// What the node's status PDO says.
+struct NodeReport {
+  std::uint32_t active_crc = 0;
+  std::uint8_t state = 0;         // node::NodeState
+  std::uint8_t sync_counter = 0;  // of the cycle it belongs to
+  std::uint16_t any_status = 0;   // StatusBit of all axes together
+  std::uint64_t count = 0;        // reports so far
+};
+
+class BusController {
+ public:
+  // `image`: tables the node shall work with; empty: none.
+  BusController(BusSettings settings, std::vector<std::uint8_t> image);
+
+  // --- the loop of canopen/exchange.hpp
+  void receive(const hal::CanFrame& frame, std::uint64_t now_us);
+  void poll(std::uint64_t now_us);
+  [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
+  void taken(std::uint64_t now_us);
+
+  // --- once per cycle
+  // Targets in drive units: sent as 607Ah after a SYNC, taken by the drives at the next.
+  void send_targets(const std::vector<std::int32_t>& path);
+  void send_sync();
+
+  // Resets every node on the bus; whoever boots is configured and started.
+  void power_on(std::uint64_t now_us);
+  // Tables to work with from now on; downloaded at once to a node that runs.
+  void load_tables(std::vector<std::uint8_t> image);
+
+  // Everybody runs, every axis follows its path, the node compensates (or was given no tables).
+  [[nodiscard]] bool motion_allowed() const;
+  // What is missing for that, in words.
+  [[nodiscard]] std::string trouble() const;
+
+  [[nodiscard]] std::uint8_t sync_counter() const { return counter_; }
+  [[nodiscard]] const NodeReport& report() const { return report_; }
+  [[nodiscard]] const AxisCommander& axis(std::size_t a) const { return axis_.at(a); }
+  [[nodiscard]] const Station& node() const { return stations_.back(); }
+  [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }  // drives, node
+  [[nodiscard]] const std::vector<EmergencyRecord>& emergencies() const { return emergencies_; }
+  [[nodiscard]] const BusSettings& settings() const { return settings_; }
+
+ private:
+  void command(canopen::NmtCommand what, std::uint8_t node);
+  [[nodiscard]] Station* station(std::uint8_t id);
+  [[nodiscard]] bool is_drive(const Station& s) const { return s.id != settings_.node; }
+  void take_heartbeat(Station& s, std::uint8_t state, std::uint64_t now_us);
+  void take_drive_pdo(const hal::CanFrame& frame);
+  void supervise(Station& s, std::uint64_t now_us);
+  void configure(Station& s);
+  void configure_common(SdoChannel& sdo);
+  void check_scaling(Station& s, std::size_t axis);
+  void configure_drive(Station& s, std::size_t axis);
+  void configure_node(SdoChannel& sdo);
+  void queue_tables(SdoChannel& sdo);
+  void set_modes();
+
+  BusSettings settings_;
+  std::vector<std::uint8_t> image_;
+  std::uint32_t image_crc_ = 0;
+  std::vector<AxisCommander> axis_;
+  std::vector<Station> stations_;
+  std::deque<hal::CanFrame> outgoing_;
+  SdoChannel* offered_sdo_ = nullptr;
+  std::vector<EmergencyRecord> emergencies_;
+  NodeReport report_;
+  std::uint64_t next_heartbeat_us_ = 0;
+  std::uint8_t counter_ = 0;
+};
+
+}  // namespace volcomp::sim

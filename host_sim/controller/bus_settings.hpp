@@ -1,0 +1,39 @@
+#pragma once
+// How a machine is wired to its CAN bus: who has which node id, how drive units read, how fast the
+// cycle is.
+
+#include <cstdint>
+#include <vector>
+
+#include "comp/realtime/instances.hpp"
+#include "host_sim/machine/machine_file.hpp"
+
+namespace volcomp::sim {
+
+struct BusAxis {
+  char letter = '\0';
+  std::uint8_t drive = 0;  // node id
+  bool rotary = false;
+  std::uint32_t scale_numerator = 1;  // run-time units (nm or 2^-40 turn) per drive unit
+  std::uint32_t scale_denominator = 1;
+  std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
+  std::int32_t highest = 0;
+};
+
+struct BusSettings {
+  std::uint8_t controller = 127;
+  std::uint8_t node = 32;
+  std::uint32_t period_us = 2000;
+  std::uint32_t deadline_us = 0;    // of the node; 0: 60 % of the period
+  bool status_every_cycle = false;  // of the node: for lock step over a bus without real time
+  std::uint16_t heartbeat_ms = 100;
+  std::uint16_t heartbeat_timeout_ms = 350;
+  std::uint32_t machine_id = 0;
+  std::vector<BusAxis> axes;
+  CompensatorSettings<LoadedCompensator::kAxes> limits{};  // per cycle of this period
+};
+
+// Axes 1, 2, 3 … of the machine file on drives 1, 2, 3 …, 1 nm or 2^-31 turn per unit.
+[[nodiscard]] BusSettings bus_settings(const MachineFile& machine, double cycle_hz);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,49 @@
+#pragma once
+// The integrated form: the compensator inside the servo interrupt of the controller, simulated
+// drives behind the HAL.
+
+#include <memory>
+#include <vector>
+
+#include "comp/realtime/instances.hpp"
+#include "firmware/integrated/servo_loop.hpp"
+#include "host_sim/controller/axis_group.hpp"
+#include "host_sim/controller/motion_cell.hpp"
+#include "host_sim/controller/simulated_axes.hpp"
+#include "host_sim/machine/machine_file.hpp"
+
+namespace volcomp::sim {
+
+class IntegratedAxes final : public AxisGroup {
+ public:
+  // `image`: table image of the compensation, empty for an uncompensated machine. The image goes
+  // the whole way: decoded, validated, folded, activated, ramped in. Throws UserError.
+  IntegratedAxes(const CorrectionFile& settings, const std::vector<std::uint8_t>& image);
+
+  void stand_at(const Vec3& mm) override { axes_.stand_at(to_targets(mm)); }
+  void cycle(const TargetsNm& target) override;
+  [[nodiscard]] double period_s() const override { return period_s_; }
+
+  [[nodiscard]] TargetsNm target_nm() const override { return axes_.target_nm(); }
+  [[nodiscard]] OffsetsNm offset_nm() const override { return axes_.offset_nm(); }
+  [[nodiscard]] Pose position() const override { return axes_.position(); }
+  [[nodiscard]] Approach approach() const override { return axes_.approach(); }
+  [[nodiscard]] double following_error_nm() const override { return axes_.following_error_nm(); }
+  [[nodiscard]] bool ramping() const override;
+
+ private:
+  double period_s_;
+  SimulatedAxes axes_;
+  std::unique_ptr<LoadedCompensator> compensator_;
+  ServoLoop<LoadedCompensator, SimulatedAxes> loop_;
+};
+
+// A CellFactory: one servo period per 1 / tick_hz of the machine file.
+[[nodiscard]] std::unique_ptr<MotionCell> make_integrated_cell(
+    const TrueMachine& machine, const CorrectionFile& correction,
+    const std::vector<std::uint8_t>& image);
+
+// Settings of the compensator for a machine file: mm and seconds turned into units and ticks.
+[[nodiscard]] LoadedCompensator::Settings compensator_settings(const CorrectionFile& correction);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,76 @@
+#pragma once
+// Reads and writes of one node's objects over SDO, one after the other: what a configuration tool
+// or a motion controller keeps per node.
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "firmware/canopen/bytes.hpp"
+#include "firmware/canopen/sdo_client.hpp"
+#include "hal/can_port.hpp"
+
+namespace volcomp::sim {
+
+class SdoChannel {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+  using OnRead = std::function<void(const Bytes&)>;
+  using OnDone = std::function<void()>;
+
+  explicit SdoChannel(std::uint8_t node) : node_(node) {}
+
+  // Queue a transfer. `what` names it in messages.
+  void write(canopen::ObjectId object, Bytes value, std::string what, OnDone done = {});
+  template <class T>
+  void write_value(canopen::ObjectId object, T value, std::string what, OnDone done = {}) {
+    Bytes bytes(sizeof(T));
+    canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
+    write(object, std::move(bytes), std::move(what), std::move(done));
+  }
+  // `most`: bytes the value may have.
+  void read(canopen::ObjectId object, std::size_t most, std::string what, OnRead done);
+
+  // After a failure the rest of the queue is dropped; failure() says what went wrong.
+  [[nodiscard]] bool idle() const { return jobs_.empty() && !outgoing_; }
+  [[nodiscard]] const std::string& failure() const { return failure_; }
+  [[nodiscard]] canopen::AbortCode abort_code() const { return abort_code_; }
+  // Forgets everything queued and any failure.
+  void clear();
+
+  // Bytes of the running transfer so far.
+  [[nodiscard]] std::size_t transferred() const { return client_.transferred(); }
+
+  void receive(const hal::CanFrame& frame, std::uint64_t now_us);
+  void poll(std::uint64_t now_us);
+  [[nodiscard]] bool offer(hal::CanFrame& frame);
+  void taken() { outgoing_ = false; }
+
+ private:
+  struct Job {
+    canopen::ObjectId object;
+    Bytes bytes;
+    bool writing = true;
+    std::string what;
+    OnDone written;
+    OnRead read;
+  };
+  void advance(std::uint64_t now_us);
+
+  std::uint8_t node_;
+  canopen::SdoClient client_;
+  std::deque<Job> jobs_;
+  bool started_ = false;
+  bool outgoing_ = false;
+  canopen::SdoData request_{};
+  std::string failure_;
+  canopen::AbortCode abort_code_ = canopen::AbortCode::none;
+};
+
+// An unsigned number from the bytes of an object.
+[[nodiscard]] inline std::uint64_t number(const SdoChannel::Bytes& bytes) {
+  return canopen::load_le(bytes.data(), bytes.size() < 8 ? bytes.size() : 8);
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,11 @@
+#pragma once
+// The electronic data sheet of the compensation node (CiA 306-1), for configuration tools.
+
+#include <string>
+
+namespace volcomp::sim {
+
+// The whole file; the same text at every call. Objects, limits and defaults are those of the code.
+[[nodiscard]] std::string make_eds();
+
+}  // namespace volcomp::sim

@@ -1,0 +1,62 @@
+#pragma once
+// The mechanics and the encoder behind a drive: follows a position, brakes, or stands; knows where
+// it really is and what the drive reads, which differ by where the drive was homed.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "host_sim/drives/axis_drive.hpp"
+
+namespace volcomp::sim {
+
+// Position units: 1 nm of a linear axis; 2⁻³¹ turn of a rotary one, counted through.
+inline constexpr double kUnitsPerTurn = 2147483648.0;
+
+// As INTEGER32 on the bus: a linear position stays at the end of the range.
+constexpr std::int32_t saturated(std::int64_t units) {
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(units, INT32_MIN, INT32_MAX));
+}
+// A rotary one wraps.
+constexpr std::int32_t wrapped(std::int64_t units) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(units));
+}
+
+class Cia402Axis {
+ public:
+  Cia402Axis(double period_s, double time_constant_s)
+      : period_s_(period_s),
+        gain_(1.0 - std::exp(-period_s / time_constant_s)),
+        drive_(period_s, time_constant_s) {}
+
+  // The world's side. The reading moves along: the encoder is absolute.
+  void stand_at(std::int64_t units);
+  [[nodiscard]] double position_units() const { return drive_.position_mm() * 1e6; }
+  [[nodiscard]] double approach() const { return drive_.approach(); }
+
+  // The drive's side: positions as the drive counts them.
+  [[nodiscard]] std::int64_t reading() const { return drive_.encoder_nm() + zero_shift_; }
+  // From now on the place where the axis stands reads `units`.
+  void home(std::int64_t units) { zero_shift_ = units - drive_.encoder_nm(); }
+
+  // One period each.
+  void follow(std::int64_t demand);
+  void stand();
+  // Slows down evenly from the speed the axis has; true once it stands.
+  [[nodiscard]] bool brake(double units_per_s2);
+
+ private:
+  void advance(std::int64_t command);
+  [[nodiscard]] double speed_before_braking() const;
+
+  double period_s_;
+  double gain_;  // share of the distance to the command that one period covers
+  AxisDrive drive_;
+  std::int64_t zero_shift_ = 0;
+  double step_ = 0.0;           // units, last period
+  double previous_step_ = 0.0;  // the one before
+  double braking_step_ = 0.0;
+  bool braking_ = false;
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Runs every test of this folder; vcan0 must be up:
+#
+#   toolchain/with-vcan tests/system/vcan/run_all.sh
+#
+# VOLCOMP_BUILD is the folder with the programs under test (default build/host). The last line is the
+# summary of ctest, for who adds up.
+set -u
+cd "$(dirname "${BASH_SOURCE[0]}")/../../.." || exit 1
+
+readonly limit_s=120
+tests=(tests/system/vcan/*_test.sh)
+failed=0
+for test in "${tests[@]}"; do
+  name=$(basename "$test" .sh)
+  started=$SECONDS
+  if output=$(timeout --kill-after=5 "$limit_s" "$test" 2>&1); then
+    printf 'PASSED %s (%s s)\n' "$name" "$((SECONDS - started))"
+  else
+    printf '%s\nFAILED %s (exit code %s)\n' "$output" "$name" "$?"
+    failed=$((failed + 1))
+  fi
+done
+printf '%s%% tests passed, %s tests failed out of %s\n' \
+  "$(((${#tests[@]} - failed) * 100 / ${#tests[@]}))" "$failed" "${#tests[@]}"
+[ "$failed" = 0 ]

@@ -1,0 +1,277 @@
+// The EDS and the CAN database in firmware/ are what the code says: they are made from it, and the
+// EDS, read again by other code, agrees with what a node answers over SDO.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <set>
+
+#include "host_sim/device_files/dbc.hpp"
+#include "host_sim/device_files/eds.hpp"
+#include "tests/unit/node/device_files_support.hpp"
+
+namespace volcomp::node::test {
+namespace {
+
+using canopen::AbortCode;
+using canopen::ObjectId;
+
+constexpr const char* kRegenerate =
+    "The file is not the one the code makes. Make it again:\n  build/host/host_sim/volcomp "
+    "device-files --eds firmware/volcomp.eds --dbc firmware/volcomp.dbc";
+
+sim::BusSettings three_axes() {
+  sim::BusSettings bus;
+  for (const char letter : {'X', 'Y', 'Z'}) {
+    sim::BusAxis axis;
+    axis.letter = letter;
+    axis.drive = static_cast<std::uint8_t>(letter - 'X' + 1);
+    bus.axes.push_back(axis);
+  }
+  return bus;
+}
+
+bool is_pdo_parameter(ObjectId object) { return object.index >= 0x1400 && object.index < 0x1C00; }
+
+class CommittedEds : public ::testing::Test {
+ protected:
+  const Ini eds = parse_ini(project_file("firmware/volcomp.eds"));
+  const std::vector<EdsEntry> entries = entries_of(eds);
+
+  void SetUp() override { ASSERT_GT(entries.size(), 100U) << "firmware/volcomp.eds"; }
+};
+
+// --- the files
+
+TEST(DeviceFiles, TheCommittedEdsIsTheOneTheCodeMakes) {
+  EXPECT_TRUE(project_file("firmware/volcomp.eds") == sim::make_eds()) << kRegenerate;
+}
+
+TEST(DeviceFiles, TheCommittedDatabaseIsTheOneTheCodeMakes) {
+  EXPECT_TRUE(project_file("firmware/volcomp.dbc") == sim::make_dbc(three_axes())) << kRegenerate;
+}
+
+// --- every value of the EDS is in the node
+
+TEST_F(CommittedEds, ValuesAfterPowerOnAreTheDefaults) {
+  NodeOnTheBus node;
+  for (const EdsEntry& entry : entries) {
+    SCOPED_TRACE(name_of(entry.object));
+    Bytes value;
+    const AbortCode why = node.read(entry.object, value);
+    const auto expected = entry.default_value(NodeOnTheBus::kId);
+    EXPECT_EQ(why, expected ? AbortCode::none : AbortCode::no_data);
+    if (!expected) continue;
+    EXPECT_EQ(value, *expected);
+  }
+}
+
+// No error has happened and no image was staged: nothing else may lack a default.
+TEST_F(CommittedEds, OnlyTheErrorHistoryAndTheDomainHaveNoDefault) {
+  for (const EdsEntry& entry : entries) {
+    const bool history = entry.object.index == 0x1003 && entry.object.sub > 0;
+    EXPECT_EQ(entry.has("DefaultValue"), !history && !entry.is_domain()) << name_of(entry.object);
+  }
+}
+
+// CiA 301, sections 7.5.2.36 and 7.5.2.38: a PDO is changed while it is not valid, its mapping
+// while it has no entries.
+void prepare_pdo(NodeOnTheBus& node, ObjectId object) {
+  const bool mapping = (object.index & 0x0200U) != 0;
+  const ObjectId cob_id{static_cast<std::uint16_t>(object.index & ~0x0200U), 1};
+  const std::int64_t invalid = node.number(cob_id) | 0x8000'0000U;
+  ASSERT_EQ(node.write(cob_id, little_endian(invalid, 4)), AbortCode::none);
+  if (!mapping || object.sub == 0) return;
+  ASSERT_EQ(node.write({object.index, 0}, {0}), AbortCode::none);
+}
+
+// 1010h and 1011h want the words "save" and "load".
+AbortCode answer_to_writing(const EdsEntry& entry) {
+  if (entry.access() == "ro" || entry.access() == "const") return AbortCode::read_only;
+  const bool signature = entry.object.index == 0x1010 || entry.object.index == 0x1011;
+  return signature ? AbortCode::cannot_store : AbortCode::none;
+}
+
+TEST_F(CommittedEds, ValuesCanBeWrittenWhereTheAccessTypeSaysSo) {
+  for (const EdsEntry& entry : entries) {
+    const auto value = entry.default_value(NodeOnTheBus::kId);
+    if (!value) continue;
+    SCOPED_TRACE(name_of(entry.object) + " " + entry.access());
+    NodeOnTheBus node;
+    if (is_pdo_parameter(entry.object)) prepare_pdo(node, entry.object);
+    EXPECT_EQ(node.write(entry.object, *value), answer_to_writing(entry));
+  }
+}
+
+TEST_F(CommittedEds, ValuesOfAnotherSizeAreRefused) {
+  for (const EdsEntry& entry : entries) {
+    if (entry.access() != "rw" || entry.bytes() == 0) continue;
+    SCOPED_TRACE(name_of(entry.object));
+    NodeOnTheBus node;
+    const Bytes longer(entry.bytes() + 1);
+    EXPECT_EQ(node.write(entry.object, longer), AbortCode::too_long);
+  }
+}
+
+TEST_F(CommittedEds, LimitsAreThoseOfTheNode) {
+  int limits = 0;
+  for (const EdsEntry& entry : entries) {
+    ASSERT_EQ(entry.has("LowLimit"), entry.has("HighLimit"));
+    if (!entry.has("HighLimit")) continue;
+    ++limits;
+    SCOPED_TRACE(name_of(entry.object));
+    const std::int64_t low = entry.number("LowLimit");
+    const std::int64_t high = entry.number("HighLimit");
+    const bool is_signed = entry.number("DataType") < 0x05 || entry.number("DataType") == 0x15;
+    const auto write = [&](std::int64_t value) {
+      NodeOnTheBus node;
+      return node.write(entry.object, little_endian(value, entry.bytes()));
+    };
+    EXPECT_EQ(write(low), AbortCode::none);
+    EXPECT_EQ(write(high + 1), AbortCode::value_too_high);
+    EXPECT_EQ(write(high), AbortCode::none);
+    if (low == 0 && !is_signed) continue;
+    EXPECT_EQ(write(low - 1), AbortCode::value_too_low);
+  }
+  EXPECT_GT(limits, 50);
+}
+
+// --- process data
+
+// Tries to map the object into a PDO that is not valid after power-on.
+AbortCode map(std::uint16_t mapping_parameter, ObjectId object, std::size_t bytes) {
+  NodeOnTheBus node;
+  const std::int64_t mapping = std::int64_t{object.index} << 16 | std::int64_t{object.sub} << 8 |
+                               static_cast<std::int64_t>(8 * bytes);
+  EXPECT_EQ(node.write({mapping_parameter, 0}, {0}), AbortCode::none);
+  return node.write({mapping_parameter, 1}, little_endian(mapping, 4));
+}
+
+TEST_F(CommittedEds, ObjectsCanBeMappedWhereTheyAreSaidToBeMappable) {
+  for (const EdsEntry& entry : entries) {
+    if (entry.bytes() == 0) continue;
+    SCOPED_TRACE(name_of(entry.object));
+    const bool mappable = entry.number("PDOMapping") != 0;
+    const bool in = mappable && entry.access() == "rww";
+    const bool out = mappable && entry.access() != "rww";
+    const AbortCode no =
+        is_pdo_parameter(entry.object) ? AbortCode::no_object : AbortCode::not_mappable;
+    EXPECT_EQ(map(0x1600, entry.object, entry.bytes()), in ? AbortCode::none : no);
+    EXPECT_EQ(map(0x1A00, entry.object, entry.bytes()), out ? AbortCode::none : no);
+  }
+}
+
+TEST_F(CommittedEds, DummiesAreThoseTheNodeSkips) {
+  constexpr std::array<std::size_t, 8> kBytes{0, 1, 1, 2, 4, 1, 2, 4};
+  for (std::uint16_t type = 1; type <= 7; ++type) {
+    const bool usable = eds.at("DummyUsage").at("Dummy000" + std::to_string(type)) == "1";
+    EXPECT_EQ(map(0x1600, {type, 0}, kBytes.at(type)) == AbortCode::none, usable) << type;
+  }
+}
+
+TEST_F(CommittedEds, CountsOfPdosAreThoseOfTheirObjects) {
+  const auto count = [this](std::uint16_t first) {
+    return std::count_if(entries.begin(), entries.end(), [first](const EdsEntry& entry) {
+      return entry.object.sub == 1 && entry.object.index >= first &&
+             entry.object.index < first + 0x200;
+    });
+  };
+  const Section& info = eds.at("DeviceInfo");
+  EXPECT_EQ(std::to_string(count(0x1400)), info.at("NrOfRXPDO"));
+  EXPECT_EQ(std::to_string(count(0x1600)), info.at("NrOfRXPDO"));
+  EXPECT_EQ(std::to_string(count(0x1800)), info.at("NrOfTXPDO"));
+  EXPECT_EQ(std::to_string(count(0x1A00)), info.at("NrOfTXPDO"));
+}
+
+// --- nothing in the node is missing from the EDS
+
+TEST_F(CommittedEds, HoldsEverythingTheNodeAnswersFor) {
+  std::set<std::string> described;
+  for (const EdsEntry& entry : entries)
+    described.insert(name_of(entry.object));
+  std::set<std::string> found;
+  NodeOnTheBus node;
+  const auto look = [&](unsigned index, unsigned sub) {
+    const ObjectId object{static_cast<std::uint16_t>(index), static_cast<std::uint8_t>(sub)};
+    if (node.exists(object)) found.insert(name_of(object));
+  };
+  for (unsigned index = 0x1000; index <= 0x2FFF; ++index) {
+    for (unsigned sub = 0; sub <= 20; ++sub)
+      look(index, sub);
+  }
+  for (unsigned index = 0x0000; index <= 0xFFFF; ++index)
+    look(index, 0);
+  for (const auto& [section, keys] : eds) {
+    if (keys.count("ObjectType") == 0 || section.size() != 4) continue;
+    for (unsigned sub = 0; sub <= 0xFF; ++sub)
+      look(static_cast<unsigned>(std::stoul(section, nullptr, 16)), sub);
+  }
+  EXPECT_EQ(found, described);
+}
+
+// CiA 306-1, section 4.6.2: every object is in one of three lists, numbered from 1.
+TEST_F(CommittedEds, ListsNameEveryObjectOnce) {
+  std::set<std::string> listed;
+  for (const char* const list : {"MandatoryObjects", "OptionalObjects", "ManufacturerObjects"}) {
+    const Section& objects = eds.at(list);
+    const int count = std::stoi(objects.at("SupportedObjects"));
+    EXPECT_EQ(objects.size(), static_cast<std::size_t>(count) + 1);
+    for (int i = 1; i <= count; ++i)
+      EXPECT_TRUE(listed.insert(objects.at(std::to_string(i)).substr(2)).second) << list << i;
+  }
+  std::set<std::string> sections;
+  for (const auto& section : eds) {
+    if (std::regex_match(section.first, std::regex("[0-9A-F]{4}"))) sections.insert(section.first);
+  }
+  EXPECT_EQ(listed, sections);
+}
+
+TEST_F(CommittedEds, SubNumberCountsTheSubIndices) {
+  for (const auto& [section, keys] : eds) {
+    if (keys.count("SubNumber") == 0) continue;
+    const std::string prefix = section + "sub";
+    const auto subs = std::count_if(eds.begin(), eds.end(), [&prefix](const auto& other) {
+      return other.first.rfind(prefix, 0) == 0;
+    });
+    EXPECT_EQ(std::to_string(subs), keys.at("SubNumber")) << section;
+  }
+}
+
+// --- the database
+
+// Identifier → bytes, of every message.
+std::map<unsigned, std::size_t> messages_of(const std::string& dbc) {
+  std::map<unsigned, std::size_t> messages;
+  const std::regex line("BO_ ([0-9]+) [A-Za-z_]+: ([0-9]) [A-Za-z_]+\n");
+  for (std::sregex_iterator m(dbc.begin(), dbc.end(), line), end; m != end; ++m)
+    messages[static_cast<unsigned>(std::stoul((*m)[1]))] = std::stoul((*m)[2]);
+  return messages;
+}
+
+// A node that was told its drives: what it waits for and what it sends is in the database.
+TEST(CommittedDatabase, HoldsEveryPdoOfTheNode) {
+  const auto messages = messages_of(project_file("firmware/volcomp.dbc"));
+  NodeOnTheBus node;
+  for (std::uint8_t axis = 1; axis <= 3; ++axis)
+    ASSERT_EQ(node.write({0x2010, axis}, {axis}), AbortCode::none);
+  int valid = 0;
+  for (const unsigned first : {0x1400U, 0x1800U}) {
+    for (unsigned pdo = first; node.exists({static_cast<std::uint16_t>(pdo), 1}); ++pdo) {
+      const auto mapping = static_cast<std::uint16_t>(pdo + 0x200);
+      const std::uint32_t cob_id = node.number({static_cast<std::uint16_t>(pdo), 1});
+      if ((cob_id & 0x8000'0000U) != 0) continue;
+      ++valid;
+      std::size_t bits = 0;
+      for (std::uint32_t sub = 1; sub <= node.number({mapping, 0}); ++sub)
+        bits += node.number({mapping, static_cast<std::uint8_t>(sub)}) & 0xFFU;
+      const auto found = messages.find(cob_id & 0x7FFU);
+      ASSERT_NE(found, messages.end()) << std::hex << cob_id;
+      EXPECT_EQ(8 * found->second, bits) << std::hex << cob_id;
+    }
+  }
+  EXPECT_EQ(valid, 13);  // command, actual, held offset and offset of three axes; node status
+}
+
+}  // namespace
+}  // namespace volcomp::node::test

@@ -1,0 +1,91 @@
+# Sourced by toolchain/with-vcan: boots the test VM for one command.
+# shellcheck shell=bash
+#
+# A folder of its own, shared with the guest, holds the command, its output and its exit code, so that
+# several machines do not meet. The other side is toolchain/vm/init.
+# shellcheck source=toolchain/vm/prepare.sh
+. toolchain/vm/prepare.sh
+
+# run_in_vm FOLDER COMMAND...: ends the script with the exit code of the command.
+run_in_vm() {
+  local limit_s=${VOLCOMP_VM_TIMEOUT:-600} ended=0
+  [[ $limit_s =~ ^[1-9][0-9]*$ ]] || die "VOLCOMP_VM_TIMEOUT must be a whole number of seconds, not \"$limit_s\"."
+  run=$(mktemp -d "$PWD/$vm_folder/run-XXXXXX")
+  trap end_run EXIT
+  trap 'exit 130' INT
+  trap 'exit 143' TERM HUP
+  write_orders "$@"
+
+  boot_machine "$limit_s" &
+  machine=$!
+  pass_on "$run/output" &
+  [ ! -e "$run/errors" ] || pass_on "$run/errors" >&2 &
+  wait "$machine" || ended=$?
+  wait
+  machine=
+  finish "$ended" "$limit_s"
+}
+
+# One file of output and errors, if they go to one place here: so their order is kept.
+write_orders() {
+  printf '%s\n' "$PWD" > "$run/project"
+  guest_script "$@" > "$run/command"
+  : > "$run/output"
+  [ /dev/stdout -ef /dev/stderr ] || : > "$run/errors"
+}
+
+guest_script() {
+  local folder=$1 name
+  shift
+  printf 'export PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp LANG=C.UTF-8 TERM=dumb\n'
+  for name in "${!VOLCOMP_@}"; do
+    printf 'export %s=%q\n' "$name" "${!name}"
+  done
+  printf 'cd %q 2> /dev/null || cd %q\n' "$folder" "$PWD"
+  printf '%q ' "$@"
+  printf '\n'
+}
+
+# QEMU splits its options at commas; a doubled one stands for itself.
+share() {
+  printf 'local,id=%s,path=%s,security_model=none,multidevs=remap%s' "$1" "${2//,/,,}" "${3:-}"
+}
+
+# Emulation, even where /dev/kvm exists: nested in another virtual machine it is not to be relied on.
+boot_machine() {
+  local image
+  image=$(vm_image)
+  exec timeout --kill-after=5 "$1" qemu-system-x86_64 \
+    -nodefaults -no-user-config -no-reboot -display none -machine q35,hpet=off \
+    -accel tcg,thread=multi -cpu max -smp 2 -m 1024 -serial "file:$run/console" \
+    -kernel "$image/kernel" -initrd "$image/initramfs" \
+    -append 'console=ttyS0 quiet panic=-1 mitigations=off nokaslr random.trust_cpu=on tsc=reliable' \
+    -fsdev "$(share host / ,readonly=on)" -device virtio-9p-pci,fsdev=host,mount_tag=host \
+    -fsdev "$(share project "$PWD")" -device virtio-9p-pci,fsdev=project,mount_tag=project \
+    -fsdev "$(share run "$run")" -device virtio-9p-pci,fsdev=run,mount_tag=run \
+    < /dev/null > "$run/machine" 2>&1
+}
+
+# Prints what the file gets until the machine has ended.
+pass_on() {
+  exec tail -q -c +1 -s 0.1 -f --pid="$machine" "$1"
+}
+
+# timeout(1) ends with 124 when it had to act, or 137 when it had to act twice.
+finish() {
+  [ ! -s "$run/status" ] || exit "$(cat "$run/status")"
+  case $1 in
+    124 | 137) die "the command did not end within $2 s and was stopped (VOLCOMP_VM_TIMEOUT sets the limit)." ;;
+  esac
+  cat "$run/machine" "$run/console" > "$vm_folder/last-failure.txt" 2> /dev/null || true
+  die "the virtual machine gave no exit code of the command; its last words are in $vm_folder/last-failure.txt."
+}
+
+end_run() {
+  trap '' INT TERM HUP
+  if [ -n "${machine:-}" ]; then
+    kill "$machine" 2> /dev/null || true
+    wait
+  fi
+  rm -rf "$run"
+}
