@@ -71,7 +71,7 @@ class Emergency {
     std::uint8_t error_register = 0;
     ErrorInfo info{};
   };
-  static constexpr std::size_t kMostActive = 32;
+  static constexpr std::size_t kMostActive = 64;
   static constexpr std::size_t kQueue = 16;
 
   void refresh_register();

@@ -90,11 +90,14 @@ class Node final : private canopen::Application {
   void configure_gates();
   void set_default_pdos();
   canopen::AbortCode run_table_command(TableCommand command);
+
+  // --- store (node_store.cpp)
   canopen::AbortCode run_store(Span<const std::uint8_t> signature);
   canopen::AbortCode run_restore(Span<const std::uint8_t> signature);
   void load_stored(bool application);
   std::size_t collect_parameters();
   void apply_parameters(Span<const std::uint8_t> stored, bool application);
+  void apply_pdo(std::uint16_t index, Span<const std::uint8_t> value);
 
   NodeObjects objects_{};
   std::array<canopen::Pdo, kReceivePdos> receive_{};

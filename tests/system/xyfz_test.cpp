@@ -12,9 +12,11 @@ namespace {
 #ifdef NDEBUG
 constexpr std::size_t kDraws = 50;
 constexpr int kVolumePoints = 800;
+constexpr int kTickPoints = 200'000;
 #else
 constexpr std::size_t kDraws = 4;  // instrumented and unoptimised builds
 constexpr int kVolumePoints = 50;
+constexpr int kTickPoints = 10'000;
 #endif
 
 const XyfzResult& result() {
@@ -23,6 +25,7 @@ const XyfzResult& result() {
     options.machine = bundled_machine("xyfz");
     options.draws = kDraws;
     options.volume_points = kVolumePoints;
+    options.tick_points = kTickPoints;
     return run_xyfz(options, [](double, const std::string&) {});
   }();
   return r;

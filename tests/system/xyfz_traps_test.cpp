@@ -24,7 +24,8 @@ class XyfzTraps : public testing::Test {
   }
 
   // Reduction of the PNP maximum, machine moving, noise-free.
-  static double rate(const MachineFile& as_believed, const CommissionOptions& options) {
+  static double rate(const MachineFile& as_believed, CommissionOptions options) {
+    options.bound = false;
     const auto tables = commission(as_believed, campaign->runs, options);
     return improvement_percent(pnp_um({}), pnp_um(make_image(tables->tables)));
   }
@@ -104,7 +105,7 @@ TEST_F(XyfzTraps, ClosureIsRobustOverMachinesThePapersVariantIsNot) {
     const TrueMachine other = make_xyfz_truth(*file, seed, tune_xyfz(*file, seed));
     const Campaign measured = perfect_campaign(other, *file);
     const auto worst_of = [&](ModelKind kind) {
-      const auto tables = commission(measured.machine, measured.runs, {kind});
+      const auto tables = commission(measured.machine, measured.runs, tables_only(kind));
       const auto cell = make_integrated_cell(other, file->correction, make_image(tables->tables));
       const DiagonalBox box = travel_box(*file);
       cell->place(box.lo);

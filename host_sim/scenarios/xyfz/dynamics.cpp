@@ -150,8 +150,7 @@ Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
   return out;
 }
 
-double measure_tick_error_nm(const Commissioned& closed, std::uint64_t seed) {
-  constexpr int kPoints = 200'000;
+double measure_tick_error_nm(const Commissioned& closed, int points, std::uint64_t seed) {
   LoadedCompensator::Settings settings;
   for (AxisLimits& l : settings.axis)
     l = {4'000'000, 1'000'000'000, 1, 0, 0};
@@ -168,7 +167,7 @@ double measure_tick_error_nm(const Commissioned& closed, std::uint64_t seed) {
   TickOutput<5> out;
   Travels travels{};
   double worst = 0.0;
-  for (int i = 0; i < kPoints; ++i) {
+  for (int i = 0; i < points; ++i) {
     Pose q{};
     for (std::size_t a = 0; a < 3; ++a) {
       const std::int64_t before = in.axis[a].position;

@@ -11,6 +11,7 @@ namespace volcomp::sim {
 
 // Integer tick against the same first-order model in double at random integer positions, inside the
 // tables, at their knots and ends, and beyond; nm.
-[[nodiscard]] double measure_tick_error_nm(const Commissioned& closed, std::uint64_t seed);
+[[nodiscard]] double measure_tick_error_nm(const Commissioned& closed, int points,
+                                           std::uint64_t seed);
 
 }  // namespace volcomp::sim

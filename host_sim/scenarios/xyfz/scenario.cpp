@@ -191,7 +191,7 @@ XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress) {
   std::unique_ptr<Commissioned> closed = run_noise_free(bench, progress, result);
   progress(0.2, "line and circle");
   result.dynamics = run_dynamics(bench.truth, bench.machine, *closed, options.make_cell);
-  result.tick_max_error_nm = measure_tick_error_nm(*closed, options.seed);
+  result.tick_max_error_nm = measure_tick_error_nm(*closed, options.tick_points, options.seed);
   result.per_axis = per_axis_remainder(*closed);
   Random lever_noise(options.seed);
   result.levers =

@@ -28,6 +28,7 @@ struct XyfzOptions {
   std::uint64_t machine_seed = kXyfzMachineSeed;
   std::size_t runs = 5;  // bidirectional, per axis, in a noisy campaign
   int volume_points = 800;
+  int tick_points = 200'000;  // places at which the tick is compared with the double model
   CellFactory make_cell = make_integrated_cell;  // what drives the machine
 };
 
