@@ -14,6 +14,7 @@ check_packages=(ccache git clang clang-format clang-tidy cppcheck llvm gcovr pyt
 bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
 vm_packages=(qemu-system-x86 busybox-static cpio kmod xz-utils)
 report_folder=host_sim/report
+eds_parser_folder=tests/system/eds_parser
 
 installed() {
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
@@ -62,16 +63,18 @@ install_packages() {
     die "apt-get could not install all of these packages: $*."
 }
 
-# The copy of the lock file beside the modules tells which state they are in.
+# install_node_modules FOLDER: the copy of the lock file beside the modules tells which state they
+# are in.
 install_node_modules() {
-  local lock=$report_folder/package-lock.json
-  local done_mark=$report_folder/node_modules/.installed-package-lock.json
+  local folder=$1
+  local lock=$folder/package-lock.json
+  local done_mark=$folder/node_modules/.installed-package-lock.json
   [ -f "$lock" ] || return 0
   cmp -s "$lock" "$done_mark" && return 0
-  printf 'installing the JavaScript packages of %s\n' "$report_folder"
-  (cd "$report_folder" && npm ci --no-audit --no-fund --loglevel=error) ||
-    die "npm could not install the packages of $report_folder (is there a network?)."
-  mkdir -p "$report_folder/node_modules"
+  printf 'installing the JavaScript packages of %s\n' "$folder"
+  (cd "$folder" && npm ci --no-audit --no-fund --loglevel=error) ||
+    die "npm could not install the packages of $folder (is there a network?)."
+  mkdir -p "$folder/node_modules"
   cp "$lock" "$done_mark"
 }
 
@@ -91,5 +94,6 @@ if [ -n "$missing" ]; then
   mapfile -t packages <<< "$missing"
   install_packages "${packages[@]}"
 fi
-install_node_modules
+install_node_modules "$report_folder"
+[ "$mode" = demo ] || install_node_modules "$eds_parser_folder"
 printf 'everything needed is installed\n'

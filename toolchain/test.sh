@@ -85,7 +85,7 @@ step_can() {
   build_preset host
   way=$(bash toolchain/with-vcan --how)
   printf 'way to vcan0: %s\n' "$way"
-  VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/vcan/run_all.sh 2>&1 | tee "$logs/ctest-can.txt"
+  VOLCOMP_VM_TIMEOUT=1500 VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/vcan/run_all.sh 2>&1 | tee "$logs/ctest-can.txt"
 }
 
 step_proofs() {

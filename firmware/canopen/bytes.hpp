@@ -19,8 +19,9 @@ constexpr void store_le(std::uint8_t* bytes, std::size_t count, std::uint64_t va
     bytes[i] = static_cast<std::uint8_t>(value >> (8U * i));
 }
 
-// The same, sign-extended from `count` bytes.
+// The same, sign-extended from `count` bytes, 1…8.
 constexpr std::int64_t load_le_signed(const std::uint8_t* bytes, std::size_t count) {
+  if (count == 0) return 0;
   const unsigned unused = 64U - 8U * static_cast<unsigned>(count);
   return static_cast<std::int64_t>(load_le(bytes, count) << unused) >> unused;
 }

@@ -13,6 +13,44 @@ std::uint8_t register_bit(ErrorCode code) {
 
 }  // namespace
 
+const char* sentence(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::none:
+      return "No error.";
+    case ErrorCode::parameters_lost:
+      return "The stored parameters and tables were damaged.";
+    case ErrorCode::can_overrun:
+      return "Messages were lost before they could be read.";
+    case ErrorCode::heartbeat:
+      return "A node that is watched fell silent.";
+    case ErrorCode::sync_length:
+      return "SYNC came with a counter where none is expected, or without one.";
+    case ErrorCode::rpdo_length:
+      return "Process data were shorter than their mapping.";
+    case ErrorCode::rpdo_timeout:
+      return "Process data of an axis did not come in time; its offset is held, then ramped down.";
+    case ErrorCode::axis_not_referenced:
+      return "An axis is not referenced or its drive is not enabled; it gets no correction.";
+    case ErrorCode::axis_implausible:
+      return "The position of an axis jumped faster than the axis can move.";
+    case ErrorCode::axis_clamped:
+      return "The correction of an axis reached its limit.";
+    case ErrorCode::axis_out_of_range:
+      return "An axis is more than half a pitch beyond its table.";
+    case ErrorCode::no_authority:
+      return "In this position the correcting axes cannot remove the error.";
+    case ErrorCode::table_refused:
+      return "A table image was refused.";
+    case ErrorCode::table_damaged:
+      return "The active tables changed in memory; corrections were ramped to zero.";
+    case ErrorCode::foreign_sync:
+      return "A second device produces SYNC.";
+    case ErrorCode::offset_not_confirmed:
+      return "A drive does not report the offset it was sent.";
+  }
+  return "An error of another device's making.";
+}
+
 bool Emergency::active(ErrorCode code, std::uint8_t source) const {
   for (std::size_t i = 0; i < active_count_; ++i) {
     if (active_[i].code == code && active_[i].source == source) return true;

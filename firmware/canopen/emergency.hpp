@@ -30,6 +30,9 @@ enum class ErrorCode : std::uint16_t {
   offset_not_confirmed = 0xFF21,  // a drive does not report the offset it was sent
 };
 
+// One plain sentence; also for codes another device made up.
+[[nodiscard]] const char* sentence(ErrorCode code);
+
 // Bits of the error register 1001h.
 enum ErrorRegister : std::uint8_t {
   kGenericError = 1U << 0U,

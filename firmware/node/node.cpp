@@ -40,6 +40,7 @@ void Node::reset_application() {
   compensator_.restart({});
   download_.reset();
   running_ = cycle_open_ = false;
+  start_given_ = 0;
   load_stored(true);
 }
 
@@ -73,6 +74,7 @@ void Node::state_changed(NmtState state, std::uint64_t now_us) {
   objects_.state = static_cast<std::uint8_t>(NodeState::idle);
   if (state != NmtState::operational) return;
   report(configure(), objects_);
+  start_at_given_offsets();
   report_status();
 }
 
@@ -114,6 +116,9 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
                              Span<const std::uint8_t> bytes) {
   if (is_setting(object.index) && device_.state() == NmtState::operational)
     return AbortCode::device_state;
+  // While offsets are being sent, only they say what the drive holds.
+  const bool starts = object.index == 0x2206 && object.sub != 0;
+  if (starts && gate_[object.sub - 1U].open()) return AbortCode::device_state;
   switch (object.index) {
     case 0x1010:
       return run_store(bytes);
@@ -141,17 +146,23 @@ AbortCode Node::run_table_command(TableCommand command) {
 void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
   objects_.store = objects_.restore = 1;
   if (object.index == 0x2010) set_default_pdos();
-  if (object.index == 0x2206 && objects_.drives_report == 0) {
-    const std::size_t axis = object.sub - 1U;
-    gate_[axis].start_at(offset_to_wire(objects_.start_offset[axis], scale_[axis]));
+  if (object.index == 0x2206) start_given_ |= 1U << (object.sub - 1U);
+  if (device_.state() == NmtState::operational) start_at_given_offsets();
+}
+
+// Each counts for one start: later the drive holds what it was sent.
+void Node::start_at_given_offsets() {
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    const bool given = objects_.drives_report == 0 && (start_given_ & (1U << a)) != 0;
+    if (given) gate_[a].start_at(offset_to_wire(objects_.start_offset[a], scale_[a]));
   }
+  start_given_ = 0;
 }
 
 void Node::before_read(canopen::ObjectId object) {
   if (object.index < 0x2600) return;
   const Diagnostics<kNodeAxes>& d = compensator_.diagnostics();
   objects_.activations = d.activations;
-  objects_.rejections = d.rejections;
   objects_.sync_missed = device_.sync().missed();
   objects_.sync_foreign = device_.sync().foreign();
   objects_.largest = d.largest;

@@ -27,6 +27,7 @@ class Node final : private canopen::Application {
   Node(std::uint8_t node_id, Storage* storage);
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
+  ~Node() = default;
 
   void power_on(std::uint64_t now_us) { device_.power_on(now_us); }
   void receive(const hal::CanFrame& frame, std::uint64_t now_us) { device_.receive(frame, now_us); }
@@ -89,6 +90,7 @@ class Node final : private canopen::Application {
   Status configure();
   void configure_gates();
   void set_default_pdos();
+  void start_at_given_offsets();
   canopen::AbortCode run_table_command(TableCommand command);
 
   // --- store (node_store.cpp)
@@ -115,11 +117,12 @@ class Node final : private canopen::Application {
   TickOutput<kNodeAxes> output_{};
   std::uint64_t deadline_us_ = 0;
   std::uint64_t next_scrub_us_ = 0;
-  std::uint8_t open_counter_ = 0;                // of the SYNC that opened the cycle
-  bool cycle_open_ = false;                      // SYNC has come, not yet computed
-  bool running_ = false;                         // the compensator ticks
-  PerAxis<std::uint16_t> clean_cycles_{};        // without trouble, per axis
-  std::uint16_t clean_syncs_ = 0;                // since the last bad SYNC
+  std::uint8_t open_counter_ = 0;          // of the SYNC that opened the cycle
+  bool cycle_open_ = false;                // SYNC has come, not yet computed
+  bool running_ = false;                   // the compensator ticks
+  PerAxis<std::uint16_t> clean_cycles_{};  // without trouble, per axis
+  std::uint16_t clean_syncs_ = 0;          // since the last bad SYNC
+  std::uint32_t start_given_ = 0;          // 2206h written since the last start, a bit per axis
   std::array<std::uint8_t, 2048> parameters_{};  // as stored
 };
 

@@ -39,6 +39,7 @@ void TableDownload::finish(std::size_t size) {
 void TableDownload::abandon() { enter(TableState::empty); }
 
 void TableDownload::reset() {
+  objects_.image_capacity = static_cast<std::uint32_t>(image_.size());
   enter(TableState::empty);
   objects_.staged_bytes = 0;
   objects_.staged_crc = 0;
@@ -61,6 +62,7 @@ Span<const std::uint8_t> TableDownload::active_image() const {
 AbortCode TableDownload::judge(const Status& status, TableState next) {
   report(status, objects_);
   enter(status.ok() ? next : TableState::refused);
+  if (!status.ok() && objects_.rejections < UINT32_MAX) ++objects_.rejections;
   return status.ok() ? AbortCode::none : AbortCode::general;
 }
 

@@ -72,9 +72,7 @@ int run(const Arguments& arguments) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int start(int argc, char** argv) {
   CLI::App app{"The volcomp compensation node on a CAN interface. Ends with SIGINT or SIGTERM."};
   app.name("volcomp-node");
   app.set_version_flag("--version", std::string("volcomp-node ") + VOLCOMP_NODE_VERSION);
@@ -93,4 +91,15 @@ int main(int argc, char** argv) {
     return app.exit(e) == 0 ? 0 : 2;
   }
   return run(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return start(argc, argv);
+  } catch (...) {
+    static_cast<void>(std::fputs("volcomp-node: the command line cannot be read\n", stderr));
+    return 2;
+  }
 }

@@ -10,5 +10,8 @@ void add_build_tables_command(CLI::App& app, int& code);
 void add_machine_command(CLI::App& app, int& code);
 void add_list_command(CLI::App& app, int& code);
 void add_device_files_command(CLI::App& app, int& code);
+void add_can_commands(CLI::App& app, int& code);
+void add_replay_command(CLI::App& app, int& code);
+void add_bus_load_command(CLI::App& app, int& code);
 
 }  // namespace volcomp::sim

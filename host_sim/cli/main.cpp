@@ -26,6 +26,9 @@ int run(int argc, char** argv) {
   volcomp::sim::add_machine_command(app, code);
   volcomp::sim::add_list_command(app, code);
   volcomp::sim::add_device_files_command(app, code);
+  volcomp::sim::add_can_commands(app, code);
+  volcomp::sim::add_replay_command(app, code);
+  volcomp::sim::add_bus_load_command(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/bus_tools/logged_cells.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/data/user_error.hpp"
@@ -20,6 +21,9 @@ struct RunArguments {
   std::string json_file;
   std::string report_folder;
   std::string command;
+  std::string can;  // empty: integrated
+  std::string log_file;
+  double cycle_hz = kBusCycle_hz;
 };
 
 // File and path as the user would type them, without the folder of the program.
@@ -30,6 +34,53 @@ std::string command_line(int argc, char** argv) {
   return text;
 }
 
+std::string transport(const RunArguments& arguments) {
+  if (arguments.can.empty()) return "integrated";
+  const char* const place = arguments.can == "loopback" ? "node in this process" : "lock step";
+  return fmt::format("CAN {}, {:g} Hz, {}", arguments.can, arguments.cycle_hz, place);
+}
+
+// The node on a bus: what that takes, for as long as the scenario runs.
+class Bus {
+ public:
+  explicit Bus(const RunArguments& arguments) {
+    const bool loopback = arguments.can == "loopback";
+    if (!loopback) gateway_ = std::make_unique<CanGateway>(arguments.can);
+    if (arguments.log_file.empty()) return;
+    log_ = std::make_unique<CanLogWriter>(arguments.log_file, arguments.can);
+    recorder_ = std::make_unique<BusRecorder>(
+        *log_, loopback ? BusRecorder::Clock::machine : BusRecorder::Clock::wall);
+  }
+
+  [[nodiscard]] CellFactory cells(const MachineFile& machine, double cycle_hz) {
+    if (recorder_) return logged_cells(machine, cycle_hz, gateway_.get(), *recorder_);
+    return gateway_ ? gateway_cells(machine, cycle_hz, *gateway_)
+                    : loopback_cells(machine, cycle_hz);
+  }
+  void finish() {
+    if (log_) log_->finish();
+  }
+
+ private:
+  std::unique_ptr<CanGateway> gateway_;
+  std::unique_ptr<CanLogWriter> log_;
+  std::unique_ptr<BusRecorder> recorder_;
+};
+
+XyfzResult run_scenario(const RunArguments& arguments, XyfzOptions options) {
+  std::unique_ptr<Bus> bus;
+  if (!arguments.can.empty()) {
+    bus = std::make_unique<Bus>(arguments);
+    options.make_cell = bus->cells(read_machine_file(options.machine), arguments.cycle_hz);
+  }
+  ProgressBar bar;
+  XyfzResult result =
+      run_xyfz(options, [&](double done, const std::string& what) { bar.show(done, what); });
+  if (bus) bus->finish();
+  result.options.make_cell = {};  // the bus ends here
+  return result;
+}
+
 int run_xyfz_command(RunArguments& arguments) {
   XyfzOptions& options = arguments.options;
   options.machine = arguments.machine.empty() ? bundled_machine("xyfz")
@@ -37,13 +88,13 @@ int run_xyfz_command(RunArguments& arguments) {
   if (!arguments.report_folder.empty()) {
     options.campaign = std::filesystem::path(arguments.report_folder) / "campaign";
   }
-  const XyfzResult result = [&] {
-    ProgressBar bar;
-    return run_xyfz(options, [&](double done, const std::string& what) { bar.show(done, what); });
-  }();
-  fmt::print("{}", xyfz_summary(result));
-  if (!arguments.json_file.empty())
-    write_whole_file(arguments.json_file, xyfz_figures(result).dump(2) + "\n");
+  const XyfzResult result = run_scenario(arguments, options);
+  fmt::print("{}transport: {}\n", xyfz_summary(result), transport(arguments));
+  if (!arguments.json_file.empty()) {
+    nlohmann::json figures = xyfz_figures(result);
+    figures["transport"] = transport(arguments);
+    write_whole_file(arguments.json_file, figures.dump(2) + "\n");
+  }
   if (!arguments.report_folder.empty()) {
     write_report(xyfz_document(result, arguments.command), arguments.report_folder);
     fmt::print("report: {}\n",
@@ -78,6 +129,15 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   xyfz->add_option("--json", a->json_file, "Write the figures to this file");
   xyfz->add_option("--report", a->report_folder,
                    "Write report.html, report.json and the run files to this folder");
+  CLI::Option* can = xyfz->add_option(
+      "--can", a->can,
+      "Compensate by a node on a CAN bus: loopback (in this process) or a SocketCAN interface");
+  xyfz->add_option("--cycle-hz", a->cycle_hz, "Cycle on the bus")
+      ->check(CLI::Range(50.0, 1000.0))
+      ->needs(can)
+      ->capture_default_str();
+  xyfz->add_option("--log", a->log_file, "Write all frames to this file, as candump -L does")
+      ->needs(can);
   xyfz->callback([a, &code] { code = run_xyfz_command(*a); });
 }
 

@@ -10,15 +10,14 @@ constexpr std::uint16_t kEnable = 0x0F;
 constexpr std::uint16_t kStartHoming = 0x1F;
 constexpr std::uint16_t kFaultReset = 0x80;
 
-constexpr std::uint16_t kFaultRetry = 50;  // cycles between two attempts
+constexpr std::uint16_t kRetry = 50;  // cycles between two attempts that need a rising edge
 
 // The control word that leads one state further towards operation enabled (CiA 402-2, table 33).
 std::uint16_t next_control(std::uint16_t status) {
   switch (status & 0x6FU) {
     case 0x21:
       return kSwitchOn;  // ready to switch on
-    case 0x23:
-      return kEnable;  // switched on
+    case 0x23:           // switched on
     case 0x27:
       return kEnable;  // operation enabled
     default:
@@ -48,7 +47,7 @@ void AxisCommander::step(std::int32_t path) {
   const bool referenced = (status_ & kReferencedBit) != 0;
   if (fault) {
     // Reset works on a rising edge.
-    control_ = ++waited_ % kFaultRetry == 0 ? kFaultReset : kShutdown;
+    control_ = ++waited_ % kRetry == 0 ? kFaultReset : kShutdown;
   } else {
     control_ = next_control(status_);
   }
@@ -57,8 +56,8 @@ void AxisCommander::step(std::int32_t path) {
   if (enabled && !following_) {
     const std::int8_t mode = referenced ? kCyclicPosition : kHomingMode;
     if (mode_ != mode) wanted_mode_ = mode;
-    const bool was_enabled_only = control_ == kEnable;
-    if (mode_ == kHomingMode && was_enabled_only && ++waited_ > 1) control_ = kStartHoming;
+    const bool homes = mode_ == kHomingMode && !referenced;
+    if (homes && ++waited_ % kRetry > 1) control_ = kStartHoming;
   } else if (!fault) {
     waited_ = 0;
   }

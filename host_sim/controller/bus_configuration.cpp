@@ -26,6 +26,7 @@ void BusController::configure(Station& s) {
   s.phase = Station::Phase::configuring;
   s.refusal.clear();
   s.not_started = 0;
+  s.retry_us = 0;
   s.channel.clear();
   if (s.state == canopen::NmtState::operational)
     command(canopen::NmtCommand::enter_pre_operational, s.id);
@@ -101,9 +102,7 @@ void BusController::configure_drive(Station& s, std::size_t axis) {
     sdo.write_value<std::uint32_t>({0x607D, 2}, static_cast<std::uint32_t>(a.highest),
                                    "upper software limit");
   }
-  sdo.write_value<std::uint8_t>({0x6060, 0}, static_cast<std::uint8_t>(kHomingMode),
-                                "mode of operation",
-                                [this, axis] { axis_[axis].mode_is(kHomingMode); });
+  set_mode(sdo, axis, kHomingMode);
 }
 
 void BusController::configure_node(SdoChannel& sdo) {

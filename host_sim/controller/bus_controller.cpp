@@ -1,5 +1,7 @@
 #include "host_sim/controller/bus_controller.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "comp/realtime/tick_types.hpp"
@@ -16,6 +18,7 @@ namespace {
 
 constexpr std::uint8_t kCounterOverflow = 240;
 constexpr std::uint64_t kRetryPause_us = 200'000;
+constexpr std::uint64_t kResetPause_us = 1'000'000;
 constexpr int kUnheededStarts = 3;  // heartbeats before a node that should run is started again
 
 std::uint64_t le(const hal::CanFrame& frame, std::size_t at, std::size_t count) {
@@ -50,6 +53,7 @@ void BusController::power_on(std::uint64_t now_us) {
   for (Station& s : stations_) {
     s.phase = Station::Phase::absent;
     s.boots = 0;
+    s.retry_us = now_us + kResetPause_us;
   }
   command(NmtCommand::reset_node, 0);
 }
@@ -123,7 +127,12 @@ void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t
   s.not_started = heeds ? 0 : s.not_started + 1;
   if (s.not_started < kUnheededStarts) return;
   s.not_started = 0;
-  command(NmtCommand::start, s.id);
+  // Whoever is PRE-OPERATIONAL may have booted without our hearing of it.
+  if (s.state == NmtState::pre_operational) {
+    configure(s);
+  } else {
+    command(NmtCommand::enter_pre_operational, s.id);
+  }
 }
 
 // --- time
@@ -131,9 +140,9 @@ void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t
 void BusController::poll(std::uint64_t now_us) {
   if (now_us >= next_heartbeat_us_) {
     next_heartbeat_us_ = now_us + 1000U * std::uint64_t{settings_.heartbeat_ms};
-    outgoing_.push_back({static_cast<std::uint16_t>(canopen::kHeartbeat + settings_.controller),
-                         1,
-                         {static_cast<std::uint8_t>(NmtState::operational)}});
+    send_latest({static_cast<std::uint16_t>(canopen::kHeartbeat + settings_.controller),
+                 1,
+                 {static_cast<std::uint8_t>(NmtState::operational)}});
   }
   for (Station& s : stations_)
     supervise(s, now_us);
@@ -145,6 +154,7 @@ void BusController::supervise(Station& s, std::uint64_t now_us) {
   const bool silent = now_us - s.last_heard_us > timeout_us;
   if (silent && s.phase == Station::Phase::running) {
     s.phase = Station::Phase::absent;
+    s.retry_us = now_us + kResetPause_us;
     if (is_drive(s)) axis_[static_cast<std::size_t>(&s - stations_.data())].drive_lost();
     return;
   }
@@ -157,10 +167,44 @@ void BusController::supervise(Station& s, std::uint64_t now_us) {
     command(NmtCommand::start, s.id);
   } else if (s.phase == Station::Phase::failed && now_us >= s.retry_us) {
     configure(s);
+  } else if (s.phase == Station::Phase::running && !is_drive(s)) {
+    retry_tables(s, now_us);
+  } else if (s.phase == Station::Phase::absent) {
+    call_back(s, now_us);
+  }
+}
+
+// Whoever has booted without our hearing of it was never told to send heartbeats.
+void BusController::call_back(Station& s, std::uint64_t now_us) {
+  if (s.retry_us == 0 || now_us < s.retry_us) return;
+  s.retry_us = now_us + kResetPause_us;
+  command(NmtCommand::reset_communication, s.id);
+}
+
+// Another client may have got in between.
+void BusController::retry_tables(Station& s, std::uint64_t now_us) {
+  if (s.channel.failure().empty()) return;
+  if (s.retry_us == 0) {
+    s.retry_us = now_us + kRetryPause_us;
+  } else if (now_us >= s.retry_us) {
+    s.retry_us = 0;
+    s.channel.clear();
+    if (!image_.empty()) queue_tables(s.channel);
   }
 }
 
 // --- out
+
+// What has not left yet is out of date: sent in a burst, it would be cycles nobody has asked for.
+void BusController::send_latest(const hal::CanFrame& frame) {
+  const auto same = [&frame](const hal::CanFrame& waiting) { return waiting.id == frame.id; };
+  const auto waiting = std::find_if(outgoing_.begin(), outgoing_.end(), same);
+  if (waiting == outgoing_.end()) {
+    outgoing_.push_back(frame);
+  } else {
+    *waiting = frame;
+  }
+}
 
 bool BusController::offer(hal::CanFrame& frame, std::uint64_t /*now_us*/) {
   offered_sdo_ = nullptr;
@@ -186,7 +230,7 @@ void BusController::taken(std::uint64_t /*now_us*/) {
 
 void BusController::send_sync() {
   counter_ = static_cast<std::uint8_t>(counter_ % kCounterOverflow + 1);
-  outgoing_.push_back({canopen::kSync, 1, {counter_}});
+  send_latest({canopen::kSync, 1, {counter_}});
 }
 
 void BusController::send_targets(const std::vector<std::int32_t>& path) {
@@ -198,7 +242,7 @@ void BusController::send_targets(const std::vector<std::int32_t>& path) {
     frame.size = 6;
     canopen::store_le(frame.data.data(), 2, axis_[a].control_word());
     canopen::store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()));
-    outgoing_.push_back(frame);
+    send_latest(frame);
   }
   set_modes();
 }
@@ -210,9 +254,17 @@ void BusController::set_modes() {
     SdoChannel& sdo = stations_[a].channel;
     if (mode == 0 || !sdo.idle()) continue;
     if (!sdo.failure().empty()) sdo.clear();
-    sdo.write({0x6060, 0}, {static_cast<std::uint8_t>(mode)}, "mode of operation",
-              [this, a, mode] { axis_[a].mode_is(mode); });
+    set_mode(sdo, a, mode);
   }
+}
+
+// Only the drive's own word counts: a response may get lost or belong to an earlier request.
+void BusController::set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode) {
+  axis_[axis].mode_is(0);
+  sdo.write({0x6060, 0}, {static_cast<std::uint8_t>(mode)}, "mode of operation");
+  sdo.read({0x6061, 0}, 1, "mode of operation in force", [this, axis](const SdoChannel::Bytes& v) {
+    axis_[axis].mode_is(static_cast<std::int8_t>(number(v)));
+  });
 }
 
 // --- verdict

@@ -62,6 +62,9 @@ class BusController {
   void take_heartbeat(Station& s, std::uint8_t state, std::uint64_t now_us);
   void take_drive_pdo(const hal::CanFrame& frame);
   void supervise(Station& s, std::uint64_t now_us);
+  void call_back(Station& s, std::uint64_t now_us);
+  void retry_tables(Station& s, std::uint64_t now_us);
+  void send_latest(const hal::CanFrame& frame);
   void configure(Station& s);
   void configure_common(SdoChannel& sdo);
   void check_scaling(Station& s, std::size_t axis);
@@ -69,6 +72,7 @@ class BusController {
   void configure_node(SdoChannel& sdo);
   void queue_tables(SdoChannel& sdo);
   void set_modes();
+  void set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode);
 
   BusSettings settings_;
   std::vector<std::uint8_t> image_;

@@ -21,8 +21,8 @@ class SimulatedBus {
 
   // Adds whatever has the members exchange() needs; it must outlive the bus.
   template <class Device>
-  Port& attach(Device& device, std::string name) {
-    return attach_served(std::move(name), [&device](Port& port, std::uint64_t now_us) {
+  Port& attach(Device& device, const std::string& name) {
+    return attach_served(name, [&device](Port& port, std::uint64_t now_us) {
       canopen::exchange(device, port, now_us);
     });
   }

@@ -25,7 +25,7 @@ struct Station {
   Phase phase = Phase::absent;
   canopen::NmtState state = canopen::NmtState::boot_up;
   std::uint64_t last_heard_us = 0;
-  std::uint64_t retry_us = 0;
+  std::uint64_t retry_us = 0;  // when to try again what failed
   std::uint32_t boots = 0;
   std::string refusal;  // why we will not work with it although it answers
   int not_started = 0;  // heartbeats in a row that say it does not run though it should

@@ -219,13 +219,14 @@ void check(const BusSettings& bus) {
     throw UserError(fmt::format("a node on the bus has room for {} axes, {} are given",
                                 node::kNodeAxes, bus.axes.size()));
   }
-  std::set<unsigned> ids{bus.controller};
+  std::set<unsigned> ids;
   std::set<char> letters;
   const auto take = [&ids](unsigned id) {
     if (id < 1 || id > canopen::kMaxNodeId)
       throw UserError(fmt::format("node id {} is not from 1 to {}", id, canopen::kMaxNodeId));
     if (!ids.insert(id).second) throw UserError(fmt::format("two stations have node id {}", id));
   };
+  take(bus.controller);
   take(bus.node);
   for (const BusAxis& axis : bus.axes) {
     take(axis.drive);

@@ -46,7 +46,7 @@ std::string without_semicolon(std::string text) {
 }
 
 std::string value_name(const Entry& row, std::uint8_t sub) {
-  const std::string name = without_semicolon(row.name);
+  std::string name = without_semicolon(row.name);
   if (row.index == kSdoServer)
     return sub == 1 ? "COB-ID client to server (rx)" : "COB-ID server to client (tx)";
   if (row.first_sub == row.last_sub) return name;
@@ -93,13 +93,14 @@ Bytes Twins::bytes(const node::Node& node, ObjectId object) {
 }
 
 std::optional<std::string> Twins::text(ObjectId object, DataType type) const {
-  const bool happened = object.index == kErrorField && object.sub > 0;
-  if (type == DataType::domain || happened) return std::nullopt;
+  if (object.index == kErrorField && object.sub > 0) return std::nullopt;
   const Bytes mine = bytes(*first_, object);
   if (type == DataType::visible_string) return std::string(mine.begin(), mine.end());
+  const std::size_t size = mine.size();
+  if (size == 0) return std::nullopt;  // a domain
   if (canopen::is_signed(type))
-    return fmt::format("{}", canopen::load_le_signed(mine.data(), mine.size()));
-  const std::uint64_t value = canopen::load_le(mine.data(), mine.size());
+    return fmt::format("{}", canopen::load_le_signed(mine.data(), size));
+  const std::uint64_t value = canopen::load_le(mine.data(), size);
   if (mine != bytes(*second_, object)) return fmt::format("$NODEID+0x{:X}", value - kFirst);
   const bool identifier = object.index < 0x2000 && type == DataType::unsigned32;
   return identifier ? fmt::format("0x{:08X}", value) : fmt::format("{}", value);

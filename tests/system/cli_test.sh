@@ -1,34 +1,9 @@
 #!/usr/bin/env bash
 # The tool as a user meets it: help, exit codes, one clear sentence for bad input, nothing half-written.
-set -u
+# shellcheck source=tests/system/cli_common.sh
+. "$(dirname "$0")/cli_common.sh"
 volcomp=$1
 source_dir=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failed=0
-
-# expect CODE TEXT COMMAND…: the exit code, and a text that the output must contain.
-expect() {
-  local code=$1 text=$2
-  shift 2
-  local output status
-  output=$("$@" 2>&1)
-  status=$?
-  if [ "$status" -ne "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
-    printf 'FAILED: %s\n  wanted exit %s and "%s", got exit %s:\n%s\n' "$*" "$code" "$text" "$status" "$output"
-    failed=1
-  fi
-}
-
-# one_line COMMAND…: what goes wrong is said in one line that starts with the program's name.
-one_line() {
-  local output
-  output=$("$@" 2>&1)
-  if [ "$(wc -l <<<"$output")" -ne 1 ] || [ "${output#volcomp: }" = "$output" ]; then
-    printf 'FAILED: %s must say it in one line, said:\n%s\n' "$*" "$output"
-    failed=1
-  fi
-}
 
 machine=$source_dir/host_sim/machines/xyfz.toml
 expect 0 'Subcommands' "$volcomp" --help
@@ -37,6 +12,14 @@ expect 0 'xyfz' "$volcomp" list
 expect 0 'good' "$volcomp" machine check "$machine"
 expect 2 'subcommand' "$volcomp"
 expect 2 '--draws' "$volcomp" run xyfz --draws many
+
+expect 0 '[ManufacturerObjects]' "$volcomp" device-files --eds -
+for arguments in '' '--drives 1,1,2 --eds -' '--drives 1,2 --eds -'; do
+  # shellcheck disable=SC2086  # several arguments
+  expect 2 'volcomp' "$volcomp" device-files $arguments
+  # shellcheck disable=SC2086
+  one_line "$volcomp" device-files $arguments
+done
 
 touch "$work/file"
 expect 2 'cannot be created' "$volcomp" run xyfz --draws 0 --report "$work/file"

@@ -60,3 +60,8 @@ listeners_are() {
 lines_are() {
   [ "$(wc -l < "$2")" = "$1" ]
 }
+
+# crc32_of FILE: its CRC-32 in hexadecimal.
+crc32_of() {
+  "$python" -c 'import sys, zlib; print("%08X" % zlib.crc32(open(sys.argv[1], "rb").read()))' "$1"
+}

@@ -8,7 +8,7 @@
 set -u
 cd "$(dirname "${BASH_SOURCE[0]}")/../../.." || exit 1
 
-readonly limit_s=120
+readonly limit_s=900
 tests=(tests/system/vcan/*_test.sh)
 failed=0
 for test in "${tests[@]}"; do

@@ -1,9 +1,10 @@
 #include "tests/unit/node/device_files_support.hpp"
 
-#include <cstdio>
 #include <fstream>
 #include <regex>
 #include <sstream>
+
+#include <fmt/format.h>
 
 namespace volcomp::node::test {
 
@@ -91,10 +92,7 @@ std::vector<EdsEntry> entries_of(const Ini& eds) {
 }
 
 std::string name_of(ObjectId object) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%04Xh:%02X", unsigned{object.index},
-                unsigned{object.sub});
-  return text.data();
+  return fmt::format("{:04X}h:{:02X}", object.index, object.sub);
 }
 
 // --- the node

@@ -20,6 +20,10 @@ using Bytes = std::vector<std::uint8_t>;
 // A file of the project; empty when it cannot be read.
 std::string project_file(const std::string& path);
 
+inline constexpr const char* kRegenerate =
+    "The file is not the one the code makes. Make it again:\n  build/host/host_sim/volcomp "
+    "device-files --eds firmware/volcomp.eds --dbc firmware/volcomp.dbc";
+
 Ini parse_ini(const std::string& text);
 
 // One section that describes a value: an object without sub-indices, or a sub-index of one.

@@ -1,0 +1,41 @@
+// volcomp bus-load
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "host_sim/bus_tools/bus_load.hpp"
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/data/whole_file.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct BusLoadArguments {
+  std::size_t axes = 0;
+  std::string json_file;
+};
+
+int print_bus_load(const BusLoadArguments& arguments) {
+  const std::vector<std::size_t> axes =
+      arguments.axes == 0 ? std::vector<std::size_t>{3, 5} : std::vector{arguments.axes};
+  const std::vector<BusLoadRow> table = bus_load_table(axes);
+  fmt::print("{}", describe(table));
+  if (!arguments.json_file.empty())
+    write_whole_file(arguments.json_file, to_json(table).dump(2) + "\n");
+  return 0;
+}
+
+}  // namespace
+
+void add_bus_load_command(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "bus-load", "How much of a CAN bus the compensation takes, computed and measured");
+  auto a = std::make_shared<BusLoadArguments>();
+  command->add_option("--axes", a->axes, "This number of axes only (default: 3 and 5)")
+      ->check(CLI::Range(1, 8));
+  command->add_option("--json", a->json_file, "Write the table to this file, too");
+  command->callback([a, &code] { code = print_bus_load(*a); });
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,133 @@
+// volcomp download, volcomp upload, volcomp diagnose
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "comp/tables/crc32.hpp"
+#include "host_sim/bus_tools/diagnosis.hpp"
+#include "host_sim/bus_tools/table_transfer.hpp"
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/data/whole_file.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct CanArguments {
+  std::string interface;
+  int node_id = 32;
+  std::string image;
+  std::string json_file;
+  bool no_activate = false;
+  bool store = false;
+};
+
+NodeClient connect(const CanArguments& arguments) {
+  return {static_cast<std::uint8_t>(arguments.node_id), SocketPump(arguments.interface)};
+}
+
+std::uint32_t crc_of(const std::vector<std::uint8_t>& image) {
+  return crc32({image.data(), image.size()});
+}
+
+void send_with_progress(NodeClient& client, const std::vector<std::uint8_t>& image) {
+  ProgressBar bar;
+  const auto all = static_cast<double>(image.size());
+  send_image(client, image, [&](std::size_t bytes) {
+    bar.show(static_cast<double>(bytes) / all, fmt::format("{} of {} bytes", bytes, image.size()));
+  });
+}
+
+// The bus lets nobody know whether what became active is what was sent, so it is read back.
+void activate(NodeClient& client, const std::vector<std::uint8_t>& image) {
+  activate_tables(client);
+  const ActiveTables tables = active_tables(client);
+  if (tables.crc != crc_of(image))
+    throw UserError(
+        fmt::format("node {} has other tables active, CRC-32 {:08X}: somebody else "
+                    "works on it",
+                    client.node_id(), tables.crc));
+  fmt::print("active: CRC-32 {:08X}, sequence number {}\n", tables.crc, tables.sequence);
+}
+
+int download(const CanArguments& arguments) {
+  const std::vector<std::uint8_t> image = read_image_file(arguments.image);
+  NodeClient client = connect(arguments);
+  send_with_progress(client, image);
+  fmt::print("{}: {} bytes sent to node {}\n", arguments.image, image.size(), client.node_id());
+  arm_tables(client);
+  if (arguments.no_activate) {
+    fmt::print("checked and ready, not active: CRC-32 {:08X}\n", crc_of(image));
+    return 0;
+  }
+  activate(client, image);
+  if (!arguments.store) return 0;
+  store_all(client);
+  fmt::print("stored\n");
+  return 0;
+}
+
+int upload(const CanArguments& arguments) {
+  NodeClient client = connect(arguments);
+  const std::vector<std::uint8_t> image = fetch_image(client);
+  write_whole_file(arguments.image, {reinterpret_cast<const char*>(image.data()), image.size()});
+  fmt::print("{}: {} bytes, CRC-32 {:08X}\n", arguments.image, image.size(), crc_of(image));
+  return 0;
+}
+
+int diagnose_node(const CanArguments& arguments) {
+  NodeClient client = connect(arguments);
+  const Diagnosis diagnosis = diagnose(client);
+  fmt::print("{}", describe(diagnosis));
+  if (!arguments.json_file.empty())
+    write_whole_file(arguments.json_file, to_json(diagnosis).dump(2) + "\n");
+  return 0;
+}
+
+// What the node refuses is a verdict, not bad input.
+int judged(int (*command)(const CanArguments&), const CanArguments& arguments) {
+  try {
+    return command(arguments);
+  } catch (const NodeRefused& refused) {
+    fmt::print(stderr, "volcomp: {}\n", refused.what());
+    return 1;
+  }
+}
+
+std::shared_ptr<CanArguments> add_node_options(CLI::App& command) {
+  auto a = std::make_shared<CanArguments>();
+  command.add_option("--can", a->interface, "SocketCAN interface, for instance can0")->required();
+  command.add_option("--node-id", a->node_id, "CANopen node id of the compensation node")
+      ->check(CLI::Range(1, 127))
+      ->capture_default_str();
+  return a;
+}
+
+}  // namespace
+
+void add_can_commands(CLI::App& app, int& code) {
+  CLI::App* to_node =
+      app.add_subcommand("download", "Send a table image to a compensation node and activate it");
+  const auto d = add_node_options(*to_node);
+  to_node->add_option("IMAGE", d->image, "Image file of volcomp build-tables")->required();
+  CLI::Option* no_activate =
+      to_node->add_flag("--no-activate", d->no_activate, "Have it checked and prepared only");
+  to_node->add_flag("--store", d->store, "Keep parameters and tables through a power failure")
+      ->excludes(no_activate);
+  to_node->callback([d, &code] { code = judged(download, *d); });
+
+  CLI::App* from_node = app.add_subcommand("upload", "Read the table image of a compensation node");
+  const auto u = add_node_options(*from_node);
+  from_node->add_option("IMAGE", u->image, "File to write")->required();
+  from_node->callback([u, &code] { code = judged(upload, *u); });
+
+  CLI::App* diagnosis =
+      app.add_subcommand("diagnose", "Say in words how a compensation node is doing");
+  const auto n = add_node_options(*diagnosis);
+  diagnosis->add_option("--json", n->json_file, "Write it to this file, too");
+  diagnosis->callback([n, &code] { code = judged(diagnose_node, *n); });
+}
+
+}  // namespace volcomp::sim

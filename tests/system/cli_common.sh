@@ -1,0 +1,30 @@
+# Sourced by the tests of the command line.
+# shellcheck shell=bash
+set -u
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# shellcheck disable=SC2034  # for who sources this
+failed=0
+
+# expect CODE TEXT COMMAND…: the exit code, and a text that the output must contain.
+expect() {
+  local code=$1 text=$2
+  shift 2
+  local output status
+  output=$("$@" 2>&1)
+  status=$?
+  if [ "$status" -ne "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
+    printf 'FAILED: %s\n  wanted exit %s and "%s", got exit %s:\n%s\n' "$*" "$code" "$text" "$status" "$output"
+    failed=1
+  fi
+}
+
+# one_line COMMAND…: what goes wrong is said in one line that starts with the program's name.
+one_line() {
+  local output
+  output=$("$@" 2>&1)
+  if [ "$(wc -l <<<"$output")" -ne 1 ] || [ "${output#volcomp: }" = "$output" ]; then
+    printf 'FAILED: %s must say it in one line, said:\n%s\n' "$*" "$output"
+    failed=1
+  fi
+}

@@ -1,0 +1,262 @@
+// Recorded bus traffic: the format of candump -L, and the node that does the same again.
+
+#include <algorithm>
+#include <random>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "comp/tables/crc32.hpp"
+#include "host_sim/bus_tools/replay.hpp"
+#include "host_sim/bus_tools/replayed_node.hpp"
+#include "host_sim/bus_tools/table_transfer.hpp"
+#include "host_sim/controller/bus_axes.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "tests/unit/host/service_bench.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::string& text) {
+  try {
+    static_cast<void>(parse_can_log(text, "bus.log"));
+  } catch (const UserError& e) {
+    return e.what();
+  }
+  return "(accepted)";
+}
+
+TEST(CanLog, ReadsALineOfCandump) {
+  const auto log = parse_can_log("(1700000000.123456) vcan0 1A0#1CDF4421020A0F00\n", "bus.log");
+  ASSERT_EQ(log.size(), 1U);
+  EXPECT_EQ(log[0].time_us, 1'700'000'000'123'456U);
+  EXPECT_EQ(log[0].frame, (hal::CanFrame{0x1A0, 8, {0x1C, 0xDF, 0x44, 0x21, 2, 10, 15, 0}}));
+}
+
+TEST(CanLog, AnyFrameComesBack) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (int i = 0; i < 1000; ++i) {
+    hal::CanFrame frame;
+    frame.id = static_cast<std::uint16_t>(random() & hal::kMaxCanId);
+    frame.size = static_cast<std::uint8_t>(random() % 9);
+    for (std::size_t b = 0; b < frame.size; ++b)
+      frame.data[b] = static_cast<std::uint8_t>(random());
+    const std::uint64_t time_us = random();
+    const auto log = parse_can_log(log_line(time_us, "can0", frame), "bus.log");
+    ASSERT_EQ(log.size(), 1U);
+    EXPECT_EQ(log[0].frame, frame);
+    EXPECT_EQ(log[0].time_us, time_us);
+  }
+}
+
+TEST(CanLog, BadLinesAreNamed) {
+  const std::string good = "(0000000001.000000) can0 080#01\n";
+  for (const char* bad : {"nonsense", "(1.5) can0 080#01", "(1.000000) can0", "(1.000000) can0 080",
+                          "1.000000 can0 080#", "(1.000000) can0 800#01", "(1.000000) can0 08G#01",
+                          "(1.000000) can0 080#1", "(1.000000) can0 080#0102030405060708FF",
+                          "(x.000000) can0 080#01", "(99999999999999999999.000000) can0 080#01"}) {
+    EXPECT_EQ(complaint(good + good + bad), "bus.log:3: not a line of candump -L") << bad;
+  }
+  EXPECT_EQ(complaint(good + "(0000000000.999999) can0 080#02"), "bus.log:2: time runs backwards");
+  EXPECT_EQ(complaint("\n\n"), "bus.log: holds no frames");
+}
+
+TEST(CanLog, FramesOfNoUseAreLeftOut) {
+  const auto log = parse_can_log(
+      "(1.000000) can0 18FF50E5#0102\n(1.000001) can0 123#R\n"
+      "(1.000002) can0 20000080#0000000000000000\n(1.000003) can0 123##1AA\n"
+      "(1.000004) can0 123#AA\n",
+      "bus.log");
+  ASSERT_EQ(log.size(), 1U);
+  EXPECT_EQ(log[0].line, 5U);
+}
+
+// --- replay
+
+constexpr std::uint8_t kNode = 32;
+
+// A machine on the bus that starts, moves, and lives through what `incident` does to it.
+template <class Incident>
+std::string record_run(const Incident& incident) {
+  std::string log;
+  const KnownMachine& machine = known_machine();
+  BusAxes axes(bus_settings(machine.file, 500.0), machine.image);
+  record(axes.bus(), log);
+  axes.stand_at({-250.0, -150.0, -200.0});
+  axes.bring_up();
+  const TargetsNm start = axes.target_nm();
+  for (std::int32_t i = 0; i < 600; ++i) {
+    if (i == 200) incident(axes);
+    std::vector<std::int32_t> path;
+    for (const std::int64_t nm : start)
+      path.push_back(static_cast<std::int32_t>(nm) + 100'000 * i);
+    axes.run_cycle(path);
+  }
+  return log;
+}
+
+std::string record_quiet_run() {
+  return record_run([](BusAxes&) {});
+}
+
+ReplayResult replay_text(const std::string& log, const std::vector<std::uint8_t>& image = {}) {
+  return replay(parse_can_log(log, "bus.log"), kNode, image);
+}
+
+std::string refusal_of(const std::string& log, const std::vector<std::uint8_t>& image = {}) {
+  try {
+    static_cast<void>(replay_text(log, image));
+  } catch (const UserError& e) {
+    return e.what();
+  }
+  return "(replayed)";
+}
+
+TEST(Replay, NodeDoesTheSameAgain) {
+  const ReplayResult result = replay_text(record_quiet_run());
+  EXPECT_TRUE(result.equal()) << describe(result);
+  EXPECT_GT(result.cycles, 600U);
+  EXPECT_GT(result.compared, 3 * 600U);  // three offsets per cycle at least
+  EXPECT_EQ(result.power_ups, 0U);
+}
+
+TEST(Replay, CyclesWithoutADriveEndAtTheDeadlineAgain) {
+  const ReplayResult result =
+      replay_text(record_run([](BusAxes& axes) { axes.power_drive(1, false); }));
+  EXPECT_TRUE(result.equal()) << describe(result);
+}
+
+TEST(Replay, PowerCycleOfTheNodeIsRepeated) {
+  const ReplayResult result = replay_text(record_run([](BusAxes& axes) {
+    axes.power_node(false);
+    for (int i = 0; i < 50; ++i)
+      axes.run_cycle({-250'000'000, -150'000'000, -200'000'000});
+    axes.power_node(true);
+  }));
+  EXPECT_TRUE(result.equal()) << describe(result);
+  EXPECT_EQ(result.power_ups, 1U);
+}
+
+// The line and the SYNC counter of some cycle in the middle of the motion.
+struct Place {
+  std::size_t line = 0;  // of the target of axis 1, from 0
+  std::uint8_t counter = 0;
+};
+Place find_target(const std::vector<LoggedFrame>& log) {
+  Place place;
+  int targets = 0;
+  for (const LoggedFrame& logged : log) {
+    if (logged.frame.id == 0x080) place.counter = logged.frame.data[0];
+    place.line = logged.line - 1;
+    const bool target = logged.line > log.size() / 2 && logged.frame.id == 0x201;
+    if (target && ++targets == 50) return place;
+  }
+  ADD_FAILURE() << "no such target";
+  return place;
+}
+
+TEST(Replay, ChangedTargetShowsInItsOwnCycle) {
+  std::string text = record_quiet_run();
+  const std::vector<LoggedFrame> log = parse_can_log(text, "bus.log");
+  const Place place = find_target(log);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < place.line; ++i)
+    at = text.find('\n', at) + 1;
+  // 607Ah: bytes 2…5 of RPDO1; 8.4 mm more or less.
+  const std::size_t digit = text.find('#', at) + 1 + 2 * 4 + 1;
+  text[digit] = text[digit] == '0' ? '8' : '0';
+  const ReplayResult result = replay_text(text);
+  ASSERT_FALSE(result.equal());
+  EXPECT_EQ(result.difference->sync_counter, place.counter);
+  EXPECT_THAT(result.difference->what, HasSubstr("process data 30"));
+  ASSERT_TRUE(result.difference->expected);
+  ASSERT_TRUE(result.difference->got);
+  EXPECT_NE(*result.difference->expected, *result.difference->got);
+  EXPECT_THAT(describe(result), HasSubstr(fmt::format("SYNC counter {}", place.counter)));
+}
+
+// Without the frames for which `drop` holds.
+template <class Drop>
+std::vector<LoggedFrame> without(std::vector<LoggedFrame> log, const Drop& drop) {
+  log.erase(std::remove_if(log.begin(), log.end(), drop), log.end());
+  return log;
+}
+
+TEST(Replay, MissingAndAddedAnswersAreDifferences) {
+  const std::vector<LoggedFrame> log = parse_can_log(record_quiet_run(), "bus.log");
+  std::vector<std::uint16_t> ids{0x301, 0x5A0};
+  for (const std::uint16_t id : ids) {
+    SCOPED_TRACE(id);
+    int seen = 0;
+    const auto third = [&seen, id](const LoggedFrame& l) {
+      return l.frame.id == id && ++seen == 3;
+    };
+    EXPECT_FALSE(replay(without(log, third), kNode, {}).equal());
+    const auto where = std::find_if(log.rbegin(), log.rend(),
+                                    [id](const LoggedFrame& l) { return l.frame.id == id; });
+    std::vector<LoggedFrame> twice = log;
+    twice.insert(where.base() - log.begin() + twice.begin(), *where);
+    EXPECT_FALSE(replay(twice, kNode, {}).equal());
+  }
+}
+
+TEST(Replay, LogWithoutTheStartOfTheNodeIsRefused) {
+  const std::string text = record_quiet_run();
+  EXPECT_THAT(refusal_of(text.substr(text.find('\n', text.size() / 2) + 1)),
+              HasSubstr("no start of node 32"));
+}
+
+TEST(Replay, LogMayEndAnywhere) {
+  const std::vector<LoggedFrame> log = parse_can_log(record_quiet_run(), "bus.log");
+  for (std::size_t left_out = 0; left_out < 40; ++left_out) {
+    const std::vector<LoggedFrame> shorter(log.begin(),
+                                           log.end() - static_cast<std::ptrdiff_t>(left_out));
+    const ReplayResult result = replay(shorter, kNode, {});
+    EXPECT_TRUE(result.equal()) << left_out << ": " << describe(result);
+  }
+}
+
+// A node that found its tables in its store: the log shows their CRC and nothing else of them.
+TEST(Replay, StoredTablesHaveToBeGiven) {
+  const std::vector<std::uint8_t>& image = known_machine().image;
+  ImageStorage storage(image);
+  ServiceBench bench(&storage);
+  bench.pass_us(5000);
+  bench.send({0x000, 2, {1, kNode}});
+  for (std::uint8_t counter = 1; counter < 10; ++counter)
+    bench.send({0x080, 1, {counter}});
+  bench.pass_us(200'000);
+
+  EXPECT_THAT(refusal_of(bench.log), HasSubstr("give them with --image"));
+  EXPECT_THAT(refusal_of(bench.log),
+              HasSubstr(fmt::format("{:08X}", crc32({image.data(), image.size()}))));
+  std::vector<std::uint8_t> other = image;
+  other.back() ^= 1U;
+  EXPECT_THAT(refusal_of(bench.log, other), HasSubstr("the image given"));
+  const ReplayResult result = replay_text(bench.log, image);
+  EXPECT_TRUE(result.equal()) << describe(result);
+}
+
+TEST(Replay, DownloadUploadAndRefusalAreRepeatedByteForByte) {
+  ServiceBench bench;
+  bench.pass_us(5000);
+  std::vector<std::uint8_t> damaged = known_machine().image;
+  damaged[damaged.size() / 2] ^= 1U;
+  send_image(bench.client, damaged);
+  EXPECT_THROW(arm_tables(bench.client), NodeRefused);
+  send_image(bench.client, known_machine().image);
+  activate_tables(bench.client);
+  EXPECT_EQ(fetch_image(bench.client), known_machine().image);
+  bench.send({0x000, 2, {1, kNode}});
+  bench.pass_us(200'000);
+  const ReplayResult result = replay_text(bench.log);
+  EXPECT_TRUE(result.equal()) << describe(result);
+}
+
+}  // namespace
+}  // namespace volcomp::sim

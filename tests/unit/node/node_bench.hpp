@@ -1,0 +1,112 @@
+#pragma once
+// A compensation node on a bench: three axes whose drives and controller are played by hand, one
+// bus cycle at a time, and an SDO client. Drive units are nanometres.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware/canopen/sdo_client.hpp"
+#include "firmware/node/node.hpp"
+#include "tests/unit/realtime/support.hpp"
+
+namespace volcomp::node {
+
+using Bytes = std::vector<std::uint8_t>;
+
+[[nodiscard]] Bytes image_of(const MachineTables& tables);
+// CRCs of the axes and of the image made right again after a field was tampered with; `tables` says
+// how long the axes are.
+void reseal(Bytes& image, const MachineTables& tables);
+// First byte of the block of an axis: q0 i64, pitch i64, knots u32, periodic u8 …
+[[nodiscard]] std::size_t axis_at(const MachineTables& tables, std::size_t axis);
+
+// Random tables of the machine of seed 001, every offset below a few µm.
+[[nodiscard]] MachineTables bench_tables(std::uint64_t seed = 0);
+
+struct BenchEmergency {
+  std::uint16_t code;
+  std::uint8_t error_register;
+  std::uint8_t source;
+};
+
+// What one drive sends and takes.
+struct BenchDrive {
+  std::int32_t target = -100'000'000;
+  std::uint16_t status = 0x0127;  // operation enabled, referenced
+  std::int32_t held = 0;          // 60B0h
+  std::int32_t next = 0;          // arrived, in force from the next SYNC
+  bool silent = false;            // neither the drive nor the controller speaks of this axis
+};
+
+class NodeBench {
+ public:
+  static constexpr std::uint8_t kId = 32;
+  static constexpr std::uint32_t kPeriod_us = 2000;
+  static constexpr std::size_t kDrives = 3;
+
+  explicit NodeBench(Storage* storage = nullptr);
+
+  void power_on();
+  void give(const hal::CanFrame& frame);
+  // Time passes in steps of 100 µs.
+  void wait(std::uint64_t us);
+
+  // Over SDO; the abort code.
+  canopen::AbortCode write(canopen::ObjectId object, const Bytes& value);
+  template <class T>
+  canopen::AbortCode set(std::uint16_t index, std::uint8_t sub, T value) {
+    Bytes bytes(sizeof(T));
+    canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
+    return write({index, sub}, bytes);
+  }
+  canopen::AbortCode read(canopen::ObjectId object, Bytes& value);
+  // Of an object that must be readable.
+  std::uint64_t number(std::uint16_t index, std::uint8_t sub);
+  std::string text(std::uint16_t index, std::uint8_t sub);
+  canopen::AbortCode command(TableCommand command) {
+    return set(0x2111, 0, static_cast<std::uint8_t>(command));
+  }
+
+  // Drives 1, 2, 3 for the axes, cycle period, SYNC counter, short ramp.
+  void configure();
+  // Downloads and activates.
+  void load(const MachineTables& tables);
+  void nmt(canopen::NmtCommand command);
+  // configure(), load(), start, until every offset has settled.
+  void bring_up(const MachineTables& tables = bench_tables());
+
+  // SYNC, then what drives and controller send, then the deadline.
+  void cycle();
+  void cycles(int count);
+  // The steps of a cycle, for those who want another order.
+  void sync();
+  void drive_data(std::size_t axis);
+  void offset_report(std::size_t axis);
+  void controller_data(std::size_t axis);
+
+  [[nodiscard]] NodeState state() const { return static_cast<NodeState>(node->objects().state); }
+  [[nodiscard]] std::uint16_t status(std::size_t axis) const {
+    return node->objects().status[axis];
+  }
+  [[nodiscard]] std::array<std::int32_t, kDrives> offsets() const;
+  // Since the last call of forget_emergencies().
+  [[nodiscard]] bool emergency(canopen::ErrorCode code, std::uint8_t source) const;
+  void forget_emergencies() { emergencies.clear(); }
+
+  std::unique_ptr<Node> node;
+  std::array<BenchDrive, kDrives> drive;
+  std::vector<BenchEmergency> emergencies;
+  std::vector<hal::CanFrame> sent;  // since the last SYNC, without SDO
+  std::uint64_t now_us = 0;
+  std::int32_t largest_step = 0;  // of an offset a drive took in
+
+ private:
+  void drain();
+  canopen::AbortCode finish();
+
+  canopen::SdoClient client_;
+  std::uint8_t counter_ = 0;
+};
+
+}  // namespace volcomp::node
