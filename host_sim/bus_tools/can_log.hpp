@@ -21,9 +21,10 @@ struct LoggedFrame {
   hal::CanFrame frame{};
 };
 
-// The frames of a log in its order. Frames a CANopen network does not use are left out: 29-bit
-// identifiers, remote requests, error reports. Throws UserError naming `name` and line for what is
-// no log line, and where time runs backwards.
+// The frames of a log in the order of their time stamps: the kernel takes those when a frame is
+// sent, but may hand two frames to a listener the other way round. Frames a CANopen network does
+// not use are left out: 29-bit identifiers, remote requests, error reports. Throws UserError naming
+// `name` and line for what is no log line, and where time runs backwards by more than 0.1 s.
 [[nodiscard]] std::vector<LoggedFrame> parse_can_log(std::string_view text,
                                                      const std::string& name);
 [[nodiscard]] std::vector<LoggedFrame> read_can_log(const std::filesystem::path& path);

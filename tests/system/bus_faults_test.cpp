@@ -24,7 +24,6 @@
 
 #include <cstdlib>
 #include <functional>
-#include <map>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,8 @@
 # Sourced by the tests of the command line.
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# shellcheck disable=SC2034  # for who sources this
 failed=0
 
 # expect CODE TEXT COMMAND…: the exit code, and a text that the output must contain.

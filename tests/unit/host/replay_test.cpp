@@ -62,8 +62,17 @@ TEST(CanLog, BadLinesAreNamed) {
                           "(x.000000) can0 080#01", "(99999999999999999999.000000) can0 080#01"}) {
     EXPECT_EQ(complaint(good + good + bad), "bus.log:3: not a line of candump -L") << bad;
   }
-  EXPECT_EQ(complaint(good + "(0000000000.999999) can0 080#02"), "bus.log:2: time runs backwards");
+  EXPECT_EQ(complaint(good + "(0000000000.899999) can0 080#02"), "bus.log:2: time runs backwards");
   EXPECT_EQ(complaint("\n\n"), "bus.log: holds no frames");
+}
+
+TEST(CanLog, FramesAreOrderedByTheirTimeStamps) {
+  const auto log = parse_can_log(
+      "(1.000005) can0 720#00\n(1.000003) can0 000#8100\n(1.000009) can0 080#\n", "bus.log");
+  ASSERT_EQ(log.size(), 3U);
+  EXPECT_EQ(log[0].frame.id, 0x000);
+  EXPECT_EQ(log[1].frame.id, 0x720);
+  EXPECT_EQ(log[2].frame.id, 0x080);
 }
 
 TEST(CanLog, FramesOfNoUseAreLeftOut) {
