@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::uint16_t kAxisTrouble = kNotHomed | kStale | kDropped | kImplausible |
                                        kFarOutOfRange | kClamped | kNoAuthority | kTableDamaged;
+// An axis far beyond its table or at its limit is an alarm, but it is corrected as far as that
+// goes: a controller that stopped for it could never drive it back.
+constexpr auto kDegrading =
+    static_cast<std::uint16_t>(kAxisTrouble & ~unsigned{kFarOutOfRange | kClamped});
 constexpr std::uint16_t kCleanCycles = 100;  // before an error counts as gone
 
 constexpr std::uint32_t bit(std::size_t axis) { return 1U << axis; }
@@ -170,7 +174,7 @@ void Node::report_status() {
   NodeState state = NodeState::no_tables;
   if (compensator_.active()) {
     state = !running_ ? NodeState::waiting : NodeState::compensating;
-    if (running_ && (silent || (any & kAxisTrouble) != 0)) state = NodeState::degraded;
+    if (running_ && (silent || (any & kDegrading) != 0)) state = NodeState::degraded;
   }
   objects_.any_status = any;
   objects_.state = static_cast<std::uint8_t>(state);

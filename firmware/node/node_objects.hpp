@@ -50,7 +50,7 @@ enum class NodeState : std::uint8_t {
   no_tables = 1,     // nothing to compensate with
   waiting = 2,       // for a drive to report the offset it holds
   compensating = 3,  // every axis
-  degraded = 4,      // at least one axis is held, ramped down or limited: status words 2601h
+  degraded = 4,      // at least one axis is held, ramped down or not answered: 2601h
 };
 
 struct NodeObjects {

@@ -114,11 +114,4 @@ StoreResult verdict(const Slots& slots) {
                                                            : StoreResult::loaded_older;
 }
 
-// CRC-32 is linear and its register starts from ones: going on from the CRC of the bytes before is
-// the same as starting anew with that CRC added to the first four bytes.
-std::uint32_t crc32_after(std::uint32_t before, Span<std::uint8_t> chunk) {
-  if (before != 0) canopen::store_le(chunk.data(), 4, canopen::load_le(chunk.data(), 4) ^ before);
-  return crc32({chunk.data(), chunk.size()});
-}
-
 }  // namespace volcomp::node

@@ -97,10 +97,6 @@ using RecordHeaderBytes = std::array<std::uint8_t, kRecordHeaderBytes>;
 // What load() says about slots in these states.
 StoreResult verdict(const Slots& slots);
 
-// The CRC-32 of some bytes followed by `chunk`, which is overwritten. `before` is the CRC-32 of
-// those bytes; 0 if there are none, otherwise the chunk has at least 4 bytes.
-[[nodiscard]] std::uint32_t crc32_after(std::uint32_t before, Span<std::uint8_t> chunk);
-
 // All calls block for as long as the device does and belong to the background. Stack: below 1 KiB
 // besides the device's own. One store per device, no calls from two contexts.
 template <class Blocks>
@@ -201,15 +197,15 @@ class RecordStore {
     return found;
   }
 
-  // valid, damaged or unreadable. The short chunk comes first, for crc32_after().
+  // valid, damaged or unreadable.
   SlotState part_state(std::size_t at, const RecordPart& part) {
     std::array<std::uint8_t, kChunkBytes> buffer{};
     std::uint32_t crc = 0;
-    std::size_t n = (part.size + kChunkBytes - 1) % kChunkBytes + 1;
-    for (std::size_t done = 0; done < part.size; done += n, n = kChunkBytes) {
-      const Span<std::uint8_t> chunk{buffer.data(), n};
+    for (std::size_t done = 0; done < part.size; done += kChunkBytes) {
+      const std::size_t rest = part.size - done;
+      const Span<std::uint8_t> chunk{buffer.data(), rest < kChunkBytes ? rest : kChunkBytes};
       if (!blocks_.read(at + done, chunk)) return SlotState::unreadable;
-      crc = crc32_after(crc, chunk);
+      crc = crc32({chunk.data(), chunk.size()}, crc);
     }
     return crc == part.crc ? SlotState::valid : SlotState::damaged;
   }
