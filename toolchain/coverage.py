@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Line and branch coverage of comp after the tests of the preset "cov" have run.
+"""Line and branch coverage of the target code (comp, hal, firmware) after the tests of the preset "cov" have run.
 
     toolchain/coverage.py [BUILD_FOLDER]   default build/cov
 
@@ -21,7 +21,8 @@ class Failure(Exception):
 def run_gcovr(build):
     summary = build / "coverage.json"
     run = subprocess.run(
-        ["gcovr", "--root", ".", "--filter", "comp/", "--exclude-throw-branches", "--exclude-unreachable-branches",
+        ["gcovr", "--root", ".", "--filter", "comp/", "--filter", "hal/", "--filter", "firmware/",
+         "--exclude-throw-branches", "--exclude-unreachable-branches",
          "--json-summary", str(summary), "--html-details", str(build / "coverage.html"), str(build)],
         capture_output=True, text=True, check=False)
     if run.returncode != 0:
@@ -60,7 +61,7 @@ def main():
         raise Failure(f'there is no folder {build}: build and test the preset "cov" first.')
     files = run_gcovr(build)
     if not files:
-        raise Failure("no file of comp was run by the tests.")
+        raise Failure("no file of the target code was run by the tests.")
     text = table(files)
     (build / "coverage.txt").write_text(text + "\n")
     print(text)

@@ -17,7 +17,7 @@
 #   tidy        clang-tidy
 #   cppcheck    cppcheck over comp, hal and firmware
 #   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 30) seconds
-#   coverage    build and tests with gcov; table in build/cov/coverage.txt
+#   coverage    target code and its own tests with gcov; table in build/cov/coverage.txt
 #   bench       the benchmarks are built, not run
 #
 # VOLCOMP_JOBS limits the processes (default: the number of processors). The last line says how many
