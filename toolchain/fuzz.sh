@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs libFuzzer programs and fails on the first crash, hang or sanitizer report.
 #
-#   toolchain/fuzz.sh PROGRAM...      each for VOLCOMP_FUZZ_SECONDS (default 30) seconds
+#   toolchain/fuzz.sh PROGRAM...      each for VOLCOMP_FUZZ_SECONDS (default 30) seconds, VOLCOMP_JOBS at a time
 #
 # fuzz_NAME starts from tests/data/corpus/NAME, which is only read, and takes its dictionary from
 # tests/data/corpus/NAME.dict. What makes a program fail is kept in build/fuzz/findings.
@@ -35,17 +35,31 @@ esac
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$findings"
+programs=()
 for program in "$@"; do
-  name=$(basename "$program")
   program=$(cd "$caller_folder" && realpath -m "$program")
   { [ -f "$program" ] && [ -x "$program" ]; } || die "\"$program\" is not a program."
-  log=$work/$name.log
-  if ! fuzz_one "$program" "$log"; then
-    tail -n 60 "$log"
-    die "$name failed; the input is in $findings."
+  programs+=("$program")
+done
+
+# As many at a time as there are processors; each leaves NAME.log and, having failed, NAME.failed.
+for program in "${programs[@]}"; do
+  while [ "$(jobs -rp | wc -l)" -ge "$(jobs_allowed)" ]; do wait -n || true; done
+  name=$(basename "$program")
+  { fuzz_one "$program" "$work/$name.log" || touch "$work/$name.failed"; } &
+done
+wait
+failed=()
+for program in "${programs[@]}"; do
+  name=$(basename "$program")
+  if [ -e "$work/$name.failed" ]; then
+    tail -n 60 "$work/$name.log"
+    failed+=("$name")
+    continue
   fi
   awk -v name="$name" '
     / cov: / { for (i = 1; i < NF; ++i) if ($i == "cov:") coverage = $(i + 1) }
     /number_of_executed_units/ { runs = $2 }
-    END { printf "%-28s %10s runs, %6s edges, no failure\n", name, runs, coverage }' "$log"
+    END { printf "%-28s %10s runs, %6s edges, no failure\n", name, runs, coverage }' "$work/$name.log"
 done
+[ ${#failed[@]} -eq 0 ] || die "${failed[*]} failed; the inputs are in $findings."

@@ -1,16 +1,17 @@
 # VOLCOMP_SANITIZE, VOLCOMP_COVERAGE and VOLCOMP_FUZZ: flags for every target below the project folder.
+# Lines are all that their reports need to know of the debug information (-g1).
 
 if(VOLCOMP_SANITIZE)
   # No vptr check: it needs the type information that the libraries of the target are built without.
   set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
     -fno-sanitize-recover=all)
-  add_compile_options(${volcomp_sanitizers} -O1 -fno-omit-frame-pointer)
+  add_compile_options(${volcomp_sanitizers} -O1 -g1 -fno-omit-frame-pointer)
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
   add_link_options(${volcomp_sanitizers})
 endif()
 
 if(VOLCOMP_COVERAGE)
-  add_compile_options(--coverage -O0)
+  add_compile_options(--coverage -O0 -g1)
   add_link_options(--coverage)
 endif()
 
@@ -21,7 +22,7 @@ if(VOLCOMP_FUZZ)
   # Without -fno-sanitize-recover an undefined-behaviour report would not end the run.
   set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
     -fno-sanitize-recover=all)
-  add_compile_options(-fsanitize=fuzzer-no-link ${volcomp_sanitizers} -O1 -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=fuzzer-no-link ${volcomp_sanitizers} -O1 -g1 -fno-omit-frame-pointer)
   add_link_options(${volcomp_sanitizers})
   add_custom_target(volcomp_fuzzers)
 endif()
