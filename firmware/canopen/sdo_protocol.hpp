@@ -96,7 +96,7 @@ constexpr SdoData initiate_frame(std::uint8_t command, ObjectId object,
   if (!fits_expedited(size)) return object_frame(command | kSizeIndicated, object, size);
   const auto unused = static_cast<unsigned>(kExpeditedBytes - size);
   return object_frame(command | unused << 2U | kExpedited | kSizeIndicated, object,
-                      load_le(bytes.data(), size));
+                      static_cast<std::size_t>(load_le(bytes.data(), size)));
 }
 
 constexpr bool is_expedited(const SdoData& frame) { return (frame[0] & kExpedited) != 0; }

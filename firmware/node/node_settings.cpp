@@ -10,7 +10,7 @@ namespace {
 
 // Rotary slew limits are given in 2^-32 turn like every offset.
 std::int32_t slew_on_wire(std::int32_t slew, const WireScale& scale) {
-  return std::max(1, offset_to_wire(slew, scale));
+  return std::max(std::int32_t{1}, offset_to_wire(slew, scale));
 }
 
 }  // namespace

@@ -21,10 +21,11 @@ target_compile_definitions(volcomp_eigen INTERFACE
 # volcomp_flags: the warnings, all of them errors, and one arithmetic on every machine (no fused
 # multiply-add that the source does not ask for). Every target of the project links it PRIVATE.
 add_library(volcomp_flags INTERFACE)
-target_compile_options(volcomp_flags INTERFACE
+set(volcomp_cxx_flags
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wcast-align
   -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wformat=2 -Werror
   -ffp-contract=off)
+target_compile_options(volcomp_flags INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:${volcomp_cxx_flags}>")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # GCC 12 warns wrongly about "text" + std::string (GCC bug 105651).
@@ -37,9 +38,11 @@ endif()
 
 # volcomp_target_rules: the language that comp, hal and firmware are restricted to.
 add_library(volcomp_target_rules INTERFACE)
-target_compile_options(volcomp_target_rules INTERFACE -fno-exceptions -fno-rtti -fno-threadsafe-statics)
+set(volcomp_target_cxx_flags -fno-exceptions -fno-rtti -fno-threadsafe-statics)
+target_compile_options(volcomp_target_rules INTERFACE
+  "$<$<COMPILE_LANGUAGE:CXX>:${volcomp_target_cxx_flags}>")
 target_link_libraries(volcomp_target_rules INTERFACE volcomp_eigen)
 if(NOT VOLCOMP_SANITIZE AND NOT VOLCOMP_COVERAGE)
   # Not for host programs: GCC sees null pointers inside the JSON library, and wherever a sanitizer adds a check.
-  target_compile_options(volcomp_target_rules INTERFACE -Wnull-dereference)
+  target_compile_options(volcomp_target_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wnull-dereference>)
 endif()

@@ -1,0 +1,26 @@
+#pragma once
+// The clock of hal/clock.hpp: first counter of the CMSDK dual timer (Arm DDI 0479, 4.2), running
+// freely at 25 MHz and widened to 64 bits.
+
+#include <cstdint>
+
+namespace volcomp::hal::mps2 {
+
+class Clock {
+ public:
+  static void start();
+
+  // Microseconds since start(). Has to be called at least once in 171 s, or one turn of the counter
+  // is missed. Background only or interrupt only, with the tick masked in the former case.
+  [[nodiscard]] std::uint64_t now_us();
+
+ private:
+  std::uint64_t us_ = 0;
+  std::uint32_t last_ = 0;      // counter at the last call
+  std::uint32_t fraction_ = 0;  // ticks that did not make a whole microsecond yet, 0…24
+};
+
+// The counter itself, 40 ns, counting up, wraps in 171 s.
+[[nodiscard]] std::uint32_t clock_ticks();
+
+}  // namespace volcomp::hal::mps2

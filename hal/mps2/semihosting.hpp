@@ -1,0 +1,30 @@
+#pragma once
+// Services of the debugger or emulator the board hangs on (Arm "Semihosting for AArch32 and
+// AArch64"). The processor stands still, virtual time included, until the host has answered. Where
+// no host listens, every call fails.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "comp/span.hpp"
+
+namespace volcomp::hal::mps2::semihosting {
+
+enum class Mode : std::uint8_t { read = 1, write = 5 };  // fopen "rb", "wb"
+
+// A file or FIFO of the host in the folder it was started in; negative when that fails. A FIFO
+// blocks until its other end is open, too.
+[[nodiscard]] int open(const char* path, Mode mode);
+
+// All bytes or false. Blocks until they are there.
+[[nodiscard]] bool read(int handle, Span<std::uint8_t> bytes);
+[[nodiscard]] bool write(int handle, Span<const std::uint8_t> bytes);
+
+// What the host says the program was called with, zero-terminated; false when it does not fit or
+// nobody answers.
+[[nodiscard]] bool command_line(Span<char> text);
+
+// Ends the emulator with this exit code. Comes back only where no host listens.
+void exit(int code);
+
+}  // namespace volcomp::hal::mps2::semihosting

@@ -1,0 +1,16 @@
+# volcomp_add_image(NAME SOURCE...): a program for the board of this build, firmware/NAME-BOARD.elf.
+#
+# The folder of the board provides the target volcomp_board: startup, linker script and hal. No library offers
+# _sbrk, so an image that uses the heap does not link; neither does one with a warning of the linker.
+function(volcomp_add_image name)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE volcomp_board volcomp_flags volcomp_target_rules)
+  target_link_options(${name} PRIVATE
+    -nostartfiles
+    -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--print-memory-usage
+    "-Wl,-Map=$<TARGET_FILE_DIR:${name}>/$<TARGET_FILE_BASE_NAME:${name}>.map")
+  set_target_properties(${name} PROPERTIES
+    OUTPUT_NAME "${name}-${VOLCOMP_BOARD}"
+    SUFFIX .elf
+    RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/firmware")
+endfunction()
