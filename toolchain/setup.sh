@@ -12,6 +12,8 @@ build_packages=(g++ cmake ninja-build binutils ca-certificates libeigen3-dev lib
   libtoml11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libbenchmark-dev)
 check_packages=(ccache git clang clang-format clang-tidy cppcheck llvm gcovr python3 shellcheck)
 bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
+board_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib g++-aarch64-linux-gnu
+  qemu-system-arm)
 vm_packages=(qemu-system-x86 busybox-static cpio kmod xz-utils)
 report_folder=host_sim/report
 eds_parser_folder=tests/system/eds_parser
@@ -35,7 +37,8 @@ missing_packages() {
   local package
   local wanted=("${build_packages[@]}")
   if [ "$mode" = all ]; then
-    wanted+=("${check_packages[@]}" "$(clang_runtime_package)" "${bus_packages[@]}" "${vm_packages[@]}")
+    wanted+=("${check_packages[@]}" "$(clang_runtime_package)" "${bus_packages[@]}" "${board_packages[@]}"
+      "${vm_packages[@]}")
   fi
   for package in "${wanted[@]}"; do
     installed "$package" || printf '%s\n' "$package"
