@@ -7,8 +7,8 @@
 //     bool receive(volcomp::hal::CanFrame& frame);     // false: nothing there
 //   };
 //
-// Neither blocks. A frame handed to send() is sent or, after bus-off, lost; frames of one port
-// leave in the order they were handed over.
+// Neither blocks. A frame handed to send() is sent or, after bus-off, lost. Frames with one
+// identifier leave in the order they were handed over; a lower identifier may overtake.
 
 #include <array>
 #include <cstdint>
