@@ -15,7 +15,7 @@ void Clock::start() { device_register(kControl) = kFreeRunning32Bit; }
 
 std::uint32_t clock_ticks() { return ~device_register(kValue); }  // it counts down
 
-std::uint64_t Clock::now_us() {
+std::uint64_t Clock::now_us() const {
   const std::uint32_t now = clock_ticks();
   const std::uint32_t elapsed = now - last_;
   last_ = now;

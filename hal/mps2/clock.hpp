@@ -8,16 +8,18 @@ namespace volcomp::hal::mps2 {
 
 class Clock {
  public:
+  // Once; time begins at 0.
   static void start();
 
-  // Microseconds since start(). Has to be called at least once in 171 s, or one turn of the counter
-  // is missed. Background only or interrupt only, with the tick masked in the former case.
-  [[nodiscard]] std::uint64_t now_us();
+  // Has to be called at least once in 171 s, or a turn of the counter is missed. Not reentrant:
+  // the background masks the tick.
+  [[nodiscard]] std::uint64_t now_us() const;
 
  private:
-  std::uint64_t us_ = 0;
-  std::uint32_t last_ = 0;      // counter at the last call
-  std::uint32_t fraction_ = 0;  // ticks that did not make a whole microsecond yet, 0…24
+  // What makes 64 bits of 32: no reader can tell.
+  mutable std::uint64_t us_ = 0;
+  mutable std::uint32_t last_ = 0;      // counter at the last call
+  mutable std::uint32_t fraction_ = 0;  // ticks that did not make a whole microsecond yet, 0…24
 };
 
 // The counter itself, 40 ns, counting up, wraps in 171 s.

@@ -12,6 +12,7 @@ enum Operation : int {
   kOpen = 0x01,
   kWrite = 0x05,
   kRead = 0x06,
+  kClock = 0x10,
   kCommandLine = 0x15,
   kExitExtended = 0x20,
 };
@@ -20,7 +21,12 @@ using Word = std::uintptr_t;
 
 Word address(const void* p) { return reinterpret_cast<Word>(p); }
 
+bool found = false;
+
 }  // namespace
+
+void find_host() { found = semihosting_call(kClock, nullptr) >= 0; }
+bool host_found() { return found; }
 
 int open(const char* path, Mode mode) {
   const std::array<Word, 3> arguments = {address(path), static_cast<Word>(mode), std::strlen(path)};

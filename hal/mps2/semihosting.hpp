@@ -1,7 +1,8 @@
 #pragma once
 // Services of the debugger or emulator the board hangs on (Arm "Semihosting for AArch32 and
 // AArch64"). The processor stands still, virtual time included, until the host has answered. Where
-// no host listens, every call fails.
+// no host listens, every call fails; inside a HardFault or NMI handler it would lock up, so
+// host_found() has to be asked there.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,10 @@
 #include "comp/span.hpp"
 
 namespace volcomp::hal::mps2::semihosting {
+
+// Asks whether a host listens and remembers the answer. Before main.
+void find_host();
+[[nodiscard]] bool host_found();
 
 enum class Mode : std::uint8_t { read = 1, write = 5 };  // fopen "rb", "wb"
 

@@ -8,7 +8,7 @@
     .global semihosting_breakpoint
     .type semihosting_call, %function
 semihosting_call:
-semihosting_breakpoint:
+semihosting_breakpoint:         // without the Thumb bit: an address, not a function
     bkpt 0xAB
     bx lr
     .size semihosting_call, . - semihosting_call

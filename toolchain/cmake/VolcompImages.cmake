@@ -1,10 +1,16 @@
-# volcomp_add_image(NAME SOURCE...): a program for the board of this build, firmware/NAME-BOARD.elf.
+# volcomp_add_image(NAME [WHOLE_BOARD] SOURCE...): a program for the board of this build, firmware/NAME-BOARD.elf.
 #
 # The folder of the board provides the target volcomp_board: startup, linker script and hal. No library offers
 # _sbrk, so an image that uses the heap does not link; neither does one with a warning of the linker.
+# WHOLE_BOARD is for tests that hold more than a product would: volcomp_whole_board declares all memory there is.
 function(volcomp_add_image name)
-  add_executable(${name} ${ARGN})
-  target_link_libraries(${name} PRIVATE volcomp_board volcomp_flags volcomp_target_rules)
+  cmake_parse_arguments(PARSE_ARGV 1 image "WHOLE_BOARD" "" "")
+  set(board volcomp_board)
+  if(image_WHOLE_BOARD)
+    set(board volcomp_whole_board)
+  endif()
+  add_executable(${name} ${image_UNPARSED_ARGUMENTS})
+  target_link_libraries(${name} PRIVATE ${board} volcomp_flags volcomp_target_rules)
   target_link_options(${name} PRIVATE
     -nostartfiles
     -Wl,--gc-sections -Wl,--fatal-warnings -Wl,--print-memory-usage

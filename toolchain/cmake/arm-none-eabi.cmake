@@ -20,10 +20,10 @@ set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_ASM_COMPILER arm-none-eabi-gcc)
 
 # Every function and object in a section of its own, so that the linker leaves out what nobody uses.
-# -fstack-usage writes the frame of every function beside its object file.
+# -fstack-usage writes the frame of every function beside its object file; -g is for the debugger and costs no flash.
 set(CMAKE_CXX_FLAGS_INIT
-  "${volcomp_cpu} -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage")
-set(CMAKE_ASM_FLAGS_INIT "${volcomp_cpu}")
+  "${volcomp_cpu} -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage -g")
+set(CMAKE_ASM_FLAGS_INIT "${volcomp_cpu} -g")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "${volcomp_cpu}")
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -3,15 +3,8 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware/boards/mps2/linker_symbols.hpp"
 #include "hal/mps2/registers.hpp"
-
-extern "C" {
-// Made by the linker script: their addresses are meant.
-extern std::uint32_t flash_begin;
-extern std::uint32_t ram_begin;
-extern std::uint32_t block_memory_begin;
-extern std::uint32_t stack_guard;
-}
 
 namespace volcomp::boards {
 namespace {
@@ -42,21 +35,18 @@ struct Region {
   std::uint32_t attributes;
 };
 
-std::uint32_t address(const std::uint32_t& symbol) {
-  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&symbol));
-}
-
 }  // namespace
 
 void protect_memory() {
   // Where two overlap, the later one holds.
   const std::array<Region, 6> regions = {{
-      {address(flash_begin), kReadOnly | kNormal | size(19) | kEnable},
-      {address(ram_begin), kReadWrite | kExecuteNever | kNormal | size(VOLCOMP_RAM_LOG2) | kEnable},
-      {address(block_memory_begin), kReadWrite | kExecuteNever | kNormal | size(19) | kEnable},
+      {address_of(flash_begin), kReadOnly | kNormal | size(address_of(flash_log2)) | kEnable},
+      {address_of(ram_begin),
+       kReadWrite | kExecuteNever | kNormal | size(address_of(ram_log2)) | kEnable},
+      {address_of(block_memory_begin), kReadWrite | kExecuteNever | kNormal | size(19) | kEnable},
       {hal::mps2::kTimer0, kReadWrite | kExecuteNever | kDevice | size(16) | kEnable},
-      {address(flash_begin), kNoAccess | kExecuteNever | kNormal | size(10) | kEnable},
-      {address(stack_guard), kNoAccess | kExecuteNever | kNormal | size(10) | kEnable},
+      {address_of(flash_begin), kNoAccess | kExecuteNever | kNormal | size(10) | kEnable},
+      {address_of(stack_guard), kNoAccess | kExecuteNever | kNormal | size(10) | kEnable},
   }};
   std::uint32_t number = 0;
   for (const Region& region : regions) {

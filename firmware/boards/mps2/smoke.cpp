@@ -38,7 +38,7 @@ extern "C" void TIMER0_Handler() {
 }
 
 int main() {
-  volcomp::hal::mps2::Clock clock;
+  const volcomp::hal::mps2::Clock clock;
   volcomp::hal::mps2::Clock::start();
   InstructionCounter::start_hardware();
   volcomp::hal::mps2::timer0.start(kPeriod_us);

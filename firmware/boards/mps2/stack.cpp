@@ -1,10 +1,6 @@
 #include "firmware/boards/mps2/stack.hpp"
 
-extern "C" {
-// Made by the linker script: their addresses are meant.
-extern std::uint32_t stack_bottom;
-extern std::uint32_t stack_top;
-}
+#include "firmware/boards/mps2/linker_symbols.hpp"
 
 namespace volcomp::boards {
 namespace {
@@ -17,18 +13,18 @@ std::uint32_t bytes_between(const volatile std::uint32_t* from, const volatile s
 
 }  // namespace
 
-std::uint32_t stack_bytes() { return bytes_between(&stack_bottom, &stack_top); }
+std::uint32_t stack_bytes() { return bytes_between(stack_bottom, stack_top); }
 
 std::uint32_t deepest_stack_bytes() {
-  const volatile std::uint32_t* word = &stack_bottom;
-  while (word < &stack_top && *word == kPaint)
+  const volatile std::uint32_t* word = stack_bottom;
+  while (word < stack_top && *word == kPaint)
     ++word;
-  return bytes_between(word, &stack_top);
+  return bytes_between(word, stack_top);
 }
 
 void repaint_stack() {
   volatile std::uint32_t here = 0;
-  for (volatile std::uint32_t* word = &stack_bottom; word < &here; ++word)
+  for (volatile std::uint32_t* word = stack_bottom; word < &here; ++word)
     *word = kPaint;
 }
 

@@ -29,6 +29,7 @@ extern "C" void start_board() {
   trap_division_by_zero();
   volcomp::boards::protect_memory();
   volcomp::hal::mps2::uart::start();
+  volcomp::hal::mps2::semihosting::find_host();
 }
 
 extern "C" [[noreturn]] void end_of_program(int exit_code) {

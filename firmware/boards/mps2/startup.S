@@ -92,7 +92,17 @@ fill:
     .size Reset_Handler, . - Reset_Handler
 
 // Faults, the watchdog's NMI and unexpected interrupts: nothing can be said about the stack they found, so the report
-// runs on one of its own. r0: the registers that the processor has stacked, r1: EXC_RETURN (B1.5.8).
+// runs on one of its own, unless a report is what they interrupted.
+    .macro use_fault_stack
+    ldr r2, =fault_stack_top
+    subs r3, r2, r0
+    ldr r12, =fault_stack_bytes
+    cmp r3, r12
+    it hi
+    movhi sp, r2
+    .endm
+
+// r0: the registers that the processor has stacked, r1: EXC_RETURN (B1.5.8).
     .macro report_handler name, report
     .section .text.\name, "ax", %progbits
     .global \name
@@ -103,8 +113,7 @@ fill:
     mrseq r0, msp
     mrsne r0, psp
     mov r1, lr
-    ldr r2, =fault_stack_top
-    mov sp, r2
+    use_fault_stack
     b \report
     .size \name, . - \name
     .endm
@@ -115,7 +124,8 @@ fill:
     report_handler NMI_Handler, report_watchdog
     report_handler Unexpected_Handler, report_unexpected_interrupt
 
-// A semihosting request that nobody listens to arrives here, too: it is answered with -1.
+// A semihosting request that nobody listens to arrives here, too, and is the one fault that leaves CFSR clear: it is
+// answered with -1.
     .section .text.HardFault_Handler, "ax", %progbits
     .global HardFault_Handler
     .type HardFault_Handler, %function
@@ -125,23 +135,19 @@ HardFault_Handler:
     mrseq r0, msp
     mrsne r0, psp
     mov r1, lr
-    ldr r2, =0xE000ED2C         // HFSR (B3.2.16)
+    ldr r2, =0xE000ED28         // CFSR (B3.2.15); unless it is clear the stack may not be readable
     ldr r3, [r2]
-    lsls r3, r3, #1             // carry: DEBUGEVT
-    bcc 1f
-    ldr r12, =semihosting_breakpoint
-    bic r12, r12, #1
+    cbnz r3, 1f
     ldr r3, [r0, #24]           // stacked return address
+    ldr r12, =semihosting_breakpoint
     cmp r3, r12
     bne 1f
     adds r3, r3, #2
     str r3, [r0, #24]
-    mvn r3, #0
+    mov r3, #-1
     str r3, [r0, #0]            // stacked r0
-    mov r3, #0x80000000         // written ones clear
-    str r3, [r2]
+    str r3, [r2, #4]            // HFSR (B3.2.16): written ones clear
     bx lr
-1:  ldr r2, =fault_stack_top
-    mov sp, r2
+1:  use_fault_stack
     b report_fault
     .size HardFault_Handler, . - HardFault_Handler
