@@ -1,47 +1,44 @@
 #pragma once
-// Counts executed instructions with SysTick (Armv7-M, DDI 0403, B3.3), which counts down 24 bits of
-// the processor clock.
+// Counts executed instructions exactly with SysTick (Armv7-M, Arm DDI 0403, B3.3), in QEMU started
+// with `-icount shift=6,sleep=off`: every instruction then takes 64 ns of virtual time, and SysTick
+// counts every 40 ns.
 //
-// Right only in QEMU with `-icount shift=6,sleep=off`: there every instruction takes 64 ns and a
-// tick is 40 ns, so a count is the same in every run, +-1. The emulator knows neither cycles nor
-// caches: these are instructions, never microseconds.
+// After I instructions it has counted T = ⌊(64·I + c) / 40⌋; c is fixed by the moment it was
+// started and matters in steps of 8 ns only, its phase 0…4. An instruction is longer than a tick,
+// so T tells I as soon as the phase is known, and three of the eight values of T mod 8 never occur:
+// which three tells the phase. A reading that contradicts it proves that QEMU was started in
+// another way.
 //
-//   const InstructionCounter counter;
-//   work();
-//   const std::uint32_t instructions = counter.elapsed();
+// The emulator knows neither cycles nor caches: these are instructions, never microseconds.
 
 #include <cstdint>
-
-#include "hal/mps2/registers.hpp"
 
 namespace volcomp::hal::mps2 {
 
 class InstructionCounter {
  public:
-  // Once, before the first count.
-  static void start_hardware() {
-    device_register(kReload) = kMask;
-    device_register(kValue) = 0;
-    device_register(kControl) = kEnable | kProcessorClock;
-  }
+  // Starts SysTick and finds the phase.
+  void start();
 
-  InstructionCounter() : begin_(device_register(kValue)) {}
+  // What SysTick has counted; 24 bits, wraps after 10 485 760 instructions. A call, so that every
+  // reading costs the same: two in a row tell what to subtract.
+  [[nodiscard]] static std::uint32_t ticks();
 
-  // Since construction, at most 10 million; includes the few of the counting itself.
-  [[nodiscard]] std::uint32_t elapsed() const {
-    const std::uint32_t ticks = (begin_ - device_register(kValue)) & kMask;
-    return (ticks * 5U + 4U) / 8U;
-  }
+  // Instructions executed between two values of ticks() less than one wrap apart.
+  [[nodiscard]] std::uint32_t between(std::uint32_t from, std::uint32_t to);
+
+  // False when some reading cannot have come from counting instructions.
+  [[nodiscard]] bool exact() const { return exact_; }
 
  private:
-  static constexpr std::uint32_t kControl = 0xE000'E010;
-  static constexpr std::uint32_t kReload = 0xE000'E014;
-  static constexpr std::uint32_t kValue = 0xE000'E018;
-  static constexpr std::uint32_t kEnable = 1U << 0U;
-  static constexpr std::uint32_t kProcessorClock = 1U << 2U;
-  static constexpr std::uint32_t kMask = 0xFF'FFFF;
+  // Whether a whole number of instructions leads to this reading.
+  [[nodiscard]] static bool fits(std::uint32_t ticks, std::uint32_t phase) {
+    return ((phase - 5U * ticks) & 7U) < 5U;
+  }
+  [[nodiscard]] std::uint32_t instructions(std::uint32_t ticks);
 
-  std::uint32_t begin_;
+  std::uint32_t phase_ = 0;
+  bool exact_ = false;
 };
 
 }  // namespace volcomp::hal::mps2
