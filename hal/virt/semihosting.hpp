@@ -1,0 +1,16 @@
+#pragma once
+// Services of the debugger or emulator the board hangs on (Arm "Semihosting for AArch32 and
+// AArch64"). Where no host listens, every call fails.
+
+#include "comp/span.hpp"
+
+namespace volcomp::hal::virt::semihosting {
+
+// What the host says the program was called with, zero-terminated; false when it does not fit or
+// nobody answers.
+[[nodiscard]] bool command_line(Span<char> text);
+
+// Ends the emulator with this exit code. Comes back only where no host listens.
+void exit(int code);
+
+}  // namespace volcomp::hal::virt::semihosting
