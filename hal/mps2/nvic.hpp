@@ -24,6 +24,12 @@ inline void enable(std::uint32_t irq, std::uint32_t priority) {
   device_register(kSetEnable + 4U * (irq / 32U)) = 1U << (irq % 32U);
 }
 
+// As if the device had raised it.
+inline void request(std::uint32_t irq) {
+  constexpr std::uint32_t kSetPending = 0xE000'E200;
+  device_register(kSetPending + 4U * (irq / 32U)) = 1U << (irq % 32U);
+}
+
 // Not in QEMU with -icount: it advances the clock there by twice the time that was left, so that
 // the next tick comes a period late. Spinning costs the emulator little.
 inline void wait_for_interrupt() { __asm volatile("wfi" ::: "memory"); }

@@ -17,6 +17,7 @@ inline constexpr std::uint32_t kWatchdog = 0x4000'8000;
 
 // Numbers of the interrupts at the NVIC.
 inline constexpr std::uint32_t kUart0ReceiveIrq = 0;
+inline constexpr std::uint32_t kUart0TransmitIrq = 1;
 inline constexpr std::uint32_t kTimer0Irq = 8;
 inline constexpr std::uint32_t kTimer1Irq = 9;
 

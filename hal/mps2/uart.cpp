@@ -9,15 +9,15 @@ namespace {
 constexpr std::uint32_t kData = kUart0 + 0x00;
 constexpr std::uint32_t kState = kUart0 + 0x04;
 constexpr std::uint32_t kControl = kUart0 + 0x08;
-constexpr std::uint32_t kInterrupt = kUart0 + 0x0C;
+constexpr std::uint32_t kInterruptClear = kUart0 + 0x0C;
 constexpr std::uint32_t kBaudDivider = kUart0 + 0x10;
 
-constexpr std::uint32_t kTransmitterFull = 1U << 0U;
-constexpr std::uint32_t kReceiverFull = 1U << 1U;
-constexpr std::uint32_t kReceiverOverrun = 1U << 3U;
-
+// In state, control and interrupt register alike.
 constexpr std::uint32_t kTransmit = 1U << 0U;
 constexpr std::uint32_t kReceive = 1U << 1U;
+
+constexpr std::uint32_t kReceiveOverrun = 1U << 3U;
+constexpr std::uint32_t kTransmitInterrupt = 1U << 2U;
 constexpr std::uint32_t kReceiveInterrupt = 1U << 3U;
 
 constexpr std::uint32_t kSmallestDivider = 16;
@@ -29,28 +29,35 @@ void start() {
   device_register(kControl) = kTransmit | kReceive;
 }
 
-void enable_receive_interrupt() {
-  device_register(kControl) = kTransmit | kReceive | kReceiveInterrupt;
-  nvic::enable(kUart0ReceiveIrq, nvic::kLinkPriority);
-}
+bool ready_to_send() { return (device_register(kState) & kTransmit) == 0; }
 
 void send(std::uint8_t byte) {
-  while ((device_register(kState) & kTransmitterFull) != 0) {
+  while (!ready_to_send()) {
   }
   device_register(kData) = byte;
 }
 
 bool receive(std::uint8_t& byte) {
-  device_register(kInterrupt) = kReceive;
-  if ((device_register(kState) & kReceiverFull) == 0) return false;
+  device_register(kInterruptClear) = kReceive;
+  if ((device_register(kState) & kReceive) == 0) return false;
   byte = static_cast<std::uint8_t>(device_register(kData));
   return true;
 }
 
 bool take_receive_overrun() {
-  if ((device_register(kState) & kReceiverOverrun) == 0) return false;
-  device_register(kState) = kReceiverOverrun;
+  if ((device_register(kState) & kReceiveOverrun) == 0) return false;
+  device_register(kState) = kReceiveOverrun;
   return true;
 }
+
+void enable_interrupts() {
+  device_register(kControl) = kTransmit | kReceive | kTransmitInterrupt | kReceiveInterrupt;
+  nvic::enable(kUart0ReceiveIrq, nvic::kLinkPriority);
+  nvic::enable(kUart0TransmitIrq, nvic::kLinkPriority);
+}
+
+void request_transmit_interrupt() { nvic::request(kUart0TransmitIrq); }
+
+void acknowledge_transmit() { device_register(kInterruptClear) = kTransmit; }
 
 }  // namespace volcomp::hal::mps2::uart

@@ -1,6 +1,5 @@
 #pragma once
-// The serial line UART0 (CMSDK APB UART, Arm DDI 0479, 4.3), bytes only. Sending waits while the
-// one-byte transmitter is full; receiving is for an interrupt handler.
+// The serial line UART0 (CMSDK APB UART, Arm DDI 0479, 4.3), bytes only.
 
 #include <cstdint>
 
@@ -10,15 +9,20 @@ namespace volcomp::hal::mps2::uart {
 // May be called again at any time, also by a fault handler that cannot know what ran before it.
 void start();
 
-// From then on each received byte raises UARTRX0 until receive() has taken it.
-void enable_receive_interrupt();
-
+// Waits while the one-byte transmitter is full.
 void send(std::uint8_t byte);
+[[nodiscard]] bool ready_to_send();
 
-// False when nothing is there. Clears the interrupt. Safe in an interrupt; one reader only.
+// False when nothing is there. Clears the interrupt. One reader only.
 bool receive(std::uint8_t& byte);
 
 // Bytes were lost because nobody took them; asking forgets it.
 bool take_receive_overrun();
+
+// From then on each received byte raises UARTRX0 until receive() has taken it, and each byte that
+// has left, or a request, raises UARTTX0 until it is acknowledged.
+void enable_interrupts();
+void request_transmit_interrupt();
+void acknowledge_transmit();
 
 }  // namespace volcomp::hal::mps2::uart

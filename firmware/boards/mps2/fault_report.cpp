@@ -21,6 +21,7 @@ namespace {
 namespace console = volcomp::hal::mps2::console;
 using volcomp::boards::address_of;
 using volcomp::boards::FaultStatus;
+using volcomp::hal::ResetCause;
 
 // As the processor stacks them (DDI 0403, B1.5.6).
 struct StackedRegisters {
@@ -126,6 +127,7 @@ extern "C" [[noreturn]] void report_fault(const StackedRegisters* registers,
   put_registers(registers);
   put_status(status, exception_return);
   put_call_trace(registers);
+  volcomp::boards::note_reset_cause(ResetCause::fault);
   stay_silent(volcomp::boards::kFault);
 }
 
@@ -141,5 +143,8 @@ extern "C" [[noreturn]] void report_watchdog(const StackedRegisters* registers,
   put_headline("WATCHDOG", "nobody fed it in time, the processor is restarted");
   put_registers(registers);
   put_call_trace(registers);
-  volcomp::boards::restart(volcomp::boards::ResetCause::watchdog);
+  // After a fault that nobody listened to, the fault is what the next start should know.
+  if (volcomp::boards::noted_reset_cause() != ResetCause::fault)
+    volcomp::boards::note_reset_cause(ResetCause::watchdog);
+  volcomp::boards::restart();
 }

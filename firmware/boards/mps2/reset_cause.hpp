@@ -1,17 +1,20 @@
 #pragma once
 // Why the processor started, kept in RAM that no startup code clears.
 
-#include <cstdint>
+#include "hal/reset_cause.hpp"
 
 namespace volcomp::boards {
 
-enum class ResetCause : std::uint8_t { power_on, watchdog };
+// Leaves the cause behind for the next start.
+void note_reset_cause(hal::ResetCause cause);
 
-// What the last run left behind, once: the next call says power_on.
-[[nodiscard]] ResetCause take_reset_cause();
+// What was noted last, power_on when nothing was; the note stays.
+[[nodiscard]] hal::ResetCause noted_reset_cause();
 
-// Leaves the cause behind and restarts the processor with all its devices (AIRCR, DDI 0403,
-// B3.2.6).
-[[noreturn]] void restart(ResetCause cause);
+// The same, once: the note is gone.
+[[nodiscard]] hal::ResetCause take_reset_cause();
+
+// Restarts the processor with all its devices (AIRCR, DDI 0403, B3.2.6).
+[[noreturn]] void restart();
 
 }  // namespace volcomp::boards

@@ -23,7 +23,8 @@
     // Interrupts of the board (Arm DAI 0385, 0386, 0500, "interrupt assignments"). Those that nobody uses end in the
     // report of an unexpected interrupt.
     .word UARTRX0_Handler
-    .rept 7
+    .word UARTTX0_Handler
+    .rept 6
     .word Unexpected_Handler
     .endr
     .word TIMER0_Handler
@@ -42,6 +43,7 @@
     unused_by_default PendSV_Handler
     unused_by_default SysTick_Handler
     unused_by_default UARTRX0_Handler
+    unused_by_default UARTTX0_Handler
     unused_by_default TIMER0_Handler
     unused_by_default TIMER1_Handler
 

@@ -15,7 +15,7 @@
 
 namespace {
 
-using volcomp::boards::ResetCause;
+using volcomp::hal::ResetCause;
 using volcomp::hal::mps2::Clock;
 using volcomp::hal::mps2::Watchdog;
 namespace console = volcomp::hal::mps2::console;
@@ -137,10 +137,10 @@ const char* wanted() {
 }  // namespace
 
 int main() {
-  if (volcomp::boards::take_reset_cause() == ResetCause::watchdog) {
-    console::put("restarted by the watchdog\n");
-    return volcomp::boards::kFine;
-  }
+  const ResetCause cause = volcomp::boards::take_reset_cause();
+  if (cause == ResetCause::watchdog) console::put("restarted by the watchdog\n");
+  if (cause == ResetCause::fault) console::put("restarted after a fault\n");
+  if (cause != ResetCause::power_on) return volcomp::boards::kFine;
   const char* const name = wanted();
   if (*name == '\0') {
     Watchdog watchdog;
