@@ -9,10 +9,10 @@
 namespace volcomp::bench {
 namespace {
 
-ErrorTable smooth_table(bool rotary, double phase) {
+ErrorTable smooth_table(bool rotary, std::size_t knots, double phase) {
   ErrorTable t;
   t.q0 = rotary ? 0.0 : -500.0;
-  t.knots = rotary ? 73 : 81;
+  t.knots = rotary ? knots - knots / 10 : knots;
   t.pitch = (rotary ? 2.0 * kPi : 500.0) / static_cast<double>(t.knots - 1);
   const double wave = rotary ? 2.0 : 0.011;
   for (std::size_t i = 0; i < t.knots; ++i) {
@@ -32,7 +32,7 @@ void require(const Status& status) {
 
 }  // namespace
 
-std::unique_ptr<MachineTables> make_tables(const MachineDescription& machine) {
+std::unique_ptr<MachineTables> make_tables(const MachineDescription& machine, std::size_t knots) {
   auto tables = std::make_unique<MachineTables>();
   tables->machine = machine;
   tables->directions = zero_directions();
@@ -40,7 +40,7 @@ std::unique_ptr<MachineTables> make_tables(const MachineDescription& machine) {
     const Joint& joint = machine.body[k].joint;
     if (!joint.moves()) continue;
     const auto table = std::make_unique<ErrorTable>(
-        smooth_table(joint.kind == JointKind::rotary, static_cast<double>(k)));
+        smooth_table(joint.kind == JointKind::rotary, knots, static_cast<double>(k)));
     require(quantise(*table, joint, 128, tables->axis[joint.nc_axis]));
   }
   return tables;

@@ -52,8 +52,11 @@ inline constexpr MachineDescription kFiveAxis =
     serial_machine({kLinear, kLinear, kLinear, kRotary, kRotary},
                    {Axis::x, Axis::y, Axis::z, Axis::x, Axis::z}, 3, 5);
 
-// Smooth tables of 81 knots over 500 mm, 73 over a turn.
-[[nodiscard]] std::unique_ptr<MachineTables> make_tables(const MachineDescription& machine);
+// Smooth tables over 500 mm or a turn, the latter with one knot in ten fewer: 81 and 73 if nothing
+// else is said.
+inline constexpr std::size_t kKnots = 81;
+[[nodiscard]] std::unique_ptr<MachineTables> make_tables(const MachineDescription& machine,
+                                                         std::size_t knots = kKnots);
 
 // Positions of a random walk of 0.1 to 2 mm (or mrad) per tick inside the tables, run-time units.
 inline constexpr std::size_t kWalk = 4096;

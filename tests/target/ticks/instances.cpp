@@ -1,0 +1,9 @@
+#include "tests/target/ticks/machines.hpp"
+
+namespace volcomp {
+
+template class Compensator<GenericMachine>;
+template class Compensator<GrinderMachine>;
+template class Compensator<FiveAxisMachine>;
+
+}  // namespace volcomp

@@ -1,0 +1,18 @@
+#pragma once
+// The compensators whose ticks are measured, compiled once each (instances.cpp): beside the ready
+// ones of the library those of the machines of the benchmarks.
+
+#include "comp/realtime/instances.hpp"
+#include "tests/bench/machines.hpp"
+
+namespace volcomp {
+
+using GenericMachine = CompiledMachine<bench::kGeneric, RuntimeModel::second_order>;
+using GrinderMachine = CompiledMachine<bench::kGrinder>;
+using FiveAxisMachine = CompiledMachine<bench::kFiveAxis>;
+
+extern template class Compensator<GenericMachine>;
+extern template class Compensator<GrinderMachine>;
+extern template class Compensator<FiveAxisMachine>;
+
+}  // namespace volcomp
