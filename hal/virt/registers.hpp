@@ -16,6 +16,7 @@ inline constexpr Address kPciConfiguration = 0x3F00'0000;  // ECAM, 1 MiB per bu
 
 // Numbers of the interrupts at the GIC: shared ones begin at 32.
 inline constexpr std::uint32_t kVirtualTimerInterrupt = 27;
+inline constexpr std::uint32_t kPhysicalTimerInterrupt = 30;
 inline constexpr std::uint32_t kPciInterrupts = 35;  // four lines, INTA of slot 0 on the first
 
 // The two places where a number becomes a device register.

@@ -12,3 +12,6 @@ enum ExitCode : int {
 };
 
 }  // namespace volcomp::boards
+
+// Tells the host and stops for good. Main returns into it, too.
+extern "C" [[noreturn]] void end_of_program(int exit_code);

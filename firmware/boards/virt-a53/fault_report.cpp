@@ -1,13 +1,14 @@
 // What a person reads on the serial line when the program cannot go on. start.S comes here on a
-// stack of its own, wherever the processor was.
+// stack of its own, for a fault or the watchdog, wherever the processor was.
 //
-// Nothing is sent to the bus any more: the drives keep their last offset, and the missing heartbeat
-// makes the controller stop the feed (1016h, 1029h).
+// Nothing is sent to the bus any more, which is the safe state: the drives keep their last offset,
+// and the missing heartbeat makes controller and drives stop the feed (1016h, 1029h).
 
 #include <array>
 #include <cstdint>
 
 #include "firmware/boards/virt-a53/exit_code.hpp"
+#include "firmware/boards/virt-a53/reset_cause.hpp"
 #include "hal/virt/uart.hpp"
 
 extern "C" {
@@ -20,8 +21,6 @@ extern const char fault_stack_guard;
 
 // x0 … x30, SP_EL0, SP_EL1; filled by start.S.
 std::array<std::uint64_t, 33> fault_registers;
-
-[[noreturn]] void end_of_program(int exit_code);
 }
 
 namespace {
@@ -93,8 +92,9 @@ const char* cause_in_words(const Syndrome& syndrome, std::uint64_t at) {
   return "unknown";
 }
 
-// The vectors come in four groups: from the program, from a handler, from below, from below in 32
-// bits; in each: synchronous, interrupt, fast interrupt, error.
+// The vectors come in groups of four: synchronous, interrupt, fast interrupt, error; the first
+// group is from the program, the second from a handler.
+bool is_watchdog(std::uint64_t vector) { return vector % 4 == 2; }
 const char* origin(std::uint64_t vector) { return vector < 4 ? "the program" : "an interrupt"; }
 
 void put_named(const char* name, std::uint64_t value) {
@@ -133,21 +133,35 @@ Syndrome syndrome_register() {
   return {value};
 }
 
+void put_headline(const char* what, std::uint64_t vector, const char* why) {
+  uart::start();  // nobody knows whether it was on
+  uart::put("\n");
+  uart::put(what);
+  uart::put(": ");
+  uart::put(why);
+  uart::put("\n  in ");
+  uart::put(origin(vector));
+  put_named("\n  PC", return_address());
+}
+
+[[noreturn]] void restart_for_watchdog(std::uint64_t vector, const std::uint64_t* registers) {
+  put_headline("WATCHDOG", vector, "nobody fed it in time, the processor is restarted");
+  put_registers(registers);
+  volcomp::boards::note_reset_cause(volcomp::hal::ResetCause::watchdog);
+  volcomp::boards::restart();
+}
+
 }  // namespace
 
-extern "C" [[noreturn]] void report_fault(std::uint64_t vector, const std::uint64_t* registers) {
+extern "C" [[noreturn]] void report_exception_in_words(std::uint64_t vector,
+                                                       const std::uint64_t* registers) {
+  if (is_watchdog(vector)) restart_for_watchdog(vector, registers);
   const Syndrome syndrome = syndrome_register();
   const std::uint64_t at = fault_address();
-  uart::start();
-  uart::put("\nFAULT in ");
-  uart::put(origin(vector));
-  uart::put(": ");
-  uart::put(cause_in_words(syndrome, at));
-  uart::put(".\n");
-  put_named("  PC", return_address());
+  put_headline("FAULT", vector, cause_in_words(syndrome, at));
   put_named("  address", at);
   put_named("  ESR", syndrome.value);
   put_registers(registers);
-  uart::put("The program has stopped.\n");
+  uart::put("  The node is silent: the drives keep their last offset, its heartbeat is missing.\n");
   end_of_program(volcomp::boards::kFault);
 }

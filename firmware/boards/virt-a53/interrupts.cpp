@@ -10,13 +10,11 @@ namespace gic = volcomp::hal::virt::gic;
 using volcomp::hal::virt::kPciInterrupts;
 using volcomp::hal::virt::kVirtualTimerInterrupt;
 
-extern "C" [[noreturn]] void end_of_program(int exit_code);
-
 [[noreturn]] void report_unexpected(std::uint32_t id) {
   volcomp::hal::virt::uart::start();
-  volcomp::hal::virt::uart::put("UNEXPECTED INTERRUPT: number ");
+  volcomp::hal::virt::uart::put("\nUNEXPECTED INTERRUPT: nobody handles number ");
   volcomp::hal::virt::uart::put_unsigned(id);
-  volcomp::hal::virt::uart::put(" is nobody's. The program has stopped.\n");
+  volcomp::hal::virt::uart::put("\n");
   end_of_program(volcomp::boards::kUnexpectedInterrupt);
 }
 

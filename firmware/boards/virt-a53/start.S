@@ -12,10 +12,10 @@ _start:
     mrs x0, mpidr_el1               // one processor is enough
     and x0, x0, #0xFF
     cbnz x0, park
-    mrs x0, CurrentEL
-    cmp x0, #(1 << 2)
+    mrs x19, CurrentEL
+    cmp x19, #(1 << 2)
     b.eq at_el1
-    cmp x0, #(2 << 2)
+    cmp x19, #(2 << 2)
     b.ne park                       // EL3: a secure monitor has to come first
 
     // From a hypervisor's level down to EL1, with all it might trap given away.
@@ -52,7 +52,9 @@ at_el1:
     b.hs 2f
     stp xzr, xzr, [x0], #16
     b 1b
-2:  bl start_board
+2:  ldr x0, =first_level            // of reset_cause.cpp
+    str x19, [x0]
+    bl start_board
     bl main
     bl end_of_program
 park:
@@ -74,11 +76,11 @@ vectors:
     report 0                        // from the program: fault
     .balign 128
     b interrupt
-    report 2
+    report 2                        // watchdog
     report 3
-    report 4                        // from a handler
+    report 4                        // from a handler: fault
     report 5
-    report 6
+    report 6                        // watchdog
     report 7
     report 8                        // from below EL1, where nothing runs
     report 9
@@ -134,6 +136,7 @@ interrupt:
     stp x0, x1, [sp, #160]
     sub sp, sp, #512
     fpu_registers stp
+    msr daifclr, #1                 // the watchdog may bite in here, too: it never comes back
     bl handle_interrupt
     fpu_registers ldp
     add sp, sp, #512
@@ -180,7 +183,7 @@ report_exception:
     stp x2, x3, [x1]
     ldr x2, =fault_stack_top
     mov sp, x2
-    b report_fault                  // x0: vector, x1: registers; does not return
+    b report_exception_in_words     // x0: vector, x1: registers; does not return
 unheard_request:
     add x1, x1, #4
     msr elr_el1, x1

@@ -1,5 +1,6 @@
 // What runs between the assembly startup and main, and what follows main.
 
+#include "firmware/boards/virt-a53/exit_code.hpp"
 #include "firmware/boards/virt-a53/memory_map.hpp"
 #include "hal/virt/gic.hpp"
 #include "hal/virt/interrupt_lock.hpp"

@@ -45,6 +45,8 @@ done <<< "$(printf '%b' "$expected_text")"
 
 if [ -n "$function" ]; then
   pc=$(sed -n 's/^  PC \(0x[0-9a-f]*\) .*/\1/p' <<< "$output" | head -n 1)
-  found=$(arm-none-eabi-addr2line -f -C -e "$image" "$pc" | head -n 1)
+  addr2line=arm-none-eabi-addr2line
+  [ "$board" != a53 ] || addr2line=aarch64-linux-gnu-addr2line
+  found=$("$addr2line" -f -C -e "$image" "$pc" | head -n 1)
   [[ $found == *"$function"* ]] || complain "PC $pc lies in $found, not in $function."
 fi
