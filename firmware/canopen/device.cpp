@@ -83,7 +83,20 @@ void Device::command(const hal::CanFrame& frame, std::uint64_t now_us) {
 
 // --- in
 
+// By the identifier alone, so that the answer never depends on what is just being changed.
+Device::Work Device::work(const hal::CanFrame& frame) const {
+  const std::uint16_t id = frame.id;
+  if (id == kSdoRequest + node_id_) return Work::lengthy;
+  if (id > kHeartbeat && id <= kHeartbeat + kMaxNodeId) return Work::service;
+  if (id != kNmt) return Work::cyclic;
+  const auto command = static_cast<NmtCommand>(frame.data[0]);
+  const bool resets =
+      command == NmtCommand::reset_node || command == NmtCommand::reset_communication;
+  return resets ? Work::lengthy : Work::service;
+}
+
 void Device::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
+  if (state_ == NmtState::boot_up) return;
   now_us_ = now_us;
   const std::uint16_t id = frame.id;
   if (id == sync_.id()) {
@@ -164,10 +177,16 @@ void Device::take_heartbeat(const hal::CanFrame& frame, std::uint64_t now_us) {
 
 // --- time
 
-void Device::poll(std::uint64_t now_us) {
+void Device::poll_services(std::uint64_t now_us) {
+  if (state_ == NmtState::boot_up) return;
   now_us_ = now_us;
   sdo_.poll(now_us);
   watch_heartbeats(now_us);
+}
+
+void Device::poll_cycle(std::uint64_t now_us) {
+  if (state_ == NmtState::boot_up) return;
+  now_us_ = now_us;
   const std::uint64_t period_us = 1000U * std::uint64_t{values_.producer_heartbeat_ms};
   if (period_us != 0 && now_us - last_heartbeat_us_ >= period_us) {
     heartbeat_due_ = true;
@@ -271,6 +290,7 @@ bool Device::offer_pdo(hal::CanFrame& frame, std::uint64_t now_us) {
 // The most urgent first.
 bool Device::offer(hal::CanFrame& frame, std::uint64_t now_us) {
   frame = {};
+  if (state_ == NmtState::boot_up) return false;
   if (boot_up_due_) {
     frame.id = static_cast<std::uint16_t>(kHeartbeat + node_id_);
     frame.size = 1;

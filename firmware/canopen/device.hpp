@@ -13,6 +13,9 @@
 //
 // What offer() shows may still change until it is taken: process data leave with their latest
 // value, they are never queued.
+//
+// Before power_on() and while it is being reset (CiA 301, section 7.3.2.2.1: Initialisation) a
+// device neither hears nor says anything.
 
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/communication_objects.hpp"
@@ -84,9 +87,24 @@ class Device final : private ObjectAccess {
 
   void power_on(std::uint64_t now_us);
   void receive(const hal::CanFrame& frame, std::uint64_t now_us);
-  void poll(std::uint64_t now_us);
+  void poll(std::uint64_t now_us) {
+    poll_services(now_us);
+    poll_cycle(now_us);
+  }
+  // The two parts of poll(): what waits for others (SDO client, heartbeats heard), and what leaves
+  // at a time of its own (SYNC, process data, own heartbeat).
+  void poll_services(std::uint64_t now_us);
+  void poll_cycle(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
   void taken(std::uint64_t now_us);
+
+  // What a frame may set off in receive(), for those who serve a device from two contexts.
+  enum class Work : std::uint8_t {
+    cyclic,   // SYNC, process data, other people's frames
+    service,  // NMT command without reset, heartbeat: short, but may change the state of everything
+    lengthy,  // SDO request, reset: as long as the application takes
+  };
+  [[nodiscard]] Work work(const hal::CanFrame& frame) const;
 
   [[nodiscard]] NmtState state() const { return state_; }
   [[nodiscard]] Emergency& emergency() { return emergency_; }

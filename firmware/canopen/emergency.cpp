@@ -17,6 +17,10 @@ const char* sentence(ErrorCode code) {
   switch (code) {
     case ErrorCode::none:
       return "No error.";
+    case ErrorCode::unexpected_reset:
+      return "The device was restarted by its watchdog or by a fault.";
+    case ErrorCode::background_overdue:
+      return "The background of the device hangs; corrections were ramped to zero.";
     case ErrorCode::parameters_lost:
       return "The stored parameters and tables were damaged.";
     case ErrorCode::can_overrun:

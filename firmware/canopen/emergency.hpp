@@ -13,6 +13,8 @@ namespace volcomp::canopen {
 // Error codes of CiA 301 table 26 and of this device.
 enum class ErrorCode : std::uint16_t {
   none = 0x0000,
+  unexpected_reset = 0x6010,      // CiA 402: software reset (watchdog); first byte: ResetCause
+  background_overdue = 0x6100,    // internal software: the background hangs
   parameters_lost = 0x6310,       // 1010h: stored parameters damaged
   can_overrun = 0x8110,           // frames were lost before they could be read
   heartbeat = 0x8130,             // a monitored node fell silent

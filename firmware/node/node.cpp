@@ -22,8 +22,9 @@ bool is_setting(std::uint16_t index) {
 
 }  // namespace
 
-Node::Node(std::uint8_t node_id, Storage* storage)
-    : device_({node_dictionary(),
+Node::Node(std::uint8_t node_id, Storage* storage, Preemption* preemption)
+    : preemption_(preemption),
+      device_({node_dictionary(),
                &objects_.communication,
                {receive_.data(), receive_.size()},
                {transmit_.data(), transmit_.size()}},
@@ -35,16 +36,25 @@ Node::Node(std::uint8_t node_id, Storage* storage)
 
 // --- resets
 
+void Node::power_on(std::uint64_t now_us, ResetCause cause) {
+  device_.power_on(now_us);
+  const bool meant = cause == ResetCause::power_on || cause == ResetCause::request;
+  if (!meant)
+    device_.emergency().raise(ErrorCode::unexpected_reset, static_cast<std::uint8_t>(cause));
+}
+
 void Node::reset_application() {
+  const Preemptible preemptible(preemption_);
   objects_ = {};
   compensator_.restart({});
   download_.reset();
-  running_ = cycle_open_ = false;
+  running_ = cycle_open_ = overdue_ = false;
   start_given_ = 0;
   load_stored(true);
 }
 
 void Node::reset_communication() {
+  const Preemptible preemptible(preemption_);
   canopen::CommunicationObjects& c = objects_.communication;
   canopen::CommunicationObjects fresh;
   fresh.error_register = c.error_register;
@@ -78,20 +88,64 @@ void Node::state_changed(NmtState state, std::uint64_t now_us) {
   report_status();
 }
 
-void Node::poll(std::uint64_t now_us) {
-  device_.poll(now_us);
-  if (cycle_open_ && now_us >= deadline_us_) {
-    ++objects_.deadline_missed;
-    compute(now_us);
-  }
+// --- time
+
+void Node::poll_cycle(std::uint64_t now_us) {
+  if (device_.state() == NmtState::boot_up) return;
+  device_.poll_cycle(now_us);
+  if (!cycle_open_ || now_us < deadline_us_) return;
+  ++objects_.deadline_missed;
+  compute(now_us);
+}
+
+void Node::poll_scrub(std::uint64_t now_us) {
   if (now_us < next_scrub_us_) return;
   next_scrub_us_ = now_us + kScrubPeriod_us;
-  const Status status = compensator_.scrub();
+  const Status status = scrub();
   if (status.ok()) return;
   if (!running_) compensator_.settle();
   report(status, objects_);
   download_.lost_active();
   device_.emergency().raise(ErrorCode::table_damaged, 0);
+}
+
+// Reads the active set and, if it is damaged, asks the tick to drop it. No tick exchanges the sets
+// meanwhile: only the background hands one over.
+Status Node::scrub() {
+  const Preemptible preemptible(preemption_);
+  return compensator_.scrub();
+}
+
+// --- the other context
+
+void Node::frames_lost(std::uint32_t count) {
+  if (device_.state() == NmtState::boot_up) return;
+  if (count == 0) return device_.emergency().clear(ErrorCode::can_overrun, 0);
+  device_.emergency().raise(ErrorCode::can_overrun, 0);
+}
+
+void Node::background_overdue(bool overdue) {
+  if (device_.state() == NmtState::boot_up) return;
+  overdue_ = overdue;
+  if (overdue) {
+    compensator_.deactivate();
+    if (!running_) compensator_.settle();
+    download_.lost_active();
+    device_.emergency().raise(ErrorCode::background_overdue, 0);
+  } else {
+    device_.emergency().clear(ErrorCode::background_overdue, 0);
+  }
+  if (device_.state() == NmtState::operational) report_status();
+}
+
+bool Node::at_rest() const {
+  if (device_.state() == NmtState::boot_up || !running_) return true;
+  const std::uint32_t correcting = correcting_axes();
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    const bool moves = (correcting & (1U << a)) != 0 && gate_[a].open();
+    if (moves && gate_[a].last() != 0) return false;
+  }
+  return true;
 }
 
 // --- other nodes

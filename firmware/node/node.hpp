@@ -10,29 +10,66 @@
 //
 // Like the Device inside it, the node does no input or output of its own; see canopen/device.hpp
 // for the loop around it. Everything is allocated statically; no call blocks.
+//
+// On a board two contexts share it (node_task.hpp): the tick interrupt works on the cycle, the
+// background on the rest, with the tick kept out. Where the background lets the tick in, inside a
+// Preemptible scope, these rules hold:
+//   - The background touches only what the tick does not: the bytes of the image buffer, the spare
+//     table set and the fold report in the compensator, the buffer of stored parameters, the
+//     storage. The tick may read image bytes (an SDO upload is answered from them), so they are
+//     written in such a scope only while the node is being reset.
+//   - Everything else belongs to the tick there: objects, PDOs, emergencies, gates, the axes of the
+//     compensator. What the background knew of it before the scope is stale after it, above all
+//     whether the compensator runs.
+//   - The tick receives cyclic frames only and leaves poll_services() alone: whatever could change
+//     the state of the device or begin another SDO transfer waits for the end of the scope.
+//   - While the node is being reset it is the other way round: everything belongs to the
+//     background, and the tick finds a device that neither hears nor says anything.
 
 #include "comp/realtime/instances.hpp"
 #include "firmware/canopen/device.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
+#include "firmware/node/preemption.hpp"
 #include "firmware/node/storage.hpp"
 #include "firmware/node/table_download.hpp"
 #include "firmware/node/wire_scale.hpp"
 
 namespace volcomp::node {
 
+// Why the processor started.
+enum class ResetCause : std::uint8_t {
+  power_on = 0,
+  request = 1,   // by software, on purpose
+  watchdog = 2,  // nobody fed it
+  fault = 3,     // the processor met an instruction or an address it refused
+};
+
 class Node final : private canopen::Application {
  public:
-  // `storage` may be nullptr: 1010h and 1011h then refuse. `node_id` 1…127.
-  Node(std::uint8_t node_id, Storage* storage);
+  // `storage` may be nullptr: 1010h and 1011h then refuse. `node_id` 1…127. `preemption` may be
+  // nullptr: then there is one context.
+  explicit Node(std::uint8_t node_id, Storage* storage, Preemption* preemption = nullptr);
   Node(const Node&) = delete;
   Node& operator=(const Node&) = delete;
   ~Node() = default;
 
-  void power_on(std::uint64_t now_us) { device_.power_on(now_us); }
+  // A start that was not meant is told by an emergency.
+  void power_on(std::uint64_t now_us, ResetCause cause = ResetCause::power_on);
   void receive(const hal::CanFrame& frame, std::uint64_t now_us) { device_.receive(frame, now_us); }
+  [[nodiscard]] canopen::Device::Work work(const hal::CanFrame& frame) const {
+    return device_.work(frame);
+  }
   // At least every millisecond: deadlines, heartbeats, SDO timeouts, the scrub of the tables.
-  void poll(std::uint64_t now_us);
+  void poll(std::uint64_t now_us) {
+    poll_services(now_us);
+    poll_cycle(now_us);
+    poll_scrub(now_us);
+  }
+  // Its parts: what waits for others, what is due at a time of its own, what takes long.
+  void poll_services(std::uint64_t now_us) { device_.poll_services(now_us); }
+  void poll_cycle(std::uint64_t now_us);
+  void poll_scrub(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us) {
     return device_.offer(frame, now_us);
   }
@@ -41,6 +78,16 @@ class Node final : private canopen::Application {
   [[nodiscard]] std::uint64_t deadline_us() const {
     return cycle_open_ ? deadline_us_ : UINT64_MAX;
   }
+
+  // --- for those who serve the node from two contexts; from the tick interrupt
+
+  // Since the last call so many frames were lost before the node saw them; 0: none.
+  void frames_lost(std::uint32_t count);
+  // The background is overdue: corrections ramp to zero and stay there until tables are activated
+  // again. Or it is back.
+  void background_overdue(bool overdue);
+  // No drive holds a correction of this node, or none can be changed any more.
+  [[nodiscard]] bool at_rest() const;
 
   [[nodiscard]] const canopen::Device& device() const { return device_; }
   [[nodiscard]] const NodeObjects& objects() const { return objects_; }
@@ -71,6 +118,8 @@ class Node final : private canopen::Application {
                                   Span<std::uint8_t>& sink) override;
   canopen::AbortCode finish_domain(canopen::ObjectId object, std::size_t size) override;
   void abandon_domain(canopen::ObjectId object) override;
+
+  Status scrub();
 
   // --- cycle (node_cycle.cpp)
   [[nodiscard]] bool uses(std::size_t axis) const { return objects_.drive[axis] != 0; }
@@ -104,6 +153,7 @@ class Node final : private canopen::Application {
   NodeObjects objects_{};
   std::array<canopen::Pdo, kReceivePdos> receive_{};
   std::array<canopen::Pdo, kTransmitPdos> transmit_{};
+  Preemption* preemption_;
   canopen::Device device_;
   LoadedCompensator compensator_{};
   TableDownload download_;
@@ -120,6 +170,7 @@ class Node final : private canopen::Application {
   std::uint8_t open_counter_ = 0;          // of the SYNC that opened the cycle
   bool cycle_open_ = false;                // SYNC has come, not yet computed
   bool running_ = false;                   // the compensator ticks
+  bool overdue_ = false;                   // the background
   PerAxis<std::uint16_t> clean_cycles_{};  // without trouble, per axis
   std::uint16_t clean_syncs_ = 0;          // since the last bad SYNC
   std::uint32_t start_given_ = 0;          // 2206h written since the last start, a bit per axis

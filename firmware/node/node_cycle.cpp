@@ -176,6 +176,7 @@ void Node::report_status() {
     state = !running_ ? NodeState::waiting : NodeState::compensating;
     if (running_ && (silent || (any & kDegrading) != 0)) state = NodeState::degraded;
   }
+  if (overdue_) state = NodeState::overdue;
   objects_.any_status = any;
   objects_.state = static_cast<std::uint8_t>(state);
   device_.trigger(kStatusPdo);

@@ -51,6 +51,7 @@ enum class NodeState : std::uint8_t {
   waiting = 2,       // for a drive to report the offset it holds
   compensating = 3,  // every axis
   degraded = 4,      // at least one axis is held, ramped down or not answered: 2601h
+  overdue = 5,       // the background hangs: every axis is ramped down before the watchdog bites
 };
 
 struct NodeObjects {

@@ -62,6 +62,8 @@ const char* words(node::NodeState state) {
       return "compensates every axis";
     case node::NodeState::degraded:
       return "compensates, but not every axis as it should";
+    case node::NodeState::overdue:
+      return "is about to restart, its background hangs; corrections are ramped to zero";
   }
   return "unknown";
 }

@@ -73,12 +73,15 @@ ValueNames node_states() {
   using node::NodeState;
   return {named(NodeState::idle, "idle"), named(NodeState::no_tables, "no tables"),
           named(NodeState::waiting, "waiting for drives"),
-          named(NodeState::compensating, "compensating"), named(NodeState::degraded, "degraded")};
+          named(NodeState::compensating, "compensating"), named(NodeState::degraded, "degraded"),
+          named(NodeState::overdue, "background overdue")};
 }
 
 ValueNames error_codes() {
   using canopen::ErrorCode;
   return {named(ErrorCode::none, "error gone"),
+          named(ErrorCode::unexpected_reset, "restarted by watchdog or fault"),
+          named(ErrorCode::background_overdue, "background hangs"),
           named(ErrorCode::parameters_lost, "stored parameters damaged"),
           named(kCommunicationErrorCode, "communication"),
           named(ErrorCode::can_overrun, "frames lost"),

@@ -1,0 +1,203 @@
+#pragma once
+// The compensation node on a board: one timer interrupt and one background, as every board's main
+// uses it.
+//
+//   BoardPort port;  BoardClock clock;          // hal/can_port.hpp, hal/clock.hpp
+//   BoardSection section;  BoardWatchdog dog;   // hal/critical_section.hpp, hal/watchdog.hpp
+//
+//   auto& the_task() {  // made when main first asks for it: no constructor runs before main
+//     static NodeTask task(Board{port, clock, section, dog}, kNodeId, &storage);
+//     return task;
+//   }
+//   extern "C" void timer_handler() { the_task().on_timer_interrupt(); }  // every millisecond
+//
+//   int main() {
+//     the_task().power_on(board_reset_cause());  // loads and checks the stored tables
+//     dog.start();                               // bites after several ticks without food
+//     timer.start();
+//     for (;;) {
+//       if (!the_task().background_step()) wait_for_interrupt();
+//     }
+//   }
+//
+// The interrupt does what a loop around a node does (canopen/exchange.hpp), in the same order,
+// except what takes long: SDO requests and resets wait for the background, and what could disturb
+// the background in the middle of such work waits with them. So with a background that keeps up,
+// the frames of this node are those of a node in one context, in every single turn.
+//
+// A port that exchanges whole turns (a frame pipe) has two more members, called around each
+// interrupt's work: begin_turn() and end_turn().
+
+#include <type_traits>
+#include <utility>
+
+#include "firmware/node/guardian.hpp"
+#include "firmware/node/node.hpp"
+#include "hal/can_port.hpp"
+#include "hal/clock.hpp"
+#include "hal/critical_section.hpp"
+#include "hal/frame_ring.hpp"
+#include "hal/watchdog.hpp"
+
+namespace volcomp::node {
+
+template <class Port, class = void>
+struct ExchangesTurns : std::false_type {};
+
+template <class Port>
+struct ExchangesTurns<Port, std::void_t<decltype(std::declval<Port&>().begin_turn()),
+                                        decltype(std::declval<Port&>().end_turn())>>
+    : std::true_type {};
+
+// What a board gives; all of it must outlive the task.
+template <class Port, class Clock, class Section, class Watchdog>
+struct Board {
+  Port& port;
+  const Clock& clock;
+  Section& section;
+  Watchdog& watchdog;
+};
+template <class Port, class Clock, class Section, class Watchdog>
+Board(Port&, const Clock&, Section&, Watchdog&) -> Board<Port, Clock, Section, Watchdog>;
+
+template <class Port, class Clock, class Section, class Watchdog>
+class NodeTask final : private Preemption {
+  static_assert(hal::IsCanPort<Port>::value, "see hal/can_port.hpp");
+  static_assert(hal::IsClock<Clock>::value, "see hal/clock.hpp");
+  static_assert(hal::IsCriticalSection<Section>::value, "see hal/critical_section.hpp");
+  static_assert(hal::IsWatchdog<Watchdog>::value, "see hal/watchdog.hpp");
+
+ public:
+  // `node_id` 1…127; `storage` may be nullptr, as with a Node.
+  NodeTask(const Board<Port, Clock, Section, Watchdog>& board, std::uint8_t node_id,
+           Storage* storage, const GuardianSettings& guardian = {})
+      : board_(board), guardian_(guardian), node_(node_id, storage, this) {}
+  NodeTask(const NodeTask&) = delete;
+  NodeTask& operator=(const NodeTask&) = delete;
+  ~NodeTask() = default;
+
+  // Once, before the timer runs. Takes as long as loading and checking the stored tables.
+  void power_on(ResetCause cause) {
+    const Guarded guarded(board_.section);
+    node_.power_on(board_.clock.now_us(), cause);
+  }
+
+  // --- interrupt
+
+  void on_timer_interrupt() {
+    if constexpr (ExchangesTurns<Port>::value) board_.port.begin_turn();
+    const std::uint64_t now_us = board_.clock.now_us();
+    watch(now_us);
+    fetch(now_us);
+    if (undisturbed()) node_.poll_services(now_us);
+    node_.poll_cycle(now_us);
+    send(now_us);
+    if constexpr (ExchangesTurns<Port>::value) board_.port.end_turn();
+    if (guardian_.state() != Guardian::State::starving) board_.watchdog.feed();
+  }
+
+  // The port lost frames before they could be fetched (overrun of the controller). From the tick
+  // interrupt, for instance out of the port's receive().
+  void frames_lost(std::uint32_t count) { lost_ += count; }
+
+  // --- background
+
+  // One frame that waits, or the scrub. False: nothing is left to do until the next interrupt.
+  bool background_step() {
+    guardian_.alive();
+    const Guarded guarded(board_.section);
+    hal::CanFrame frame;
+    const bool waited = waiting_.pop(frame);
+    if (waited) {
+      node_.receive(frame, board_.clock.now_us());
+      --waiting_count_;
+    }
+    node_.poll_scrub(board_.clock.now_us());
+    return waiting_count_ != 0;
+  }
+
+  // Only what a single access reads may be looked at while the timer runs.
+  [[nodiscard]] const Node& node() const { return node_; }
+  [[nodiscard]] const Guardian& guardian() const { return guardian_; }
+
+ private:
+  // A block of an SDO download comes without a pause: 127 segments, and what else is under way.
+  static constexpr std::size_t kWaiting = 256;
+  // Per interrupt; more than the bus carries in a millisecond (21 frames at 1 Mbit/s). What a port
+  // still has stays there.
+  static constexpr int kMostFetched = 256;
+  static constexpr int kMostSent = 32;
+
+  class Guarded {
+   public:
+    explicit Guarded(Section& section) : section_(section) { section_.enter(); }
+    Guarded(const Guarded&) = delete;
+    Guarded& operator=(const Guarded&) = delete;
+    ~Guarded() { section_.leave(); }
+
+   private:
+    Section& section_;
+  };
+
+  // The scopes nest, the section does not. `scopes_` changes with the tick kept out.
+  void allow() override {
+    if (scopes_++ != 0) return;
+    guardian_.announce_long_work(true);
+    board_.section.leave();
+  }
+  void forbid() override {
+    if (scopes_ == 1) {
+      board_.section.enter();
+      guardian_.announce_long_work(false);
+    }
+    --scopes_;
+  }
+
+  // The background is neither in the middle of long work nor owes one for a frame.
+  [[nodiscard]] bool undisturbed() const { return scopes_ == 0 && waiting_count_ == 0; }
+
+  void watch(std::uint64_t now_us) {
+    const Guardian::State before = guardian_.state();
+    const Guardian::State state = guardian_.check(now_us, node_.at_rest());
+    if (state == before) return;
+    if (state == Guardian::State::ramping) node_.background_overdue(true);
+    if (state == Guardian::State::trusting) node_.background_overdue(false);
+  }
+
+  void fetch(std::uint64_t now_us) {
+    hal::CanFrame frame;
+    for (int i = 0; i < kMostFetched && board_.port.receive(frame); ++i) {
+      const canopen::Device::Work work = node_.work(frame);
+      const bool now = work == canopen::Device::Work::cyclic ||
+                       (work == canopen::Device::Work::service && undisturbed());
+      if (now) {
+        node_.receive(frame, now_us);
+      } else if (waiting_.push(frame)) {
+        ++waiting_count_;
+      } else {
+        ++lost_;
+      }
+    }
+    // The loss is over when everything that waited has been served.
+    if (scopes_ == 0 && (lost_ != 0 || waiting_count_ == 0))
+      node_.frames_lost(std::exchange(lost_, 0));
+  }
+
+  void send(std::uint64_t now_us) {
+    hal::CanFrame frame;
+    for (int i = 0; i < kMostSent; ++i) {
+      if (!node_.offer(frame, now_us) || !board_.port.send(frame)) return;
+      node_.taken(now_us);
+    }
+  }
+
+  Board<Port, Clock, Section, Watchdog> board_;
+  Guardian guardian_;
+  hal::FrameRing<kWaiting> waiting_;  // interrupt → background
+  std::uint32_t waiting_count_ = 0;   // of them not yet served
+  std::uint32_t lost_ = 0;            // frames, not yet reported
+  int scopes_ = 0;                    // of preemptible work, one inside the other
+  Node node_;
+};
+
+}  // namespace volcomp::node
