@@ -7,10 +7,7 @@
 namespace volcomp {
 namespace {
 
-Status check_joint(const Body& body, int number) {
-  Where where;
-  where.body = number;
-  where.axis = body.joint.letter;
+Status check_joint(const Body& body, const Where& where) {
   const Joint& joint = body.joint;
   if (static_cast<int>(joint.axis) > 2 || (joint.sign != 1 && joint.sign != -1)) {
     return refuse(Reason::bad_joint, where);
@@ -25,6 +22,68 @@ Status check_joint(const Body& body, int number) {
     if (!std::isfinite(value)) return refuse(Reason::not_finite, where);
   }
   return {};
+}
+
+// The work and tool body exist and the lower-body array is one tree.
+Status check_bodies(const MachineDescription& d) {
+  const std::size_t n = d.body_count;
+  if (n > kMaxBodies) {
+    Where where;
+    where.count = static_cast<int>(n);
+    return refuse(Reason::too_many_bodies, where);
+  }
+  std::array<std::uint8_t, kMaxBodies> lower{};
+  for (std::size_t k = 0; k < n; ++k)
+    lower[k] = d.body[k].lower;
+  if (const Status s = check_lower_body({lower.data(), n}); !s.ok()) return s;
+  if (d.work_body == 0 || d.work_body > n || d.tool_body == 0 || d.tool_body > n)
+    return refuse(Reason::bad_body);
+  return {};
+}
+
+// Every joint is one, and the NC axes are 0, 1, 2… without gap or repetition.
+Status check_joints(const MachineDescription& d, std::size_t& axes) {
+  axes = 0;
+  std::array<bool, kMaxAxes> seen{};
+  for (std::size_t k = 0; k < d.body_count; ++k) {
+    const Joint& joint = d.body[k].joint;
+    Where where;
+    where.body = static_cast<int>(k) + 1;
+    where.axis = joint.letter;
+    if (const Status s = check_joint(d.body[k], where); !s.ok()) return s;
+    if (!joint.moves()) continue;
+    if (axes == kMaxAxes) return refuse(Reason::too_many_axes, where);
+    if (joint.nc_axis >= kMaxAxes || seen[joint.nc_axis])
+      return refuse(Reason::bad_axis_index, where);
+    seen[joint.nc_axis] = true;
+    ++axes;
+  }
+  for (std::size_t a = 0; a < axes; ++a) {
+    if (!seen[a]) return refuse(Reason::bad_axis_index);
+  }
+  return {};
+}
+
+// The correcting axes exist, and none is named twice.
+Status check_correcting(const MachineDescription& d, std::size_t axes) {
+  for (std::size_t c = 0; c < d.correcting_count; ++c) {
+    Where where;
+    where.field = "correcting";
+    where.index = static_cast<int>(c);
+    if (d.correcting_count > kMaxCorrecting || d.correcting[c] >= axes)
+      return refuse(Reason::bad_axis_index, where);
+    for (std::size_t before = 0; before < c; ++before) {
+      if (d.correcting[before] == d.correcting[c]) return refuse(Reason::bad_axis_index, where);
+    }
+  }
+  return {};
+}
+
+Status check_description(const MachineDescription& d) {
+  std::size_t axes = 0;
+  if (const Status s = check_bodies(d); !s.ok()) return s;
+  if (const Status s = check_joints(d, axes); !s.ok()) return s;
+  return check_correcting(d, axes);
 }
 
 }  // namespace
@@ -55,65 +114,35 @@ Status check_lower_body(Span<const std::uint8_t> lower) {
 }
 
 Status MachineChain::build(const MachineDescription& description, MachineChain& out) {
-  const std::size_t n = description.body_count;
-  if (n > kMaxBodies) {
-    Where where;
-    where.count = static_cast<int>(n);
-    return refuse(Reason::too_many_bodies, where);
-  }
-  std::array<std::uint8_t, kMaxBodies> lower{};
-  for (std::size_t k = 0; k < n; ++k)
-    lower[k] = description.body[k].lower;
-  if (const Status s = check_lower_body({lower.data(), n}); !s.ok()) return s;
-  if (description.work_body == 0 || description.work_body > n || description.tool_body == 0 ||
-      description.tool_body > n) {
-    return refuse(Reason::bad_body);
-  }
+  if (const Status s = check_description(description); !s.ok()) return s;
+  out.description_ = description;
+  out.analyse();
+  return {};
+}
 
-  MachineChain chain;
-  chain.description_ = description;
-  std::array<bool, kMaxAxes> seen{};
-  for (std::size_t k = 0; k < n; ++k) {
-    const Body& body = description.body[k];
-    if (const Status s = check_joint(body, static_cast<int>(k) + 1); !s.ok()) return s;
-    if (!body.joint.moves()) {
-      chain.description_.body[k].joint.nc_axis = 0;  // unused, but a valid index into a pose
+Status MachineChain::complete() {
+  if (const Status s = check_description(description_); !s.ok()) return s;
+  analyse();
+  return {};
+}
+
+// Expects a checked description.
+void MachineChain::analyse() {
+  axis_count_ = 0;
+  for (std::size_t k = 0; k < description_.body_count; ++k) {
+    Joint& joint = description_.body[k].joint;
+    if (!joint.moves()) {
+      joint.nc_axis = 0;  // unused, but a valid index into a pose
       continue;
     }
-    Where where;
-    where.body = static_cast<int>(k) + 1;
-    where.axis = body.joint.letter;
-    if (chain.axis_count_ == kMaxAxes) return refuse(Reason::too_many_axes, where);
-    if (body.joint.nc_axis >= kMaxAxes || seen[body.joint.nc_axis])
-      return refuse(Reason::bad_axis_index, where);
-    seen[body.joint.nc_axis] = true;
-    chain.body_of_axis_[body.joint.nc_axis] = static_cast<std::uint8_t>(k);
-    ++chain.axis_count_;
+    body_of_axis_[joint.nc_axis] = static_cast<std::uint8_t>(k);
+    ++axis_count_;
   }
-  for (std::size_t a = 0; a < chain.axis_count_; ++a) {
-    if (!seen[a]) return refuse(Reason::bad_axis_index);
-  }
-  for (std::size_t c = 0; c < description.correcting_count; ++c) {
-    Where where;
-    where.field = "correcting";
-    where.index = static_cast<int>(c);
-    if (description.correcting_count > kMaxCorrecting ||
-        description.correcting[c] >= chain.axis_count_) {
-      return refuse(Reason::bad_axis_index, where);
-    }
-    for (std::size_t before = 0; before < c; ++before) {
-      if (description.correcting[before] == description.correcting[c])
-        return refuse(Reason::bad_axis_index, where);
-    }
-  }
-
-  chain.paths_ = branch_paths(description);
-  for (const std::uint8_t body : chain.work())
-    chain.description_.body[body].joint.branch = Branch::work;
-  for (const std::uint8_t body : chain.tool())
-    chain.description_.body[body].joint.branch = Branch::tool;
-  out = chain;
-  return {};
+  paths_ = branch_paths(description_);
+  for (const std::uint8_t body : work())
+    description_.body[body].joint.branch = Branch::work;
+  for (const std::uint8_t body : tool())
+    description_.body[body].joint.branch = Branch::tool;
 }
 
 bool MachineChain::has_rotary() const {

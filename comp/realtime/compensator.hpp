@@ -21,6 +21,7 @@
 
 namespace volcomp {
 
+// Knots per axis table; one more costs a five-axis compensator 960 bytes.
 inline constexpr std::size_t kDefaultKnots = 128;
 
 template <class Machine, std::size_t Knots = kDefaultKnots>
@@ -56,7 +57,9 @@ class Compensator {
 
   // Folds tables for a functional point into the spare buffer. Used for new tables and for a tool
   // change alike. On refusal the active tables go on. `image_crc` is what diagnostics will report.
-  // Not while a hand-over is pending.
+  // Not while a hand-over is pending. A node stages the view of an image (check_image); tables in
+  // memory are for the host: their view takes 4 KB of stack.
+  Status stage(const TablesView& tables, const Vec3& tool_point, std::uint32_t image_crc);
   Status stage(const MachineTables& tables, const Vec3& tool_point, std::uint32_t image_crc);
 
   // Hands the staged set over: active from the next tick, ramped in. Refuses not_staged.
@@ -134,6 +137,8 @@ class Compensator {
   PutOut put_out_unusual(AxisState& s, float wanted, float ramp, std::uint32_t status);
   void count_changes(std::size_t axis, std::uint32_t status);
   void apply_limits(std::size_t axis);
+  Status open_spare(const Provenance& provenance);
+  Status fold_into_spare(const TablesView& tables, const Vec3& tool_point, std::uint32_t image_crc);
   Status reject(const Status& status);
   static std::uint32_t checksum(const Tables& set);
   [[nodiscard]] bool rotary(std::size_t axis) const {

@@ -49,7 +49,11 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
 
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::restart(const Machine& machine) {
-  machine_ = machine.chain.axes <= kAxes ? machine : Machine{};
+  if (machine.chain.axes <= kAxes) {
+    machine_ = machine;
+  } else {
+    machine_ = Machine{};
+  }
   request_.store(Request::none, std::memory_order_relaxed);
   damaged_.store(false, std::memory_order_relaxed);
   active_ = -1;
@@ -101,23 +105,46 @@ Status Compensator<Machine, Knots>::reject(const Status& status) {
 }
 
 template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec3& tool_point,
-                                          std::uint32_t image_crc) {
-  if (pending()) return reject(refuse(Reason::hand_over_pending));
+Status Compensator<Machine, Knots>::open_spare(const Provenance& provenance) {
+  if (pending()) return refuse(Reason::hand_over_pending);
   staged_ = false;
-  if (settings_.machine_id != 0 && tables.provenance.machine_id != settings_.machine_id) {
-    return reject(refuse(Reason::machine_mismatch));
-  }
+  if (settings_.machine_id != 0 && provenance.machine_id != settings_.machine_id)
+    return refuse(Reason::machine_mismatch);
+  return {};
+}
+
+template <class Machine, std::size_t Knots>
+Status Compensator<Machine, Knots>::fold_into_spare(const TablesView& tables,
+                                                    const Vec3& tool_point,
+                                                    std::uint32_t image_crc) {
   FoldReport report;
   Tables& spare = buffer_[static_cast<std::size_t>(next_)];
   const Status status =
       fold_tables(tables, machine_.chain, tool_point, TableSetView(spare), report);
-  if (!status.ok()) return reject(status);
+  if (!status.ok()) return status;
   spare.image_crc = image_crc;
   spare.checksum = checksum(spare);
   report_ = report;
   staged_ = true;
   return {};
+}
+
+template <class Machine, std::size_t Knots>
+Status Compensator<Machine, Knots>::stage(const TablesView& tables, const Vec3& tool_point,
+                                          std::uint32_t image_crc) {
+  Status status = open_spare(tables.provenance);
+  if (status.ok()) status = fold_into_spare(tables, tool_point, image_crc);
+  return status.ok() ? status : reject(status);
+}
+
+template <class Machine, std::size_t Knots>
+Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec3& tool_point,
+                                          std::uint32_t image_crc) {
+  TablesView view;
+  Status status = open_spare(tables.provenance);
+  if (status.ok()) status = view_tables(tables, view);
+  if (status.ok()) status = fold_into_spare(view, tool_point, image_crc);
+  return status.ok() ? status : reject(status);
 }
 
 template <class Machine, std::size_t Knots>

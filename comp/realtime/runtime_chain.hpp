@@ -69,7 +69,7 @@ constexpr RuntimeStep runtime_step(const Body& body, std::uint8_t index, bool wo
   step.axis = body.joint.axis;
   step.work = work;
   step.body = index;
-  step.nc_axis = body.joint.nc_axis;
+  step.nc_axis = body.joint.moves() ? body.joint.nc_axis : std::uint8_t{0};  // fixed: unused
   step.sign = static_cast<float>(body.joint.sign);
   for (std::size_t i = 0; i < 3; ++i) {
     step.offset_nm[i] = static_cast<float>(body.joint.offset[i] * 1e6);

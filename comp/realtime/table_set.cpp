@@ -15,7 +15,7 @@ Float3 to_float(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-AxisLookup make_lookup(const AxisTable& table, bool rotary) {
+AxisLookup make_lookup(const TableGrid& table, bool rotary) {
   AxisLookup l;
   l.q0 = table.q0;
   l.periodic = table.periodic;
@@ -58,17 +58,18 @@ AxisPlace place_of(const MachineChain& chain, std::uint8_t wanted, const Vec3& t
   return {};
 }
 
-ErrorMotion channels_of(const AxisTable& table, std::size_t travel, std::size_t knot) {
+ErrorMotion channels_of(const AxisTableView& table, std::size_t travel, std::size_t knot) {
+  const Channels row = table.row(travel, knot);
   ErrorMotion e;
   for (std::size_t c = 0; c < 6; ++c)
-    e(static_cast<Eigen::Index>(c)) = static_cast<double>(table.value[travel][knot][c]);
+    e(static_cast<Eigen::Index>(c)) = static_cast<double>(row[c]);
   return e;
 }
 
 // Rows of one axis: `value(travel, knot)` in nm and rad, differences to the next knot, periodic or
 // ending flat.
 template <class ValueAt>
-void write_rows(const AxisTable& table, const std::array<Knot*, 2>& rows, const ValueAt& value) {
+void write_rows(const TableGrid& table, const std::array<Knot*, 2>& rows, const ValueAt& value) {
   for (std::size_t travel = 0; travel < 2; ++travel) {
     ErrorMotion here = value(travel, 0);
     const ErrorMotion first = here;
@@ -92,7 +93,7 @@ class Bounds {
  public:
   Bounds(bool folded, double arm_nm) : folded_(folded), arm_nm_(arm_nm) {}
 
-  void include(const AxisTable& table, const std::array<Knot*, 2>& rows, bool rotary) {
+  void include(const TableGrid& table, const std::array<Knot*, 2>& rows, bool rotary) {
     double displacement = 0.0;
     double turn = 0.0;
     double steepest = 0.0;
@@ -135,12 +136,13 @@ class Bounds {
 
 // Form A of seed 001 (embedded, section 1), for any linear chain: a = σ(R δ + R ε × c) +
 // direction·q, w = σ R ε.
-void fold_linear_axis(const MachineTables& tables, const MachineChain& chain, std::size_t axis,
-                      const Vec3& tool_point, const TableSetView& set) {
-  const AxisTable& table = tables.axis[axis];
+void fold_linear_axis(const TablesView& tables, std::size_t axis, const Vec3& tool_point,
+                      const TableSetView& set) {
+  const MachineChain& chain = tables.chain;
+  const TableGrid& table = tables.axis[axis].grid();
   const AxisPlace place = place_of(chain, chain.body_of_axis(axis), tool_point);
   write_rows(table, set.rows[axis], [&](std::size_t travel, std::size_t knot) {
-    const ErrorMotion e = channels_of(table, travel, knot);
+    const ErrorMotion e = channels_of(tables.axis[axis], travel, knot);
     const Vec3 turn = place.sigma * (place.R * rotation(e));
     const auto q_nm = static_cast<double>(table.q0 + table.pitch * static_cast<std::int64_t>(knot));
     ErrorMotion folded;
@@ -154,9 +156,9 @@ void fold_linear_axis(const MachineTables& tables, const MachineChain& chain, st
 
 // Constant errors of fixed bodies join the folded walk (work tip → tool tip): their displacement
 // goes into the rows of the first axis, their angle acts on every axis met after them.
-void fold_constant_errors(const MachineChain& chain, const RuntimeChain& runtime,
-                          const Vec3& tool_point, const TableSetView& set,
-                          const MachineTables& tables) {
+void fold_constant_errors(const TablesView& tables, const RuntimeChain& runtime,
+                          const Vec3& tool_point, const TableSetView& set) {
+  const MachineChain& chain = tables.chain;
   Vec3 shift = Vec3::Zero();
   Vec3 turn = Vec3::Zero();
   int first_axis = -1;
@@ -178,16 +180,16 @@ void fold_constant_errors(const MachineChain& chain, const RuntimeChain& runtime
   const auto a = static_cast<std::size_t>(first_axis);
   const Float3 shift_nm = to_float(kNmPerMm * shift);
   for (Knot* column : set.rows[a]) {
-    for (std::size_t i = 0; i < tables.axis[a].knots; ++i) {
+    for (std::size_t i = 0; i < tables.axis[a].grid().knots; ++i) {
       for (std::size_t c = 0; c < 3; ++c)
         column[i].v[c] += shift_nm[c];
     }
   }
 }
 
-void copy_axis(const MachineTables& tables, std::size_t axis, const TableSetView& set) {
-  const AxisTable& table = tables.axis[axis];
-  write_rows(table, set.rows[axis], [&](std::size_t travel, std::size_t knot) {
+void copy_axis(const TablesView& tables, std::size_t axis, const TableSetView& set) {
+  const AxisTableView& table = tables.axis[axis];
+  write_rows(table.grid(), set.rows[axis], [&](std::size_t travel, std::size_t knot) {
     return channels_of(table, travel, knot);
   });
   set.direction[axis] = to_float(tables.directions[axis]);
@@ -211,35 +213,36 @@ Status fold_inverse(const MachineChain& chain, const RuntimeChain& runtime, cons
   return {};
 }
 
-double largest_position(const AxisTable& table) {
+double largest_position(const TableGrid& table) {
   return std::max(std::abs(static_cast<double>(table.q0)),
                   std::abs(static_cast<double>(table.last())));
 }
 
 // Longest lever an angle acts on in the kernel: the travel of every axis and, where they are not
 // folded into the rows, all offsets and the tool; nm. 1-norm: an upper bound without a square root.
-double reach_nm(const MachineTables& tables, const MachineChain& chain, bool folded,
-                const Vec3& tool_point) {
+double reach_nm(const TablesView& tables, bool folded, const Vec3& tool_point) {
+  const MachineDescription& machine = tables.chain.description();
   double reach = folded ? 0.0 : kNmPerMm * tool_point.cwiseAbs().sum();
-  for (std::size_t k = 0; k < tables.machine.body_count && !folded; ++k) {
-    reach += kNmPerMm * joint_offset(tables.machine.body[k].joint).t.cwiseAbs().sum();
+  for (std::size_t k = 0; k < machine.body_count && !folded; ++k) {
+    reach += kNmPerMm * joint_offset(machine.body[k].joint).t.cwiseAbs().sum();
   }
-  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-    if (chain.axis(a).kind == JointKind::prismatic) reach += largest_position(tables.axis[a]);
+  for (std::size_t a = 0; a < tables.chain.axis_count(); ++a) {
+    if (tables.chain.axis(a).kind == JointKind::prismatic)
+      reach += largest_position(tables.axis[a].grid());
   }
   return reach;
 }
 
 // Everything the tick adds up: rows, constant errors, squareness.
-Bounds measure_bounds(const MachineTables& tables, const MachineChain& chain,
-                      const RuntimeChain& runtime, const Vec3& tool_point,
+Bounds measure_bounds(const TablesView& tables, const RuntimeChain& runtime, const Vec3& tool_point,
                       const TableSetView& set) {
-  Bounds bounds(runtime.folded, reach_nm(tables, chain, runtime.folded, tool_point));
-  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
+  Bounds bounds(runtime.folded, reach_nm(tables, runtime.folded, tool_point));
+  for (std::size_t a = 0; a < runtime.axes; ++a) {
     const bool rotary = runtime.kind[a] == JointKind::rotary;
-    bounds.include(tables.axis[a], set.rows[a], rotary);
+    const TableGrid& table = tables.axis[a].grid();
+    bounds.include(table, set.rows[a], rotary);
     if (runtime.folded || rotary) continue;  // folded rows hold the squareness
-    bounds.add(tables.directions[a].cwiseAbs().sum() * largest_position(tables.axis[a]), 0.0);
+    bounds.add(tables.directions[a].cwiseAbs().sum() * largest_position(table), 0.0);
   }
   for (std::size_t i = 0; i < runtime.steps; ++i) {
     const RuntimeStep& step = runtime.step[i];
@@ -250,38 +253,48 @@ Bounds measure_bounds(const MachineTables& tables, const MachineChain& chain,
   return bounds;
 }
 
+// Own function: the second chain leaves the stack before folding begins.
+[[gnu::noinline]] bool runs_on(const RuntimeChain& runtime, const MachineDescription& machine) {
+  return same_chain(runtime, make_runtime_chain(machine));
+}
+
+Status fold_axis(const TablesView& tables, std::size_t axis, const RuntimeChain& runtime,
+                 const Vec3& tool_point, const TableSetView& set) {
+  const AxisTableView& table = tables.axis[axis];
+  const Joint& joint = tables.chain.axis(axis);
+  Where where;
+  where.axis = joint.letter;
+  if (const Status s = check_knots(table.grid(), joint, set.knots); !s.ok()) return s;
+  if (const Status s = check_values(table, joint); !s.ok()) return s;
+  if (!tables.directions[axis].allFinite()) return refuse(Reason::not_finite, where);
+  set.lookup[axis] = make_lookup(table.grid(), runtime.kind[axis] == JointKind::rotary);
+  if (runtime.folded) {
+    fold_linear_axis(tables, axis, tool_point, set);
+  } else {
+    copy_axis(tables, axis, set);
+  }
+  return {};
+}
+
 }  // namespace
 
-Status fold_tables(const MachineTables& tables, const RuntimeChain& runtime, const Vec3& tool_point,
-                   TableSetView set, FoldReport& report) {
-  MachineChain chain;
-  if (const Status s = MachineChain::build(tables.machine, chain); !s.ok()) return s;
+Status fold_tables(const TablesView& tables, const RuntimeChain& runtime, const Vec3& tool_point,
+                   const TableSetView& set, FoldReport& report) {
+  const MachineChain& chain = tables.chain;
   if (chain.axis_count() != runtime.axes || chain.axis_count() > set.axes)
     return refuse(Reason::axes_mismatch);
-  if (!same_chain(runtime, make_runtime_chain(tables.machine)))
-    return refuse(Reason::machine_mismatch);
+  if (!runs_on(runtime, chain.description())) return refuse(Reason::machine_mismatch);
   if (!tool_point.allFinite()) return refuse(Reason::not_finite);
 
   *set.tool_nm = to_float(kNmPerMm * tool_point);
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-    const AxisTable& table = tables.axis[a];
-    Where where;
-    where.axis = runtime.letter[a];
-    if (const Status s = check_knots(table, chain.axis(a), set.knots); !s.ok()) return s;
-    if (const Status s = check_values(table, chain.axis(a)); !s.ok()) return s;
-    if (!tables.directions[a].allFinite()) return refuse(Reason::not_finite, where);
-    set.lookup[a] = make_lookup(table, runtime.kind[a] == JointKind::rotary);
-    if (runtime.folded) {
-      fold_linear_axis(tables, chain, a, tool_point, set);
-    } else {
-      copy_axis(tables, a, set);
-    }
+    if (const Status s = fold_axis(tables, a, runtime, tool_point, set); !s.ok()) return s;
   }
   if (runtime.folded && runtime.has_constant_error)
-    fold_constant_errors(chain, runtime, tool_point, set, tables);
+    fold_constant_errors(tables, runtime, tool_point, set);
   if (const Status s = fold_inverse(chain, runtime, tool_point, set); !s.ok()) return s;
 
-  const Bounds bounds = measure_bounds(tables, chain, runtime, tool_point, set);
+  const Bounds bounds = measure_bounds(tables, runtime, tool_point, set);
   report.bound_nm = bounds.sum_nm();
   report.contraction = bounds.contraction();
   report.within_1nm = bounds.sum_nm() <= kClaimBound_nm;

@@ -6,7 +6,7 @@
 
 #include "comp/realtime/axis_lookup.hpp"
 #include "comp/realtime/runtime_chain.hpp"
-#include "comp/tables/machine_tables.hpp"
+#include "comp/tables/tables_view.hpp"
 
 namespace volcomp {
 
@@ -76,7 +76,7 @@ inline constexpr double kMaxContraction = 1e-2;
 // only. Refuses axes_mismatch (other number of axes), machine_mismatch (another chain),
 // not_finite, what check_knots refuses, bound_exceeded, contraction_exceeded, no_authority; the set
 // is then partly written and must not be activated.
-Status fold_tables(const MachineTables& tables, const RuntimeChain& runtime, const Vec3& tool_point,
-                   TableSetView set, FoldReport& report);
+Status fold_tables(const TablesView& tables, const RuntimeChain& runtime, const Vec3& tool_point,
+                   const TableSetView& set, FoldReport& report);
 
 }  // namespace volcomp

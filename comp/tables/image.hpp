@@ -16,7 +16,7 @@
 
 #include "comp/span.hpp"
 #include "comp/status.hpp"
-#include "comp/tables/machine_tables.hpp"
+#include "comp/tables/tables_view.hpp"
 
 namespace volcomp {
 
@@ -28,11 +28,19 @@ inline constexpr std::uint16_t kImageVersion = 1;
 // Writes the image; `written` = image_size. Refuses image_truncated when `out` is too small.
 Status encode_image(const MachineTables& tables, Span<std::uint8_t> out, std::size_t& written);
 
-// Validates and reads. Order: bad_magic, version_unknown, image_truncated, crc_mismatch (where.axis
-// if it can be told), then the machine (as
-// MachineChain::build), then per axis too_few_knots, too_many_knots (> capacity),
-// pitch_not_positive, travel_too_long, not_finite. On refusal the content of `out` is unspecified:
-// decode into a spare, never into what is active.
+// Validates, and gives a view of the tables where they lie: nothing is copied but the machine
+// description. Order: bad_magic, version_unknown, image_truncated, crc_mismatch (where.axis if it
+// can be told), then the machine (as MachineChain::build), then per axis too_few_knots,
+// too_many_knots (> capacity), pitch_not_positive, travel_too_long, not_finite; image_truncated
+// also where the tables do not end with the image. The view is valid as long as the bytes stay;
+// after a refusal it must not be used.
+Status check_image(Span<const std::uint8_t> image, std::size_t capacity, TablesView& out);
+
+// The machine of an image that check_image accepts, as it was written.
+Status read_machine(Span<const std::uint8_t> image, MachineDescription& out);
+
+// check_image, then a copy. On refusal the content of `out` is unspecified: decode into a spare,
+// never into what is active.
 Status decode_image(Span<const std::uint8_t> image, std::size_t capacity, MachineTables& out);
 
 // Where a stored float sits in an image: for diagnosis and for tests that damage it. travel 0 =

@@ -40,7 +40,7 @@ bool is_full_turn(const ErrorTable& table, const Joint& joint) {
   return joint.kind == JointKind::rotary && std::abs(table.last() - table.q0 - 2.0 * kPi) < 1e-9;
 }
 
-Status check_knots(const AxisTable& table, const Joint& joint, std::size_t capacity) {
+Status check_knots(const TableGrid& table, const Joint& joint, std::size_t capacity) {
   Where where;
   where.axis = joint.letter;
   where.count = static_cast<int>(table.knots);
@@ -58,22 +58,6 @@ Status check_knots(const AxisTable& table, const Joint& joint, std::size_t capac
   const bool whole_turn =
       joint.kind == JointKind::rotary && kUnitsPerTurn - table.pitch * segments < segments;
   if (table.periodic && !whole_turn) return refuse(Reason::not_periodic, where);
-  return {};
-}
-
-Status check_values(const AxisTable& table, const Joint& joint) {
-  Where where;
-  where.axis = joint.letter;
-  for (const auto& column : table.value) {
-    for (std::uint32_t i = 0; i < table.knots; ++i) {
-      for (std::size_t c = 0; c < 6; ++c) {
-        if (std::isfinite(column[i][c])) continue;
-        where.index = static_cast<int>(i);
-        where.channel = static_cast<int>(c);
-        return refuse(Reason::not_finite, where);
-      }
-    }
-  }
   return {};
 }
 

@@ -13,16 +13,20 @@ namespace volcomp {
 
 using Channels = std::array<float, 6>;
 
-struct AxisTable {
+// Where the knots of one axis lie.
+struct TableGrid {
   std::int64_t q0 = 0;      // first knot
   std::int64_t pitch = 1;   // > 0
   std::uint32_t knots = 0;  // periodic: knots per turn, the first is not repeated
   bool periodic = false;    // rotary axis with a table over the full turn
-  std::array<std::array<Channels, kTableKnots>, 2> value{};  // [0] forward, [1] backward
 
   [[nodiscard]] std::int64_t last() const {
     return q0 + pitch * static_cast<std::int64_t>(knots - 1);
   }
+};
+
+struct AxisTable : TableGrid {
+  std::array<std::array<Channels, kTableKnots>, 2> value{};  // [0] forward, [1] backward
 };
 
 struct Provenance {
@@ -43,10 +47,7 @@ struct MachineTables {
 // What the run-time lookup can hold. Refuses too_few_knots, too_many_knots (> capacity),
 // pitch_not_positive (below 1 nm or 2^-32 turn), travel_too_long (≥ 2^32 nm, or a whole turn that
 // is not periodic), not_periodic.
-Status check_knots(const AxisTable& table, const Joint& joint, std::size_t capacity);
-
-// Refuses not_finite (where.index = knot, where.channel).
-Status check_values(const AxisTable& table, const Joint& joint);
+Status check_knots(const TableGrid& table, const Joint& joint, std::size_t capacity);
 
 // A rotary table whose ends are one turn apart (within 1e-9 rad): it wraps, in the tick and in the
 // double model.

@@ -67,7 +67,7 @@ AbortCode TableDownload::judge(const Status& status, TableState next) {
 }
 
 AbortCode TableDownload::validate() {
-  Status status = decode_image({image_.data(), objects_.staged_bytes}, kDefaultKnots, tables_);
+  Status status = check_image({image_.data(), objects_.staged_bytes}, kDefaultKnots, tables_);
   const std::uint32_t wanted = objects_.machine_id;
   if (status.ok() && wanted != 0 && tables_.provenance.machine_id != wanted)
     status = refuse(Reason::machine_mismatch);
@@ -75,16 +75,24 @@ AbortCode TableDownload::validate() {
 }
 
 // The first tables after a start decide which machine this is; later ones have to match.
+Status TableDownload::adopt_machine() {
+  const LoadedMachine<kNodeAxes> machine{make_runtime_chain(tables_.chain.description())};
+  if (same_chain(machine.chain, compensator_.machine().chain)) return {};
+  if (machine.chain.axes > kNodeAxes) return refuse(Reason::too_many_axes);
+  compensator_.restart(machine);
+  objects_.active_crc = 0;
+  objects_.active_sequence = 0;
+  return {};
+}
+
 AbortCode TableDownload::arm(bool running) {
-  const RuntimeChain chain = make_runtime_chain(tables_.machine);
-  if (!running && !same_chain(chain, compensator_.machine().chain)) {
-    if (chain.axes > kNodeAxes) return judge(refuse(Reason::too_many_axes), TableState::armed);
-    compensator_.restart(LoadedMachine<kNodeAxes>{chain});
-    objects_.active_crc = 0;
-    objects_.active_sequence = 0;
+  if (!running) {
+    const Status status = adopt_machine();
+    if (!status.ok()) return judge(status, TableState::armed);
   }
-  const Vec3 tool = Eigen::Map<const Vec3>(tables_.machine.tool_point.data());
-  return judge(compensator_.stage(tables_, tool, objects_.staged_crc), TableState::armed);
+  const Status status =
+      compensator_.stage(tables_, tables_.chain.tool_point(), objects_.staged_crc);
+  return judge(status, TableState::armed);
 }
 
 AbortCode TableDownload::activate(bool running) {

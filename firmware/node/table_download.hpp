@@ -49,13 +49,14 @@ class TableDownload {
   void enter(TableState state) { objects_.table_state = static_cast<std::uint8_t>(state); }
   canopen::AbortCode judge(const Status& status, TableState next);
   canopen::AbortCode validate();
+  Status adopt_machine();
   canopen::AbortCode arm(bool running);
   canopen::AbortCode activate(bool running);
 
   NodeObjects& objects_;
   LoadedCompensator& compensator_;
-  MachineTables tables_{};
   std::array<std::uint8_t, kImageCapacity> image_{};
+  TablesView tables_{};  // of the image, since it was last checked
 };
 
 // Writes a refusal (or its absence) to 2112h:02…06.

@@ -235,5 +235,49 @@ TEST(Image, ARepeatedCorrectingAxisIsRefused) {
   EXPECT_EQ(decode(encode(in), *out).reason, Reason::bad_axis_index);
 }
 
+// Tables that end before or after the image does, behind a correct CRC.
+TEST(Image, TablesThatDoNotFillTheImageAreRefused) {
+  Random random(98);
+  const MachineTables in = any_tables(random);
+  const Bytes good = encode(in);
+  auto out = std::make_unique<MachineTables>();
+  const std::size_t knots_at = image_value_offset(in, 3, 0, 0, 0) - 24 - 1 - 4;
+  ASSERT_EQ(good[knots_at], 37);
+  for (const int knots : {36, 38, 500}) {
+    Bytes bad = good;
+    bad[knots_at] = static_cast<std::uint8_t>(knots & 0xFF);
+    bad[knots_at + 1] = static_cast<std::uint8_t>(knots >> 8);
+    bad[knots_at + 4] = 0;  // not periodic: any number of knots spans less than a turn
+    for (std::size_t i = 0; i < 8; ++i)
+      bad[knots_at - 8 + i] = i == 1 ? 1 : 0;  // pitch 2^-32 turn
+    seal(bad);
+    EXPECT_EQ(decode(bad, *out).reason, Reason::image_truncated) << knots;
+  }
+}
+
+// A node folds the bytes of an image, the host its numbers: the tick cannot tell.
+TEST(Image, TheViewFoldsLikeTheTables) {
+  Random random(99);
+  SCOPED_TRACE(random.trace());
+  const MachineTables tables = any_tables(random);
+  const Bytes image = encode(tables);
+  auto view = std::make_unique<TablesView>();
+  ASSERT_TRUE(check_image({image.data(), image.size()}, kTableKnots, *view).ok());
+  LoadedRunner of_tables(tables.machine);
+  LoadedRunner of_image(tables.machine);
+  ASSERT_TRUE(of_tables.start(tables).ok());
+  ASSERT_TRUE(of_image.compensator->configure(open_settings<5>()).ok());
+  ASSERT_TRUE(of_image.compensator->stage(*view, tool_of(tables.machine), 0).ok());
+  ASSERT_TRUE(of_image.compensator->activate().ok());
+  for (int n = 0; n < 10'000; ++n) {
+    const LoadedRunner::Positions q{
+        random.integer(-510'000'000, 10'000'000), random.integer(-310'000'000, 10'000'000),
+        random.integer(-410'000'000, 10'000'000),
+        random.integer(-(std::int64_t{1} << 42), std::int64_t{1} << 42), 0};
+    ASSERT_EQ(of_tables.tick(q).offset, of_image.tick(q).offset) << "point " << n;
+    ASSERT_EQ(of_tables.out.status, of_image.out.status) << "point " << n;
+  }
+}
+
 }  // namespace
 }  // namespace volcomp::test
