@@ -76,6 +76,9 @@ class Sja1000 {
   bool send(const CanFrame& frame);
   bool receive(CanFrame& frame) { return received_.pop(frame); }
 
+  // How often frames of the bus were lost since the last call.
+  [[nodiscard]] std::uint32_t take_losses();
+
   [[nodiscard]] CanBusState state() const;
   [[nodiscard]] Sja1000Counters counters() const;
 
@@ -105,6 +108,7 @@ class Sja1000 {
   CanBusState state_ = CanBusState::stopped;
   std::uint64_t in_reset_since_us_ = 0;
   Sja1000Counters counters_;
+  std::uint32_t losses_told_ = 0;
 };
 
 }  // namespace volcomp::hal

@@ -200,6 +200,14 @@ void Sja1000<Registers, InterruptLock>::supervise(std::uint64_t now_us) {
 }
 
 template <class Registers, class InterruptLock>
+std::uint32_t Sja1000<Registers, InterruptLock>::take_losses() {
+  const InterruptLock lock;
+  const std::uint32_t told = losses_told_;
+  losses_told_ = counters_.fifo_overruns + counters_.ring_overruns;
+  return losses_told_ - told;
+}
+
+template <class Registers, class InterruptLock>
 CanBusState Sja1000<Registers, InterruptLock>::state() const {
   const InterruptLock lock;
   return state_;

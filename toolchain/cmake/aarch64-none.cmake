@@ -11,12 +11,14 @@ set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 set(CMAKE_ASM_COMPILER aarch64-linux-gnu-gcc)
 
-# Before the MMU is on all memory counts as device memory, which allows no unaligned access: -mstrict-align. The atomic
-# read-modify-write helpers of libgcc ask the Linux kernel: -mno-outline-atomics. Every function and object in a section
-# of its own, so that the linker leaves out what nobody uses; -g is for the debugger.
+# The atomic read-modify-write helpers of libgcc ask the Linux kernel what the processor can do: -mno-outline-atomics.
+# Every function and object in a section of its own, so that the linker leaves out what nobody uses. -fstack-usage
+# writes the frame of every function beside its object file; -g is for the debugger.
 set(CMAKE_CXX_FLAGS_INIT
-  "-mcpu=cortex-a53 -mstrict-align -mno-outline-atomics -fno-pie -fno-stack-protector -fno-math-errno -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage -g")
+  "-mcpu=cortex-a53 -mno-outline-atomics -fno-pie -fno-stack-protector -fno-math-errno -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage -g")
 set(CMAKE_ASM_FLAGS_INIT "-mcpu=cortex-a53 -g")
+# Sine and cosine of the commissioning code come from the C library's mathematics.
+set(CMAKE_CXX_STANDARD_LIBRARIES "-lm -lgcc")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static -no-pie -nostdlib -Wl,--build-id=none -mfix-cortex-a53-835769 -mfix-cortex-a53-843419")
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)

@@ -1,9 +1,12 @@
 // What the compiler expects of a C library in every program (GCC manual, "Standards": memcpy,
-// memmove, memset, memcmp), and the few more that our code uses. There is no C library for this
-// processor without an operating system in Debian.
+// memmove, memset, memcmp), the few more that our code uses, and what the mathematics of the GNU C
+// library wants. There is no C library for this processor without an operating system in Debian.
 
 #include <cstddef>
 #include <cstdint>
+
+#include "firmware/boards/virt-a53/exit_code.hpp"
+#include "hal/virt/uart.hpp"
 
 namespace {
 
@@ -73,5 +76,19 @@ char* strncpy(char* __restrict to, const char* __restrict from, std::size_t coun
     to[i] = '\0';
   return to;
 }
+
+// sincos() of an infinite number says so here; nobody reads it.
+thread_local int errno;
+
+// It was compiled with a guard below its return addresses.
+// NOLINTBEGIN(bugprone-reserved-identifier)
+extern const std::uintptr_t __stack_chk_guard;
+const std::uintptr_t __stack_chk_guard = 0x595E'9FBD'94FD'A766;
+
+[[noreturn]] void __stack_chk_fail() {
+  volcomp::hal::virt::uart::put("\nFAULT: a function has overwritten its return address\n");
+  end_of_program(volcomp::boards::kFault);
+}
+// NOLINTEND(bugprone-reserved-identifier)
 
 }  // extern "C"

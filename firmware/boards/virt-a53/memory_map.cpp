@@ -43,7 +43,6 @@ constexpr std::uint64_t kMemoryTypes = 0xFF04;  // 0: Device-nGnRE; 1: normal, w
 constexpr std::uint64_t kTranslationControl =
     32U | (1U << 8U) | (1U << 10U) | (3U << 12U) | (1U << 23U);
 constexpr std::uint64_t kMmuOn = 1U << 0U;
-constexpr std::uint64_t kAlignmentChecked = 1U << 1U;
 constexpr std::uint64_t kDataCacheOn = 1U << 2U;
 constexpr std::uint64_t kInstructionCacheOn = 1U << 12U;
 
@@ -101,7 +100,7 @@ void map_memory() {
       "r"(kTranslationControl), "r"(address(&gigabytes))
       : "memory");
   __asm volatile("mrs %0, sctlr_el1" : "=r"(control));
-  control |= kMmuOn | kAlignmentChecked | kDataCacheOn | kInstructionCacheOn;
+  control |= kMmuOn | kDataCacheOn | kInstructionCacheOn;
   __asm volatile("msr sctlr_el1, %0\n isb" ::"r"(control) : "memory");
 }
 

@@ -45,9 +45,9 @@ volatile bool fault_in_tick = false;
 [[gnu::noinline]] void write_code() {
   word_at(reinterpret_cast<std::uintptr_t>(&code_begin) + 64) = 0;
 }
-[[gnu::noinline]] void read_unaligned() {
-  static std::array<std::uint32_t, 2> words = {};
-  sink = word_at(reinterpret_cast<std::uintptr_t>(words.data()) + 1);
+[[gnu::noinline]] void jump_beside_instruction() {
+  const Address beside = hidden(reinterpret_cast<std::uintptr_t>(&code_begin) + 2);
+  __asm volatile("blr %0" : : "r"(beside) : "x30", "memory");
 }
 [[gnu::noinline]] void undefined_instruction() { __asm volatile("udf #0"); }
 [[gnu::noinline]] void breakpoint() { __asm volatile("brk #0"); }
@@ -126,7 +126,7 @@ constexpr std::array<Misdeed, 13> kMisdeeds = {{
     {"beyond-4-gib", read_beyond_4_gib},
     {"absent-device", read_absent_device},
     {"write-code", write_code},
-    {"unaligned", read_unaligned},
+    {"jump-beside", jump_beside_instruction},
     {"execute-data", execute_data},
     {"undefined", undefined_instruction},
     {"breakpoint", breakpoint},

@@ -193,6 +193,8 @@ TEST_F(Sja1000, LateInterruptIsCountedAndCostsTheNewestFrames) {
     arrives(frame(id, {1, 2, 3, 4, 5, 6, 7, 8}));
   serve();
   EXPECT_EQ(can.counters().fifo_overruns, 2U);
+  EXPECT_EQ(can.take_losses(), 2U);
+  EXPECT_EQ(can.take_losses(), 0U);
 }
 
 TEST_F(Sja1000, RarelyReadFramesAreCountedWhenLost) {
@@ -201,6 +203,7 @@ TEST_F(Sja1000, RarelyReadFramesAreCountedWhenLost) {
     serve();
   }
   EXPECT_EQ(can.counters().ring_overruns, 3U);
+  EXPECT_EQ(can.take_losses(), 3U);
   const Ids ids = received_ids(can);
   ASSERT_EQ(ids.size(), Can::kReceiveCapacity);
   EXPECT_EQ(ids.back(), Can::kReceiveCapacity - 1);
