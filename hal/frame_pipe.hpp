@@ -10,9 +10,11 @@
 //   0xFFFFFFFE     end of turn; data: u64, the sender's clock in µs
 //   0xFFFFFFFF     quit, host → node only; data zero
 //
-// One turn is one millisecond of the node: the host writes its frames and the end of its turn into
+// One turn is one tick of the node: the host writes its frames and the end of its turn into
 // `to_node`, the node reads them, works, and writes its own frames and end into `from_node`. The
-// pipes are FIFOs in one folder. The host makes them; both ends open `to_node` first.
+// node's clock is what the host's end of turn says: a millisecond more than the last time, unless
+// the host knows better. The pipes are FIFOs in one folder. The host makes them; both ends open
+// `to_node` first.
 //
 // A whole number of records fits every pipe buffer and PIPE_BUF (POSIX), so none is ever torn.
 

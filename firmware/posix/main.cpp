@@ -1,10 +1,12 @@
-// volcomp-node: the compensation node as a Linux process on a SocketCAN interface.
-// Exit codes: 0 ended by SIGINT or SIGTERM, 2 input that cannot be used.
+// volcomp-node: the compensation node as a Linux process on a SocketCAN interface, or over a frame
+// pipe, where time is counted in turns and every run is the same.
+// Exit codes: 0 ended by SIGINT, SIGTERM or the other end of the pipe, 2 input that cannot be used.
 
 #include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -12,12 +14,14 @@
 #include "firmware/node/node.hpp"
 #include "firmware/node/record_storage.hpp"
 #include "hal/linux/file_blocks.hpp"
+#include "hal/linux/node_pipe.hpp"
 #include "hal/linux/socket_can.hpp"
 #include "hal/linux/steady_clock.hpp"
 
 namespace {
 
 using volcomp::hal::FileBlocks;
+using volcomp::hal::NodePipe;
 using volcomp::hal::OpenStatus;
 using volcomp::hal::SocketCan;
 using volcomp::node::Node;
@@ -27,7 +31,7 @@ volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int /*signal*/) { stop_requested = 1; }
 
 struct Arguments {
-  std::string interface;
+  std::string link;
   std::string store;
   int node_id = 32;
 };
@@ -51,6 +55,29 @@ void serve(Node& node, SocketCan& port) {
   }
 }
 
+void serve(Node& node, NodePipe& port) {
+  constexpr std::uint32_t kLook_us = 100'000;
+  node.power_on(port.now_us());
+  while (stop_requested == 0 && !port.ended()) {
+    if (!port.begin_turn(kLook_us)) continue;
+    volcomp::canopen::exchange(node, port, port.now_us());
+    port.end_turn();
+  }
+}
+
+template <class Port>
+int run_on(Port& port, const char* name, const Arguments& arguments, Node& node) {
+  if (const OpenStatus status = port.open(name); !status.ok())
+    return complain(arguments.link, status);
+  static_cast<void>(std::signal(SIGINT, request_stop));
+  static_cast<void>(std::signal(SIGTERM, request_stop));
+  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));  // a pipe that breaks is noticed anyway
+  std::printf("volcomp-node: node %d on %s\n", arguments.node_id, arguments.link.c_str());
+  static_cast<void>(std::fflush(stdout));
+  serve(node, port);
+  return 0;
+}
+
 int run(const Arguments& arguments) {
   static FileBlocks blocks;
   static RecordStorage<FileBlocks> storage(blocks);
@@ -58,18 +85,15 @@ int run(const Arguments& arguments) {
     const OpenStatus status = blocks.open(arguments.store.c_str());
     if (!status.ok()) return complain(arguments.store, status);
   }
-  static SocketCan port;
-  const OpenStatus status = port.open(arguments.interface.c_str());
-  if (!status.ok()) return complain(arguments.interface, status);
-
   static Node node(static_cast<std::uint8_t>(arguments.node_id),
                    arguments.store.empty() ? nullptr : &storage);
-  static_cast<void>(std::signal(SIGINT, request_stop));
-  static_cast<void>(std::signal(SIGTERM, request_stop));
-  std::printf("volcomp-node: node %d on %s\n", arguments.node_id, arguments.interface.c_str());
-  static_cast<void>(std::fflush(stdout));
-  serve(node, port);
-  return 0;
+  static constexpr std::string_view kPipe = "pipe:";
+  if (arguments.link.compare(0, kPipe.size(), kPipe) == 0) {
+    static NodePipe pipe;
+    return run_on(pipe, &arguments.link[kPipe.size()], arguments, node);
+  }
+  static SocketCan can;
+  return run_on(can, arguments.link.c_str(), arguments, node);
 }
 
 int start(int argc, char** argv) {
@@ -77,7 +101,8 @@ int start(int argc, char** argv) {
   app.name("volcomp-node");
   app.set_version_flag("--version", std::string("volcomp-node ") + VOLCOMP_NODE_VERSION);
   Arguments arguments;
-  app.add_option("--can", arguments.interface, "SocketCAN interface, for instance can0")
+  app.add_option("--can", arguments.link,
+                 "SocketCAN interface, for instance can0, or pipe:FOLDER (frame pipe)")
       ->required();
   app.add_option("--node-id", arguments.node_id, "CANopen node id")
       ->check(CLI::Range(1, 127))

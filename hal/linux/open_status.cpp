@@ -16,6 +16,10 @@ const char* sentence(OpenResult result) {
       return "not a CAN interface";
     case OpenResult::interface_down:
       return "interface is down";
+    case OpenResult::no_such_folder:
+      return "there is no such folder";
+    case OpenResult::not_a_pipe:
+      return "what has the name of a pipe is none";
     case OpenResult::wrong_size:
       return "the file does not have the size of the store";
     case OpenResult::in_use:

@@ -13,6 +13,8 @@ enum class OpenResult : std::uint8_t {
   no_such_interface,
   not_a_can_interface,
   interface_down,
+  no_such_folder,
+  not_a_pipe,
   wrong_size,
   in_use,
 };

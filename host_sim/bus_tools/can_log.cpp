@@ -130,6 +130,7 @@ CanLogWriter::CanLogWriter(const std::filesystem::path& path, std::string interf
 
 void CanLogWriter::write(std::uint64_t time_us, const hal::CanFrame& frame) {
   stream_ << log_line(time_us, interface_, frame) << '\n';
+  if (!stream_) throw UserError(fmt::format("{}: cannot be written", path_.string()));
 }
 
 void CanLogWriter::finish() {

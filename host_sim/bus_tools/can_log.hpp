@@ -35,7 +35,7 @@ struct LoggedFrame {
 
 class CanLogWriter {
  public:
-  // Throws UserError when the file cannot be written; so does finish().
+  // All throw UserError when the file cannot be written.
   CanLogWriter(const std::filesystem::path& path, std::string interface);
 
   void write(std::uint64_t time_us, const hal::CanFrame& frame);

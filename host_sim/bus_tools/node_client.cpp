@@ -70,18 +70,11 @@ void NodeClient::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
   channel_.receive(frame, now_us);
 }
 
-SocketPump::SocketPump(const std::string& interface) : line_(std::make_shared<Line>()) {
-  line_->interface = interface;
-  const hal::OpenStatus status = line_->port.open(interface.c_str());
-  if (!status.ok()) throw UserError(interface + ": " + hal::sentence(status.result));
-}
-
-std::uint64_t SocketPump::operator()(NodeClient& client) const {
+std::uint64_t LinkPump::operator()(NodeClient& client) const {
   constexpr std::uint32_t kWait_us = 1000;
-  canopen::exchange(client, line_->port, line_->clock.now_us());
-  if (line_->port.network_down()) throw UserError(line_->interface + ": the interface is down");
-  static_cast<void>(line_->port.wait(kWait_us));
-  return line_->clock.now_us();
+  canopen::exchange(client, *link_, link_->now_us());
+  link_->wait(kWait_us);
+  return link_->now_us();
 }
 
 }  // namespace volcomp::sim

@@ -10,9 +10,8 @@
 #include <string>
 
 #include "firmware/canopen/nmt.hpp"
-#include "hal/linux/socket_can.hpp"
-#include "hal/linux/steady_clock.hpp"
 #include "host_sim/controller/sdo_channel.hpp"
+#include "host_sim/links/frame_link.hpp"
 
 namespace volcomp::sim {
 
@@ -72,20 +71,14 @@ class NodeClient {
   std::optional<canopen::NmtState> heartbeat_;
 };
 
-// A pump over a CAN interface by name. Throws UserError naming it; so does the pump when the
-// interface goes down.
-class SocketPump {
+// A pump over a link. Throws what the link throws.
+class LinkPump {
  public:
-  explicit SocketPump(const std::string& interface);
+  explicit LinkPump(std::shared_ptr<FrameLink> link) : link_(std::move(link)) {}
   std::uint64_t operator()(NodeClient& client) const;
 
  private:
-  struct Line {
-    hal::SocketCan port;
-    hal::SteadyClock clock;
-    std::string interface;
-  };
-  std::shared_ptr<Line> line_;  // a Pump is copied
+  std::shared_ptr<FrameLink> link_;  // a Pump is copied
 };
 
 }  // namespace volcomp::sim

@@ -16,7 +16,7 @@ namespace volcomp::sim {
 namespace {
 
 struct CanArguments {
-  std::string interface;
+  std::string link;
   int node_id = 32;
   std::string image;
   std::string json_file;
@@ -25,7 +25,9 @@ struct CanArguments {
 };
 
 NodeClient connect(const CanArguments& arguments) {
-  return {static_cast<std::uint8_t>(arguments.node_id), SocketPump(arguments.interface)};
+  if (arguments.link == "loopback")
+    throw UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
+  return {static_cast<std::uint8_t>(arguments.node_id), LinkPump(open_frame_link(arguments.link))};
 }
 
 std::uint32_t crc_of(const std::vector<std::uint8_t>& image) {
@@ -98,7 +100,8 @@ int judged(int (*command)(const CanArguments&), const CanArguments& arguments) {
 
 std::shared_ptr<CanArguments> add_node_options(CLI::App& command) {
   auto a = std::make_shared<CanArguments>();
-  command.add_option("--can", a->interface, "SocketCAN interface, for instance can0")->required();
+  command.add_option("--can", a->link, fmt::format("Where the node is: {}", kLinkForms))
+      ->required();
   command.add_option("--node-id", a->node_id, "CANopen node id of the compensation node")
       ->check(CLI::Range(1, 127))
       ->capture_default_str();

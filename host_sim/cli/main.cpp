@@ -1,6 +1,7 @@
 // volcomp: the host tool. Exit codes: 0 done, 1 done but the verdict is negative, 2 input that
 // cannot be used.
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/data/interruption.hpp"
 #include "host_sim/version.hpp"
 
 namespace {
@@ -42,6 +44,8 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const volcomp::sim::Interrupted& interrupted) {
+    static_cast<void>(std::raise(interrupted.signal));  // whoever waits for us shall see why
   } catch (const std::exception& e) {
     fmt::print(stderr, "volcomp: {}\n", e.what());
   } catch (...) {

@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/bus_tools/logged_cells.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/firmware_options.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/scenario_bus.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/data/whole_file.hpp"
 #include "host_sim/report/report.hpp"
@@ -21,9 +22,7 @@ struct RunArguments {
   std::string json_file;
   std::string report_folder;
   std::string command;
-  std::string can;  // empty: integrated
-  std::string log_file;
-  double cycle_hz = kBusCycle_hz;
+  NodePlace node;
 };
 
 // File and path as the user would type them, without the folder of the program.
@@ -34,44 +33,11 @@ std::string command_line(int argc, char** argv) {
   return text;
 }
 
-std::string transport(const RunArguments& arguments) {
-  if (arguments.can.empty()) return "integrated";
-  const char* const place = arguments.can == "loopback" ? "node in this process" : "lock step";
-  return fmt::format("CAN {}, {:g} Hz, {}", arguments.can, arguments.cycle_hz, place);
-}
-
-// The node on a bus: what that takes, for as long as the scenario runs.
-class Bus {
- public:
-  explicit Bus(const RunArguments& arguments) {
-    const bool loopback = arguments.can == "loopback";
-    if (!loopback) gateway_ = std::make_unique<CanGateway>(arguments.can);
-    if (arguments.log_file.empty()) return;
-    log_ = std::make_unique<CanLogWriter>(arguments.log_file, arguments.can);
-    recorder_ = std::make_unique<BusRecorder>(
-        *log_, loopback ? BusRecorder::Clock::machine : BusRecorder::Clock::wall);
-  }
-
-  [[nodiscard]] CellFactory cells(const MachineFile& machine, double cycle_hz) {
-    if (recorder_) return logged_cells(machine, cycle_hz, gateway_.get(), *recorder_);
-    return gateway_ ? gateway_cells(machine, cycle_hz, *gateway_)
-                    : loopback_cells(machine, cycle_hz);
-  }
-  void finish() {
-    if (log_) log_->finish();
-  }
-
- private:
-  std::unique_ptr<CanGateway> gateway_;
-  std::unique_ptr<CanLogWriter> log_;
-  std::unique_ptr<BusRecorder> recorder_;
-};
-
 XyfzResult run_scenario(const RunArguments& arguments, XyfzOptions options) {
-  std::unique_ptr<Bus> bus;
-  if (!arguments.can.empty()) {
-    bus = std::make_unique<Bus>(arguments);
-    options.make_cell = bus->cells(read_machine_file(options.machine), arguments.cycle_hz);
+  std::unique_ptr<ScenarioBus> bus;
+  if (!arguments.node.integrated()) {
+    bus = std::make_unique<ScenarioBus>(arguments.node);
+    options.make_cell = bus->cells(read_machine_file(options.machine));
   }
   ProgressBar bar;
   XyfzResult result =
@@ -89,10 +55,10 @@ int run_xyfz_command(RunArguments& arguments) {
     options.campaign = std::filesystem::path(arguments.report_folder) / "campaign";
   }
   const XyfzResult result = run_scenario(arguments, options);
-  fmt::print("{}transport: {}\n", xyfz_summary(result), transport(arguments));
+  fmt::print("{}transport: {}\n", xyfz_summary(result), describe(arguments.node));
   if (!arguments.json_file.empty()) {
     nlohmann::json figures = xyfz_figures(result);
-    figures["transport"] = transport(arguments);
+    figures["transport"] = describe(arguments.node);
     write_whole_file(arguments.json_file, figures.dump(2) + "\n");
   }
   if (!arguments.report_folder.empty()) {
@@ -101,6 +67,22 @@ int run_xyfz_command(RunArguments& arguments) {
                (std::filesystem::path(arguments.report_folder) / "report.html").string());
   }
   return xyfz_verdict(result).ok ? 0 : 1;
+}
+
+// Returns the options that make sense only with a node somewhere.
+std::vector<CLI::Option*> add_node_options(CLI::App& xyfz, NodePlace& node) {
+  CLI::Option* can = xyfz.add_option(
+      "--can", node.can,
+      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}", kLinkForms));
+  CLI::Option* firmware =
+      add_firmware_options(xyfz, node.firmware, "Compensate by the node as firmware");
+  firmware->excludes(can);
+  CLI::Option* cycle = xyfz.add_option("--cycle-hz", node.cycle_hz, "Cycle on the bus")
+                           ->check(CLI::Range(50.0, 1000.0))
+                           ->capture_default_str();
+  CLI::Option* log =
+      xyfz.add_option("--log", node.log_file, "Write all frames to this file, as candump -L does");
+  return {cycle, log};
 }
 
 }  // namespace
@@ -129,16 +111,14 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   xyfz->add_option("--json", a->json_file, "Write the figures to this file");
   xyfz->add_option("--report", a->report_folder,
                    "Write report.html, report.json and the run files to this folder");
-  CLI::Option* can = xyfz->add_option(
-      "--can", a->can,
-      "Compensate by a node on a CAN bus: loopback (in this process) or a SocketCAN interface");
-  xyfz->add_option("--cycle-hz", a->cycle_hz, "Cycle on the bus")
-      ->check(CLI::Range(50.0, 1000.0))
-      ->needs(can)
-      ->capture_default_str();
-  xyfz->add_option("--log", a->log_file, "Write all frames to this file, as candump -L does")
-      ->needs(can);
-  xyfz->callback([a, &code] { code = run_xyfz_command(*a); });
+  const std::vector<CLI::Option*> on_a_bus = add_node_options(*xyfz, a->node);
+  xyfz->callback([a, on_a_bus, &code] {
+    for (const CLI::Option* option : on_a_bus) {
+      if (a->node.integrated() && option->count() > 0)
+        throw CLI::RequiresError(option->get_name(), "--can or --firmware");
+    }
+    code = run_xyfz_command(*a);
+  });
 }
 
 }  // namespace volcomp::sim

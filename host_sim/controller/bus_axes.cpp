@@ -1,7 +1,6 @@
 #include "host_sim/controller/bus_axes.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,11 +11,9 @@
 namespace volcomp::sim {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
 constexpr std::uint64_t kSyncPhase_ns = 300'000;  // after SYNC, before the targets are sent
 constexpr std::size_t kGatewayMailboxes = 4096;
-constexpr auto kAnswerTimeout = std::chrono::seconds(5);
+constexpr std::uint64_t kAnswerTimeout_us = 5'000'000;
 constexpr std::uint32_t kWait_us = 200;
 
 std::vector<std::int32_t> on_wire(const TargetsNm& target) {
@@ -108,10 +105,10 @@ void BusAxes::run_cycle(const std::vector<std::int32_t>& path) {
   ++cycles_;
 }
 
-// Lock step while the node answers every cycle; before that, real time.
+// Lock step while the node answers every cycle; before that, its own time.
 void BusAxes::await_node() {
-  const auto begin = WallClock::now();
-  const auto period = std::chrono::microseconds(std::llround(period_us_));
+  const std::uint64_t begin_us = gateway_->now_us();
+  const auto period_us = static_cast<std::uint64_t>(std::llround(period_us_));
   const bool answers = controller_.node().state == canopen::NmtState::operational &&
                        controller_.node().phase == Station::Phase::running &&
                        controller_.report().count > 0;
@@ -119,11 +116,12 @@ void BusAxes::await_node() {
     bus_.run_until_quiet();
     gateway_->exchange(*gateway_port_);
     bus_.run_until_quiet();
-    const auto passed = WallClock::now() - begin;
+    const std::uint64_t passed_us = gateway_->now_us() - begin_us;
     if (answers ? controller_.report().sync_counter == controller_.sync_counter()
-                : passed >= period)
+                : passed_us >= period_us)
       return;
-    if (passed > kAnswerTimeout) throw UserError("the compensation node does not answer any more");
+    if (passed_us > kAnswerTimeout_us)
+      throw UserError("the compensation node does not answer any more");
     gateway_->wait(kWait_us);
   }
 }

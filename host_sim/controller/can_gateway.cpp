@@ -10,22 +10,16 @@ constexpr int kSendAttempts = 1000;
 
 }  // namespace
 
-CanGateway::CanGateway(const std::string& interface) : interface_(interface) {
-  const hal::OpenStatus status = can_.open(interface.c_str());
-  if (!status.ok()) throw UserError(interface + ": " + hal::sentence(status.result));
-}
-
 void CanGateway::exchange(hal::LoopbackBus::Port& port) {
   hal::CanFrame frame;
   while (port.receive(frame)) {
     int attempts = 0;
-    while (!can_.send(frame)) {
-      if (can_.network_down()) throw UserError(interface_ + ": the interface is down");
-      if (++attempts == kSendAttempts) throw UserError(interface_ + ": the bus accepts no frames");
+    while (!link_.send(frame)) {
+      if (++attempts == kSendAttempts) throw UserError("the bus accepts no frames");
       wait(kSendPause_us);
     }
   }
-  while (can_.receive(frame))
+  while (link_.receive(frame))
     port.send(frame);
 }
 

@@ -1,0 +1,63 @@
+#pragma once
+// The compensation node as firmware, really executed: its image on a board that QEMU emulates,
+// joined by a frame pipe. The processor stands still while this process works, so a run repeats
+// itself bit for bit.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host_sim/boards/child_process.hpp"
+#include "host_sim/data/interruption.hpp"
+#include "host_sim/data/temporary_folder.hpp"
+#include "host_sim/links/pipe_link.hpp"
+
+namespace volcomp::sim {
+
+struct EmulatedBoard {
+  const char* name;       // on the command line, and of the CMake preset
+  const char* machine;    // QEMU's name of the board
+  const char* processor;  // for people
+};
+
+inline constexpr std::array<EmulatedBoard, 2> kEmulatedBoards{
+    {{"m7", "mps2-an500", "Cortex-M7"}, {"m4", "mps2-an386", "Cortex-M4F"}}};
+
+// Throws UserError for an unknown name.
+[[nodiscard]] const EmulatedBoard& emulated_board(const std::string& name);
+
+// Where the build puts the image of the node, beside the build this program comes from.
+[[nodiscard]] std::filesystem::path node_image(const EmulatedBoard& board);
+
+class EmulatedNode {
+ public:
+  // Starts the image; empty: node_image(). Throws UserError naming what is missing.
+  EmulatedNode(const EmulatedBoard& board, const std::filesystem::path& image);
+  EmulatedNode(const EmulatedNode&) = delete;
+  EmulatedNode& operator=(const EmulatedNode&) = delete;
+  // Ends QEMU.
+  ~EmulatedNode() = default;
+
+  // Throws UserError with the last words of the firmware when that has ended, and Interrupted when
+  // this process is asked to end.
+  [[nodiscard]] FrameLink& link() { return *link_; }
+  // Asks the firmware to end. Throws UserError when it does not end well.
+  void finish();
+
+  [[nodiscard]] pid_t process_id() const { return qemu_->id(); }
+
+ private:
+  void watch(bool gone);
+  [[nodiscard]] std::filesystem::path output() const { return folder_.path() / "output.txt"; }
+  [[nodiscard]] std::string last_words() const;
+  [[noreturn]] void fail(const std::string& what) const;
+
+  EmulatedBoard board_;
+  Interruption interruption_;
+  TemporaryFolder folder_;
+  std::unique_ptr<ChildProcess> qemu_;
+  std::unique_ptr<PipeLink> link_;
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,52 @@
+#include "host_sim/cli/scenario_bus.hpp"
+
+#include <fmt/format.h>
+
+namespace volcomp::sim {
+
+std::string describe(const NodePlace& place) {
+  if (place.integrated()) return "integrated";
+  if (place.firmware.chosen()) {
+    const EmulatedBoard& board = emulated_board(place.firmware.board);
+    return fmt::format("firmware on {} ({} in QEMU), {:g} Hz, lock step", board.processor,
+                       board.machine, place.cycle_hz);
+  }
+  const char* const how = place.can == "loopback" ? "node in this process" : "lock step";
+  return fmt::format("CAN {}, {:g} Hz, {}", place.can, place.cycle_hz, how);
+}
+
+ScenarioBus::ScenarioBus(const NodePlace& place) : cycle_hz_(place.cycle_hz) {
+  join(place);
+  if (place.log_file.empty()) return;
+  const std::string name = place.firmware.chosen() ? place.firmware.board : place.can;
+  // Without folder or device, so that two logs of the same run are the same file.
+  log_ = std::make_unique<CanLogWriter>(place.log_file, name.substr(0, name.find(':')));
+  const bool machine_time = link_ == nullptr || link_->turn_by_turn();
+  recorder_ = std::make_unique<BusRecorder>(
+      *log_, machine_time ? BusRecorder::Clock::machine : BusRecorder::Clock::wall);
+}
+
+void ScenarioBus::join(const NodePlace& place) {
+  if (place.firmware.chosen()) {
+    board_ =
+        std::make_unique<EmulatedNode>(emulated_board(place.firmware.board), place.firmware.image);
+    link_ = &board_->link();
+  } else if (place.can != "loopback") {
+    opened_ = open_frame_link(place.can);
+    link_ = opened_.get();
+  }
+  if (link_ != nullptr) gateway_ = std::make_unique<CanGateway>(*link_);
+}
+
+CellFactory ScenarioBus::cells(const MachineFile& machine) {
+  if (recorder_) return logged_cells(machine, cycle_hz_, gateway_.get(), *recorder_);
+  return gateway_ ? gateway_cells(machine, cycle_hz_, *gateway_)
+                  : loopback_cells(machine, cycle_hz_);
+}
+
+void ScenarioBus::finish() {
+  if (log_) log_->finish();
+  if (board_) board_->finish();
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,47 @@
+#pragma once
+// Where the compensation of a scenario is done, and what that takes while the scenario runs.
+
+#include <memory>
+#include <string>
+
+#include "host_sim/boards/emulated_node.hpp"
+#include "host_sim/bus_tools/logged_cells.hpp"
+#include "host_sim/cli/firmware_options.hpp"
+
+namespace volcomp::sim {
+
+struct NodePlace {
+  std::string can;          // loopback or a link; empty: integrated, or firmware
+  FirmwareChoice firmware;  // instead of `can`
+  std::string log_file;     // empty: none
+  double cycle_hz = kBusCycle_hz;
+
+  [[nodiscard]] bool integrated() const { return can.empty() && !firmware.chosen(); }
+};
+
+// For people: "CAN vcan0, 500 Hz, lock step".
+[[nodiscard]] std::string describe(const NodePlace& place);
+
+// Not for the integrated form. Every function throws UserError.
+class ScenarioBus {
+ public:
+  explicit ScenarioBus(const NodePlace& place);
+
+  // The bus must outlive the cells.
+  [[nodiscard]] CellFactory cells(const MachineFile& machine);
+  // After the scenario: the log is complete, the firmware has ended well.
+  void finish();
+
+ private:
+  void join(const NodePlace& place);
+
+  double cycle_hz_;
+  std::unique_ptr<EmulatedNode> board_;
+  std::unique_ptr<FrameLink> opened_;
+  FrameLink* link_ = nullptr;  // to a node that is not in this process
+  std::unique_ptr<CanGateway> gateway_;
+  std::unique_ptr<CanLogWriter> log_;
+  std::unique_ptr<BusRecorder> recorder_;
+};
+
+}  // namespace volcomp::sim
