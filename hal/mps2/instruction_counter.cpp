@@ -1,5 +1,8 @@
 #include "hal/mps2/instruction_counter.hpp"
 
+#include <array>
+#include <cstddef>
+
 #include "hal/mps2/registers.hpp"
 
 namespace volcomp::hal::mps2 {
@@ -12,9 +15,16 @@ constexpr std::uint32_t kMask = 0xFF'FFFF;
 constexpr std::uint32_t kEnable = 1U << 0U;
 constexpr std::uint32_t kProcessorClock = 1U << 2U;
 
-// A few instructions, another number of them for each of seven values.
-void wait(std::uint32_t rounds) {
-  for (volatile std::uint32_t n = 0; n < rounds % 7U; n = n + 1U) {
+constexpr std::size_t kReadings = 8;  // more than five
+
+// Readings as far apart as the loop is long; and, where that is a multiple of five instructions,
+// one more. In one of the two they hit every remainder of the count by five, since five is prime.
+void take_readings(std::array<std::uint32_t, 2 * kReadings>& reading) {
+  for (std::size_t i = 0; i < kReadings; ++i)
+    reading[i] = InstructionCounter::ticks();
+  for (std::size_t i = kReadings; i < 2 * kReadings; ++i) {
+    reading[i] = InstructionCounter::ticks();
+    __asm volatile("nop");
   }
 }
 
@@ -22,15 +32,14 @@ void wait(std::uint32_t rounds) {
 
 void InstructionCounter::start() {
   constexpr std::uint32_t kPhases = 5;
-  constexpr std::uint32_t kReadings = 64;  // far more than it takes to exclude four phases
   device_register(kControl) = 0;
   device_register(kReload) = kMask;
   device_register(kCurrent) = 0;  // any write sets it to 0
   device_register(kControl) = kProcessorClock | kEnable;
+  std::array<std::uint32_t, 2 * kReadings> readings{};
+  take_readings(readings);
   std::uint32_t possible = (1U << kPhases) - 1U;
-  for (std::uint32_t n = 0; n < kReadings; ++n) {
-    wait(n);
-    const std::uint32_t reading = ticks();
+  for (const std::uint32_t reading : readings) {
     for (std::uint32_t phase = 0; phase < kPhases; ++phase) {
       if (!fits(reading, phase)) possible &= ~(1U << phase);
     }
