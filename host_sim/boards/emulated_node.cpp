@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host_sim/data/user_error.hpp"
+#include "host_sim/links/boot_up.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -72,20 +72,25 @@ EmulatedNode::EmulatedNode(const EmulatedBoard& board, const std::filesystem::pa
   const std::vector<std::string> words = command(board, find_image(board, image));
   make_frame_pipes(folder_.path());
   qemu_ = std::make_unique<ChildProcess>(words, folder_.path(), output());
-  link_ = std::make_unique<PipeLink>(folder_.path(), [this](bool gone) { watch(gone); });
+  with_last_words([this] {
+    link_ = std::make_unique<PipeLink>(folder_.path(), [this](bool gone) { watch(gone); });
+    if (!await_boot_up(*link_)) fail("runs, but no node starts in it");
+  });
 }
 
 // A pipe may break a moment before the process that held it has ended.
 void EmulatedNode::watch(bool gone) {
   interruption_.check();
   const bool ended = gone ? qemu_->await_end(kEndPatience_ms) : !qemu_->running();
-  if (ended) fail("QEMU " + qemu_->how_it_ended() + last_words());
+  if (ended) fail("QEMU " + qemu_->how_it_ended());
 }
 
 void EmulatedNode::finish() {
-  link_->quit();
-  if (!qemu_->await_end(kEndPatience_ms)) fail("does not end when it is asked to");
-  if (!qemu_->ended_well()) fail("QEMU " + qemu_->how_it_ended() + last_words());
+  with_last_words([this] {
+    link_->quit();
+    if (!qemu_->await_end(kEndPatience_ms)) fail("does not end when it is asked to");
+    if (!qemu_->ended_well()) fail("QEMU " + qemu_->how_it_ended());
+  });
 }
 
 std::string EmulatedNode::last_words() const {
@@ -95,7 +100,8 @@ std::string EmulatedNode::last_words() const {
     lines.push_back(line);
     if (lines.size() > kLastLines) lines.pop_front();
   }
-  return lines.empty() ? std::string() : fmt::format("; it said:\n  {}", fmt::join(lines, "\n  "));
+  return lines.empty() ? std::string()
+                       : fmt::format("; the firmware said:\n  {}", fmt::join(lines, "\n  "));
 }
 
 void EmulatedNode::fail(const std::string& what) const {

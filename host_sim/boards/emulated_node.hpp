@@ -3,6 +3,7 @@
 // joined by a frame pipe. The processor stands still while this process works, so a run repeats
 // itself bit for bit.
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include "host_sim/boards/child_process.hpp"
 #include "host_sim/data/interruption.hpp"
 #include "host_sim/data/temporary_folder.hpp"
+#include "host_sim/data/user_error.hpp"
 #include "host_sim/links/pipe_link.hpp"
 
 namespace volcomp::sim {
@@ -19,10 +21,11 @@ struct EmulatedBoard {
   const char* name;       // on the command line, and of the CMake preset
   const char* machine;    // QEMU's name of the board
   const char* processor;  // for people
+  std::size_t knots;      // per table: VOLCOMP_NODE_KNOTS of the preset
 };
 
 inline constexpr std::array<EmulatedBoard, 2> kEmulatedBoards{
-    {{"m7", "mps2-an500", "Cortex-M7"}, {"m4", "mps2-an386", "Cortex-M4F"}}};
+    {{"m7", "mps2-an500", "Cortex-M7", 128}, {"m4", "mps2-an386", "Cortex-M4F", 64}}};
 
 // Throws UserError for an unknown name.
 [[nodiscard]] const EmulatedBoard& emulated_board(const std::string& name);
@@ -39,18 +42,29 @@ class EmulatedNode {
   // Ends QEMU.
   ~EmulatedNode() = default;
 
-  // Throws UserError with the last words of the firmware when that has ended, and Interrupted when
-  // this process is asked to end.
-  [[nodiscard]] FrameLink& link() { return *link_; }
+  // Throws UserError when the firmware has ended, and Interrupted when this process is asked to
+  // end.
+  [[nodiscard]] PipeLink& link() { return *link_; }
   // Asks the firmware to end. Throws UserError when it does not end well.
   void finish();
+
+  // Does the work; what goes wrong in it is told together with what the firmware said last.
+  template <class Work>
+  auto with_last_words(Work&& work) {
+    try {
+      return work();
+    } catch (const UserError& error) {
+      throw UserError(error.what() + last_words());
+    }
+  }
+  // The end of what the firmware has said, as the end of a message; empty when it said nothing.
+  [[nodiscard]] std::string last_words() const;
 
   [[nodiscard]] pid_t process_id() const { return qemu_->id(); }
 
  private:
   void watch(bool gone);
   [[nodiscard]] std::filesystem::path output() const { return folder_.path() / "output.txt"; }
-  [[nodiscard]] std::string last_words() const;
   [[noreturn]] void fail(const std::string& what) const;
 
   EmulatedBoard board_;

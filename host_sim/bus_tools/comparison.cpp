@@ -11,6 +11,9 @@ namespace volcomp::sim {
 namespace {
 
 constexpr std::uint64_t kPatience_us = 1'000'000;  // for frames that are not process data
+// Milliseconds of a node behind a pipe, for process data and for all the rest.
+constexpr int kCyclicPatience = 3;
+constexpr int kServicePatience = 10'000;
 
 }  // namespace
 
@@ -18,14 +21,14 @@ bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id) {
   return frame.id == canopen::kHeartbeat + node_id && frame.size == 1 && frame.data[0] == 0;
 }
 
-Comparison::Comparison(std::uint8_t node_id, const std::vector<std::uint8_t>& image)
+Comparison::Comparison(std::uint8_t node_id, const MakeSubject& make_subject)
     : node_id_(node_id),
-      node_(node_id, image, [this](std::uint64_t time_us, const hal::CanFrame& frame) {
+      subject_(make_subject([this](std::uint64_t time_us, const hal::CanFrame& frame) {
         replayed(time_us, frame);
-      }) {}
+      })) {}
 
 void Comparison::start(const LoggedFrame& first) {
-  node_.power_on(first.time_us);
+  subject_->power_on(first.time_us);
   // A command to reset comes to a node that has been running.
   if (!is_boot_up(first.frame, node_id_)) streams_.clear();
 }
@@ -35,11 +38,28 @@ bool Comparison::process_data(std::uint16_t id) const {
          id != canopen::kEmergency + node_id_;
 }
 
+bool Comparison::in_this_process() const {
+  return static_cast<const ReplaySubject*>(&node()) == subject_.get();
+}
+
+// A status PDO that leaves when its inhibit time allows. Behind a pipe there is always room on the
+// bus: without inhibit time, it belongs to its cycle as every other frame does.
+bool Comparison::free_status(std::uint16_t id) const {
+  return node().is_status(id) && (in_this_process() || !node().status_every_cycle());
+}
+
+bool Comparison::could_say(const hal::CanFrame& status) const {
+  const auto holds = [&status](const std::vector<hal::CanFrame>& frames) {
+    return std::find(frames.begin(), frames.end(), status) != frames.end();
+  };
+  return holds(status_) || holds(earlier_status_);
+}
+
 std::string Comparison::name_of(std::uint16_t id) const {
   if (id == canopen::kSdoResponse + node_id_) return "SDO response";
   if (id == canopen::kEmergency + node_id_) return "emergency message";
   if (id == canopen::kHeartbeat + node_id_) return "heartbeat";
-  if (node_.is_status(id)) return "status PDO";
+  if (node().is_status(id)) return "status PDO";
   return "process data";
 }
 
@@ -83,7 +103,9 @@ void Comparison::replayed(std::uint64_t time_us, const hal::CanFrame& frame) {
     forget_unsent();
   } else if (frame.id == canopen::kHeartbeat + node_id_) {
     return;
-  } else if (node_.is_status(frame.id)) {
+  } else if (free_status(frame.id)) {
+    const Said said{frame, time_us, result_.cycles, counter_, 0};
+    if (!in_this_process() && !could_say(frame)) return differs(said, node().status(), "differs");
     status_.push_back(frame);
     status_due_ = true;
     return;
@@ -119,8 +141,8 @@ void Comparison::match(Stream& stream) {
 
 // What the node could say now, where only the moment decides whether it does.
 void Comparison::observe() {
-  states_.insert(static_cast<std::uint8_t>(node_.state()));
-  const hal::CanFrame status = node_.status();
+  states_.insert(static_cast<std::uint8_t>(node().state()));
+  const hal::CanFrame status = node().status();
   if (status_.empty() || status_.back() != status) status_.push_back(status);
 }
 
@@ -128,11 +150,11 @@ void Comparison::observe() {
 
 void Comparison::take(const LoggedFrame& logged) {
   now_us_ = logged.time_us;
-  node_.advance(logged.time_us);
+  subject_->advance(logged.time_us);
   observe();
   if (is_boot_up(logged.frame, node_id_)) {
     take_boot_up(logged);
-  } else if (node_.sends(logged.frame.id)) {
+  } else if (node().sends(logged.frame.id)) {
     take_answer(logged);
   } else {
     take_input(logged);
@@ -142,20 +164,30 @@ void Comparison::take(const LoggedFrame& logged) {
 
 void Comparison::take_input(const LoggedFrame& logged) {
   if (logged.frame.id == canopen::kSync) {
+    subject_->end_cycle();
     counter_ = logged.frame.data[0];
     begin_cycle();
   }
   ++result_.fed;
-  node_.receive(logged.frame, logged.time_us);
+  subject_->receive(logged.frame, logged.time_us);
+}
+
+// Whoever is slower than the node of the log gets the time to say what that has said.
+void Comparison::await(std::uint16_t id) {
+  const std::deque<Said>& said = streams_[id].replayed;
+  const int most = process_data(id) ? kCyclicPatience : kServicePatience;
+  for (int i = 0; i < most && said.empty() && subject_->linger(); ++i) {
+  }
 }
 
 void Comparison::take_answer(const LoggedFrame& logged) {
   had_power();
-  node_.poll(logged.time_us);
+  subject_->poll(logged.time_us);
   observe();
   const Said said{logged.frame, logged.time_us, result_.cycles, counter_, logged.line};
   if (logged.frame.id == canopen::kHeartbeat + node_id_) return compare_heartbeat(said);
-  if (node_.is_status(logged.frame.id)) return compare_status(said);
+  if (free_status(logged.frame.id)) return compare_status(said);
+  await(logged.frame.id);
   Stream& stream = streams_[logged.frame.id];
   stream.logged.push_back(said);
   match(stream);
@@ -165,13 +197,15 @@ void Comparison::take_answer(const LoggedFrame& logged) {
 // first boot-up had not yet left sends two in a row.
 void Comparison::take_boot_up(const LoggedFrame& logged) {
   missing_.reset();
+  subject_->poll(logged.time_us);
+  await(logged.frame.id);
   Stream& stream = streams_[logged.frame.id];
   const bool again = stream.replayed.empty() && result_.compared == compared_at_boot_up_;
   if (stream.replayed.empty() && !again) {
     finish();
     streams_.clear();
     ++result_.power_ups;
-    node_.power_on(logged.time_us);
+    subject_->power_on(logged.time_us);
   }
   if (!again) streams_[logged.frame.id].replayed.pop_front();
   compared_at_boot_up_ = ++result_.compared;
@@ -184,15 +218,12 @@ void Comparison::compare_heartbeat(const Said& said) {
     states_.clear();
     return;
   }
-  const hal::CanFrame got{said.frame.id, 1, {static_cast<std::uint8_t>(node_.state())}};
+  const hal::CanFrame got{said.frame.id, 1, {static_cast<std::uint8_t>(node().state())}};
   differs(said, got, "tells another state");
 }
 
 void Comparison::compare_status(const Said& said) {
-  const auto holds = [&said](const std::vector<hal::CanFrame>& frames) {
-    return std::find(frames.begin(), frames.end(), said.frame) != frames.end();
-  };
-  if (!holds(status_) && !holds(earlier_status_)) return differs(said, node_.status(), "differs");
+  if (!could_say(said.frame)) return differs(said, node().status(), "differs");
   ++result_.compared;
   (status_overdue_ ? status_overdue_ : status_due_) = false;
 }
@@ -220,8 +251,8 @@ void Comparison::check_age() {
     if (too_old(stream.logged)) return not_sent(stream.logged.front());
     if (too_old(stream.replayed)) return not_logged(stream.replayed.front());
   }
-  if (status_overdue_ && node_.status_every_cycle())
-    not_logged({node_.status(), now_us_, result_.cycles, counter_, 0});
+  if (status_overdue_ && node().status_every_cycle())
+    not_logged({node().status(), now_us_, result_.cycles, counter_, 0});
 }
 
 // The log may end before the last answers do, but it may not hold more than there are.

@@ -15,8 +15,8 @@ namespace volcomp::sim {
 
 class Comparison {
  public:
-  // `image`: tables the node has stored when it starts, empty for none.
-  Comparison(std::uint8_t node_id, const std::vector<std::uint8_t>& image);
+  // `make_subject`: who is to live through the log.
+  Comparison(std::uint8_t node_id, const MakeSubject& make_subject);
   Comparison(const Comparison&) = delete;
   Comparison& operator=(const Comparison&) = delete;
   ~Comparison() = default;
@@ -27,7 +27,7 @@ class Comparison {
   // After the last frame.
   void finish();
 
-  [[nodiscard]] const ReplayedNode& node() const { return node_; }
+  [[nodiscard]] const ReplayedNode& node() const { return subject_->model(); }
   [[nodiscard]] const ReplayResult& result() const { return result_; }
 
  private:
@@ -49,6 +49,7 @@ class Comparison {
   void take_input(const LoggedFrame& logged);
   void take_answer(const LoggedFrame& logged);
   void take_boot_up(const LoggedFrame& logged);
+  void await(std::uint16_t id);
   void compare_heartbeat(const Said& said);
   void compare_status(const Said& said);
   void replayed(std::uint64_t time_us, const hal::CanFrame& frame);
@@ -58,6 +59,9 @@ class Comparison {
   void begin_cycle();
   void check_age();
   [[nodiscard]] bool process_data(std::uint16_t id) const;
+  [[nodiscard]] bool in_this_process() const;
+  [[nodiscard]] bool free_status(std::uint16_t id) const;
+  [[nodiscard]] bool could_say(const hal::CanFrame& status) const;
   [[nodiscard]] std::string name_of(std::uint16_t id) const;
   [[nodiscard]] ReplayDifference difference(const Said& where, const char* what) const;
   void differs(const Said& expected, const hal::CanFrame& got, const char* what);
@@ -67,7 +71,7 @@ class Comparison {
 
   std::uint8_t node_id_;
   std::map<std::uint16_t, Stream> streams_;
-  ReplayedNode node_;
+  std::unique_ptr<ReplaySubject> subject_;
   ReplayResult result_;
   std::optional<ReplayDifference> missing_;  // in the log: the first, since the last boot-up
   std::size_t compared_at_boot_up_ = 0;

@@ -34,10 +34,16 @@ std::size_t find_start(const std::vector<LoggedFrame>& log, std::uint8_t node_id
   return static_cast<std::size_t>(start - log.begin());
 }
 
+MakeSubject in_this_process(std::uint8_t node_id, const std::vector<std::uint8_t>& image) {
+  return [node_id, image](ReplaySubject::OnSent on_sent) {
+    return std::make_unique<ReplayedNode>(node_id, image, std::move(on_sent));
+  };
+}
+
 // The first status frame tells with which tables the node began.
 void check_tables(const std::vector<LoggedFrame>& log, std::size_t start, std::uint8_t node_id,
                   const std::vector<std::uint8_t>& image) {
-  Comparison trial(node_id, image);
+  Comparison trial(node_id, in_this_process(node_id, image));
   trial.start(log[start]);
   for (std::size_t i = start; i < log.size(); ++i) {
     trial.take(log[i]);
@@ -64,13 +70,9 @@ std::string hex(const std::optional<hal::CanFrame>& frame) {
   return fmt::format("{}", fmt::join(bytes, " "));
 }
 
-}  // namespace
-
-ReplayResult replay(const std::vector<LoggedFrame>& log, std::uint8_t node_id,
-                    const std::vector<std::uint8_t>& image) {
-  const std::size_t start = find_start(log, node_id);
-  check_tables(log, start, node_id, image);
-  Comparison comparison(node_id, image);
+ReplayResult compare(const std::vector<LoggedFrame>& log, std::size_t start, std::uint8_t node_id,
+                     const MakeSubject& make_subject) {
+  Comparison comparison(node_id, make_subject);
   comparison.start(log[start]);
   for (std::size_t i = start; i < log.size() && comparison.result().equal(); ++i)
     comparison.take(log[i]);
@@ -78,6 +80,24 @@ ReplayResult replay(const std::vector<LoggedFrame>& log, std::uint8_t node_id,
   ReplayResult result = comparison.result();
   result.skipped = start;
   return result;
+}
+
+}  // namespace
+
+ReplayResult replay(const std::vector<LoggedFrame>& log, std::uint8_t node_id,
+                    const std::vector<std::uint8_t>& image) {
+  const std::size_t start = find_start(log, node_id);
+  check_tables(log, start, node_id, image);
+  return compare(log, start, node_id, in_this_process(node_id, image));
+}
+
+ReplayResult replay_over_pipe(const std::vector<LoggedFrame>& log, std::uint8_t node_id,
+                              const PipedNode::Start& start) {
+  const std::size_t first = find_start(log, node_id);
+  check_tables(log, first, node_id, {});
+  return compare(log, first, node_id, [node_id, &start](ReplaySubject::OnSent on_sent) {
+    return std::make_unique<PipedNode>(node_id, start, std::move(on_sent));
+  });
 }
 
 std::string describe(const ReplayResult& result) {

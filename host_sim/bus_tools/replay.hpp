@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "host_sim/bus_tools/can_log.hpp"
+#include "host_sim/bus_tools/piped_node.hpp"
 
 namespace volcomp::sim {
 
@@ -46,6 +47,11 @@ struct ReplayResult {
 // neither in the log nor given.
 [[nodiscard]] ReplayResult replay(const std::vector<LoggedFrame>& log, std::uint8_t node_id,
                                   const std::vector<std::uint8_t>& image);
+
+// The same with a node behind a frame pipe. Every start of the node in the log without a command to
+// reset is a fresh one here. Throws what starting it or its link throws, too.
+[[nodiscard]] ReplayResult replay_over_pipe(const std::vector<LoggedFrame>& log,
+                                            std::uint8_t node_id, const PipedNode::Start& start);
 
 // Several lines for a person.
 [[nodiscard]] std::string describe(const ReplayResult& result);

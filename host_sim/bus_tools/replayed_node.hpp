@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/node/node.hpp"
+#include "host_sim/bus_tools/replay_subject.hpp"
 
 namespace volcomp::sim {
 
@@ -27,21 +28,16 @@ class ImageStorage final : public node::Storage {
   std::vector<std::uint8_t> image_;
 };
 
-class ReplayedNode {
+class ReplayedNode final : public ReplaySubject {
  public:
-  // Called for every frame the node sends, at the moment it sends it.
-  using OnSent = std::function<void(std::uint64_t time_us, const hal::CanFrame& frame)>;
-
   // `stored_image`: tables the node finds at power-on, empty for none.
-  // Off until power_on(), which comes before everything else.
   ReplayedNode(std::uint8_t node_id, std::vector<std::uint8_t> stored_image, OnSent on_sent);
 
-  void power_on(std::uint64_t time_us);
-  // Lets the time before this moment pass, deadlines kept to the microsecond. What happens at the
-  // moment itself comes next: a frame of somebody else, or nothing but the time.
-  void advance(std::uint64_t time_us);
-  void receive(const hal::CanFrame& frame, std::uint64_t time_us);
-  void poll(std::uint64_t time_us);
+  void power_on(std::uint64_t time_us) override;
+  void advance(std::uint64_t time_us) override;
+  void receive(const hal::CanFrame& frame, std::uint64_t time_us) override;
+  void poll(std::uint64_t time_us) override;
+  [[nodiscard]] const ReplayedNode& model() const override { return *this; }
 
   // Whether the node is the one that sends frames with this identifier, as configured now.
   [[nodiscard]] bool sends(std::uint16_t id) const;
@@ -51,6 +47,8 @@ class ReplayedNode {
   [[nodiscard]] bool status_every_cycle() const;
   [[nodiscard]] canopen::NmtState state() const { return node_->device().state(); }
   [[nodiscard]] std::uint32_t active_crc() const { return node_->objects().active_crc; }
+  // When its next deadline is; UINT64_MAX: there is none.
+  [[nodiscard]] std::uint64_t deadline_us() const { return node_->deadline_us(); }
 
  private:
   [[nodiscard]] const canopen::Pdo& status_pdo() const;

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/boards/emulated_node.hpp"
 #include "host_sim/bus_tools/replay.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/firmware_options.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -14,14 +16,52 @@ namespace {
 struct ReplayArguments {
   std::string log;
   std::string image;
+  FirmwareChoice firmware;
   int node_id = 32;
 };
 
+// Firmware for as long as a replay needs it, started anew whenever the log says so.
+class FirmwareForReplay {
+ public:
+  explicit FirmwareForReplay(const FirmwareChoice& choice)
+      : board_(emulated_board(choice.board)), image_(choice.image) {}
+
+  ReplayResult replay(const std::vector<LoggedFrame>& log, std::uint8_t node_id) {
+    ReplayResult result = run(log, node_id);
+    running_->finish();
+    return result;
+  }
+
+ private:
+  ReplayResult run(const std::vector<LoggedFrame>& log, std::uint8_t node_id) {
+    try {
+      return replay_over_pipe(log, node_id, [this] { return start(); });
+    } catch (const UserError& error) {
+      throw UserError(error.what() + (running_ ? running_->last_words() : std::string()));
+    }
+  }
+  std::shared_ptr<PipeLink> start() {
+    running_.reset();  // first, since there is one at a time
+    running_ = std::make_shared<EmulatedNode>(board_, image_);
+    return {running_, &running_->link()};
+  }
+
+  EmulatedBoard board_;
+  std::filesystem::path image_;
+  std::shared_ptr<EmulatedNode> running_;
+};
+
+ReplayResult replay_as_asked(const ReplayArguments& arguments) {
+  const std::vector<LoggedFrame> log = read_can_log(arguments.log);
+  const auto node_id = static_cast<std::uint8_t>(arguments.node_id);
+  if (arguments.firmware.chosen())
+    return FirmwareForReplay(arguments.firmware).replay(log, node_id);
+  if (arguments.image.empty()) return replay(log, node_id, {});
+  return replay(log, node_id, read_image_file(arguments.image));
+}
+
 int replay_log(const ReplayArguments& arguments) {
-  const std::vector<std::uint8_t> image =
-      arguments.image.empty() ? std::vector<std::uint8_t>() : read_image_file(arguments.image);
-  const ReplayResult result =
-      replay(read_can_log(arguments.log), static_cast<std::uint8_t>(arguments.node_id), image);
+  const ReplayResult result = replay_as_asked(arguments);
   fmt::print("{}", describe(result));
   return result.equal() ? 0 : 1;
 }
@@ -37,8 +77,9 @@ void add_replay_command(CLI::App& app, int& code) {
   command->add_option("--node-id", a->node_id, "CANopen node id of the compensation node")
       ->check(CLI::Range(1, 127))
       ->capture_default_str();
-  command->add_option("--image", a->image,
-                      "Tables the node had stored before the log begins (image file)");
+  CLI::Option* image = command->add_option(
+      "--image", a->image, "Tables the node had stored before the log begins (image file)");
+  add_firmware_options(*command, a->firmware, "Feed it to the node as firmware")->excludes(image);
   command->callback([a, &code] { code = replay_log(*a); });
 }
 

@@ -1,5 +1,6 @@
 // volcomp run SCENARIO
 
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -23,6 +24,7 @@ struct RunArguments {
   std::string report_folder;
   std::string command;
   NodePlace node;
+  std::size_t knots = kDefaultKnots;
 };
 
 // File and path as the user would type them, without the folder of the program.
@@ -40,8 +42,10 @@ XyfzResult run_scenario(const RunArguments& arguments, XyfzOptions options) {
     options.make_cell = bus->cells(read_machine_file(options.machine));
   }
   ProgressBar bar;
-  XyfzResult result =
-      run_xyfz(options, [&](double done, const std::string& what) { bar.show(done, what); });
+  const auto run = [&] {
+    return run_xyfz(options, [&](double done, const std::string& what) { bar.show(done, what); });
+  };
+  XyfzResult result = bus ? bus->watch(run) : run();
   if (bus) bus->finish();
   result.options.make_cell = {};  // the bus ends here
   return result;
@@ -49,6 +53,7 @@ XyfzResult run_scenario(const RunArguments& arguments, XyfzOptions options) {
 
 int run_xyfz_command(RunArguments& arguments) {
   XyfzOptions& options = arguments.options;
+  options.knots = std::min(arguments.knots, knots_at(arguments.node));
   options.machine = arguments.machine.empty() ? bundled_machine("xyfz")
                                               : std::filesystem::path(arguments.machine);
   if (!arguments.report_folder.empty()) {
@@ -108,6 +113,9 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
       ->capture_default_str();
   xyfz->add_option("--machine", a->machine,
                    "Machine file (default: the XYFZ machine that comes with the program)");
+  xyfz->add_option("--knots", a->knots,
+                   "Most knots of a table (default: what the node has room for, up to 128)")
+      ->check(CLI::Range(std::size_t{2}, kDefaultKnots));
   xyfz->add_option("--json", a->json_file, "Write the figures to this file");
   xyfz->add_option("--report", a->report_folder,
                    "Write report.html, report.json and the run files to this folder");

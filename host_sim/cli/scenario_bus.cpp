@@ -15,6 +15,10 @@ std::string describe(const NodePlace& place) {
   return fmt::format("CAN {}, {:g} Hz, {}", place.can, place.cycle_hz, how);
 }
 
+std::size_t knots_at(const NodePlace& place) {
+  return place.firmware.chosen() ? emulated_board(place.firmware.board).knots : kDefaultKnots;
+}
+
 ScenarioBus::ScenarioBus(const NodePlace& place) : cycle_hz_(place.cycle_hz) {
   join(place);
   if (place.log_file.empty()) return;

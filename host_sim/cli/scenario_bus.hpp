@@ -21,12 +21,19 @@ struct NodePlace {
 
 // For people: "CAN vcan0, 500 Hz, lock step".
 [[nodiscard]] std::string describe(const NodePlace& place);
+// How many knots a table may have for the node there.
+[[nodiscard]] std::size_t knots_at(const NodePlace& place);
 
 // Not for the integrated form. Every function throws UserError.
 class ScenarioBus {
  public:
   explicit ScenarioBus(const NodePlace& place);
 
+  // Does the work; what goes wrong in it is told together with what the firmware said last.
+  template <class Work>
+  auto watch(Work&& work) {
+    return board_ ? board_->with_last_words(work) : work();
+  }
   // The bus must outlive the cells.
   [[nodiscard]] CellFactory cells(const MachineFile& machine);
   // After the scenario: the log is complete, the firmware has ended well.

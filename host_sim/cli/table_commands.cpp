@@ -23,6 +23,7 @@ struct BuildArguments {
   bool no_resampling = false;
   std::string stamp = "volcomp";
   double temperature_C = 20.0;
+  std::size_t knots = kDefaultKnots;
 };
 
 void print_axis(const MachineFile& machine, const Commissioned& tables, std::size_t a) {
@@ -48,6 +49,7 @@ int build_tables(const BuildArguments& arguments) {
                                               : ModelKind::abbe_closed;
   options.slope = arguments.slope == "end" ? SlopeFit::end_points : SlopeFit::least_squares;
   options.allow_resampling = !arguments.no_resampling;
+  options.knots = arguments.knots;
   const auto tables = commission(machine, runs, options);
   Provenance& provenance = tables->tables.provenance;
   provenance.built_unix_s = static_cast<std::int64_t>(std::time(nullptr));
@@ -120,6 +122,11 @@ void add_build_tables_command(CLI::App& app, int& code) {
       ->capture_default_str();
   build->add_flag("--no-resampling", a->no_resampling,
                   "Refuse targets that are not equally spaced");
+  build
+      ->add_option("--knots", a->knots,
+                   "Most knots of a table: what the node has room for (M4F board: 64)")
+      ->check(CLI::Range(std::size_t{2}, kDefaultKnots))
+      ->capture_default_str();
   build->add_option("--temperature", a->temperature_C, "Temperature of the campaign, deg C")
       ->capture_default_str();
   build->add_option("--stamp", a->stamp, "Operator, up to 16 characters")->capture_default_str();

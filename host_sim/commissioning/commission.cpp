@@ -78,7 +78,7 @@ void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
   require(build_table(measured, *out.built[a]), runs.name);
   note_warnings(runs, *out.built[a], out.warnings);
 
-  const std::size_t most = (kDefaultKnots - 1) / (out.built[a]->table.knots - 1);
+  const std::size_t most = (options.knots - 1) / (out.built[a]->table.knots - 1);
   const std::size_t wanted = options.refine == 0 ? machine.refine : options.refine;
   const std::size_t factor = std::max<std::size_t>(1, std::min(wanted, most));
   require(refine(out.built[a]->table, machine.interpolation, factor, *out.refined[a]), runs.name);
@@ -147,7 +147,7 @@ std::unique_ptr<Commissioned> commission(const MachineFile& machine,
     out->refined.push_back(std::make_unique<ErrorTable>());
     build_axis(machine, runs_of(runs, machine, machine.axes[a].letter), a, options, *out);
     out->model.table[a] = out->refined[a].get();
-    require(quantise(*out->refined[a], out->chain.axis(a), kDefaultKnots, out->tables.axis[a]),
+    require(quantise(*out->refined[a], out->chain.axis(a), options.knots, out->tables.axis[a]),
             machine.path);
   }
   apply_squareness(machine, options, *out);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "comp/realtime/compensator.hpp"
 #include "comp/tables/machine_tables.hpp"
 #include "comp/tables/table_builder.hpp"
 #include "comp/tables/volumetric_model.hpp"
@@ -24,14 +25,17 @@ struct CommissionOptions {
   ModelKind model = ModelKind::abbe_closed;
   SlopeFit slope = SlopeFit::least_squares;
   bool allow_resampling = true;
-  std::size_t refine = 0;  // 0: as the machine file says
-  bool bound = true;       // compute model_bound_nm: dearer than all the rest together
+  std::size_t refine = 0;             // 0: as the machine file says
+  std::size_t knots = kDefaultKnots;  // per table: what the node has room for; refines less
+  bool bound = true;                  // compute model_bound_nm: dearer than all the rest together
 };
 
 // For callers that want the tables of a model and nothing else.
-[[nodiscard]] inline CommissionOptions tables_only(ModelKind model) {
+[[nodiscard]] inline CommissionOptions tables_only(ModelKind model,
+                                                   std::size_t knots = kDefaultKnots) {
   CommissionOptions options;
   options.model = model;
+  options.knots = knots;
   options.bound = false;
   return options;
 }

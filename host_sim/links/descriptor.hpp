@@ -30,16 +30,22 @@ class Descriptor {
   int number_ = -1;
 };
 
-// While it lives, writing where nobody reads any more fails (EPIPE) instead of ending the process.
+// While one lives, writing where nobody reads any more fails (EPIPE) instead of ending the process.
+// Made and ended by one thread, in any order.
 class BrokenPipeIgnored {
  public:
-  BrokenPipeIgnored() : before_(std::signal(SIGPIPE, SIG_IGN)) {}
+  BrokenPipeIgnored() {
+    if (living_++ == 0) before_ = std::signal(SIGPIPE, SIG_IGN);
+  }
   BrokenPipeIgnored(const BrokenPipeIgnored&) = delete;
   BrokenPipeIgnored& operator=(const BrokenPipeIgnored&) = delete;
-  ~BrokenPipeIgnored() { static_cast<void>(std::signal(SIGPIPE, before_)); }
+  ~BrokenPipeIgnored() {
+    if (--living_ == 0) static_cast<void>(std::signal(SIGPIPE, before_));
+  }
 
  private:
-  void (*before_)(int);
+  inline static int living_ = 0;
+  inline static void (*before_)(int) = SIG_DFL;
 };
 
 }  // namespace volcomp::sim

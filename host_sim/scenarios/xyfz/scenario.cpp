@@ -86,7 +86,8 @@ DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
   DrawResult out;
   out.raw_um = measure_pnp(at_check, bench, {}, setup, random);
   for (std::size_t m = 0; m < kModels.size(); ++m) {
-    auto tables = commission(campaign.machine, campaign.runs, tables_only(kModels[m]));
+    auto tables =
+        commission(campaign.machine, campaign.runs, tables_only(kModels[m], bench.options.knots));
     out.residual_um[m] = measure_pnp(at_check, bench, make_image(tables->tables), setup, random);
     const bool keep = draw == 0 && kModels[m] == ModelKind::abbe_closed;
     if (!keep) continue;
@@ -130,7 +131,10 @@ std::unique_ptr<Commissioned> run_noise_free(const Bench& bench, const Progress&
   std::unique_ptr<Commissioned> closed;
   for (std::size_t m = 0; m < kModels.size(); ++m) {
     progress(0.05 * static_cast<double>(m + 1), fmt::format("verifying {}", kModeNames[m + 1]));
-    auto tables = commission(campaign.machine, campaign.runs, {kModels[m]});
+    CommissionOptions options;
+    options.model = kModels[m];
+    options.knots = bench.options.knots;
+    auto tables = commission(campaign.machine, campaign.runs, options);
     result.mode[m + 1] = verify_mode(bench, make_image(tables->tables));
     result.mode[m + 1].model_bound_nm = tables->model_bound_nm;
     closed = std::move(tables);

@@ -26,7 +26,8 @@ struct XyfzOptions {
   std::size_t draws = 50;
   std::uint64_t seed = 1;  // of the noise
   std::uint64_t machine_seed = kXyfzMachineSeed;
-  std::size_t runs = 5;  // bidirectional, per axis, in a noisy campaign
+  std::size_t runs = 5;               // bidirectional, per axis, in a noisy campaign
+  std::size_t knots = kDefaultKnots;  // per table: what the node has room for
   int volume_points = 800;
   int tick_points = 200'000;  // places at which the tick is compared with the double model
   CellFactory make_cell = make_integrated_cell;  // what drives the machine

@@ -11,9 +11,8 @@
 #include "host_sim/bus_tools/replay.hpp"
 #include "host_sim/bus_tools/replayed_node.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
-#include "host_sim/controller/bus_axes.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "tests/unit/host/service_bench.hpp"
+#include "tests/unit/host/recorded_run.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -89,30 +88,6 @@ TEST(CanLog, FramesOfNoUseAreLeftOut) {
 
 constexpr std::uint8_t kNode = 32;
 
-// A machine on the bus that starts, moves, and lives through what `incident` does to it.
-template <class Incident>
-std::string record_run(const Incident& incident) {
-  std::string log;
-  const KnownMachine& machine = known_machine();
-  BusAxes axes(bus_settings(machine.file, 500.0), machine.image);
-  record(axes.bus(), log);
-  axes.stand_at({-250.0, -150.0, -200.0});
-  axes.bring_up();
-  const TargetsNm start = axes.target_nm();
-  for (std::int32_t i = 0; i < 600; ++i) {
-    if (i == 200) incident(axes);
-    std::vector<std::int32_t> path;
-    for (const std::int64_t nm : start)
-      path.push_back(static_cast<std::int32_t>(nm) + 100'000 * i);
-    axes.run_cycle(path);
-  }
-  return log;
-}
-
-std::string record_quiet_run() {
-  return record_run([](BusAxes&) {});
-}
-
 ReplayResult replay_text(const std::string& log, const std::vector<std::uint8_t>& image = {}) {
   return replay(parse_can_log(log, "bus.log"), kNode, image);
 }
@@ -135,18 +110,12 @@ TEST(Replay, NodeDoesTheSameAgain) {
 }
 
 TEST(Replay, CyclesWithoutADriveEndAtTheDeadlineAgain) {
-  const ReplayResult result =
-      replay_text(record_run([](BusAxes& axes) { axes.power_drive(1, false); }));
+  const ReplayResult result = replay_text(record_drive_failure());
   EXPECT_TRUE(result.equal()) << describe(result);
 }
 
 TEST(Replay, PowerCycleOfTheNodeIsRepeated) {
-  const ReplayResult result = replay_text(record_run([](BusAxes& axes) {
-    axes.power_node(false);
-    for (int i = 0; i < 50; ++i)
-      axes.run_cycle({-250'000'000, -150'000'000, -200'000'000});
-    axes.power_node(true);
-  }));
+  const ReplayResult result = replay_text(record_power_failure());
   EXPECT_TRUE(result.equal()) << describe(result);
   EXPECT_EQ(result.power_ups, 1U);
 }

@@ -1,0 +1,49 @@
+#pragma once
+// A machine on a simulated bus that lives through something, as a log.
+
+#include <string>
+
+#include "host_sim/controller/bus_axes.hpp"
+#include "tests/unit/host/service_bench.hpp"
+
+namespace volcomp::sim {
+
+// The machine starts, moves, and lives through what `incident` does to it.
+template <class Incident>
+std::string record_run(const Incident& incident) {
+  std::string log;
+  const KnownMachine& machine = known_machine();
+  BusAxes axes(bus_settings(machine.file, 500.0), machine.image);
+  record(axes.bus(), log);
+  axes.stand_at({-250.0, -150.0, -200.0});
+  axes.bring_up();
+  const TargetsNm start = axes.target_nm();
+  for (std::int32_t i = 0; i < 600; ++i) {
+    if (i == 200) incident(axes);
+    std::vector<std::int32_t> path;
+    for (const std::int64_t nm : start)
+      path.push_back(static_cast<std::int32_t>(nm) + 100'000 * i);
+    axes.run_cycle(path);
+  }
+  return log;
+}
+
+inline std::string record_quiet_run() {
+  return record_run([](BusAxes&) {});
+}
+
+inline std::string record_drive_failure() {
+  return record_run([](BusAxes& axes) { axes.power_drive(1, false); });
+}
+
+// Of the node, for 50 cycles.
+inline std::string record_power_failure() {
+  return record_run([](BusAxes& axes) {
+    axes.power_node(false);
+    for (int i = 0; i < 50; ++i)
+      axes.run_cycle({-250'000'000, -150'000'000, -200'000'000});
+    axes.power_node(true);
+  });
+}
+
+}  // namespace volcomp::sim
