@@ -1,69 +1,87 @@
 #!/usr/bin/env python3
-"""Line and branch coverage of the target code (comp, hal, firmware) after the tests of the preset "cov" have run.
+"""Line and branch coverage of the target code (comp, hal, firmware) after the tests of the preset "host-asan" have run.
 
-    toolchain/coverage.py [BUILD_FOLDER]   default build/cov
+    toolchain/coverage.py [BUILD_FOLDER]   default build/host-asan
 
-Prints a table and keeps it as BUILD_FOLDER/coverage.txt, with the annotated sources in coverage.html.
-Branches that only an exception could take, and branches no code can reach, are not counted.
+Prints a table and keeps it as BUILD_FOLDER/coverage.txt, with the annotated sources in BUILD_FOLDER/coverage.
+A line or branch of a template counts as run when one of its instances has run it.
 """
-import collections
 import json
+import os
 import pathlib
 import shutil
 import subprocess
 import sys
+
+FOLDERS = ("comp", "hal", "firmware")
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 class Failure(Exception):
     """One plain sentence for the user."""
 
 
-def run_gcovr(build):
-    summary = build / "coverage.json"
-    run = subprocess.run(
-        ["gcovr", "--root", ".", "--filter", "comp/", "--filter", "hal/", "--filter", "firmware/",
-         "--exclude-throw-branches", "--exclude-unreachable-branches",
-         "--json-summary", str(summary), "--html-details", str(build / "coverage.html"), str(build)],
-        capture_output=True, text=True, check=False)
-    if run.returncode != 0:
-        raise Failure(f"gcovr failed:\n{run.stdout}{run.stderr}")
-    return json.loads(summary.read_text())["files"]
+def run(*command):
+    result = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise Failure(f"{command[0]} failed:\n{result.stderr.strip()}")
+    return result.stdout
 
 
-def percent(covered, total):
-    return f"{100.0 * covered / total:5.1f} %" if total else "      -"
+def is_program(path):
+    if not path.is_file() or not os.access(path, os.X_OK):
+        return False
+    with path.open("rb") as file:
+        return file.read(4) == b"\x7fELF"
 
 
-def row(name, file):
-    return (f"{name:<52} {percent(file['line_covered'], file['line_total'])} "
-            f"{file['line_covered']:>5}/{file['line_total']:<5} "
-            f"{percent(file['branch_covered'], file['branch_total'])} "
-            f"{file['branch_covered']:>5}/{file['branch_total']}")
+def merge_profiles(build):
+    profiles = sorted((build / "profile").glob("*.profraw"))
+    if not profiles:
+        raise Failure(f'{build / "profile"} holds no profile: run the tests of the preset "host-asan" first.')
+    merged = build / "coverage.profdata"
+    run("llvm-profdata", "merge", "-sparse", *profiles, "-o", merged)
+    return merged
 
 
-def table(files):
-    total = collections.Counter()
-    for file in files:
-        total.update({key: value for key, value in file.items() if key.endswith(("_covered", "_total"))})
+def llvm_cov(action, programs, profile, *options):
+    objects = [part for program in programs[1:] for part in ("-object", program)]
+    sources = [ROOT / folder for folder in FOLDERS]
+    return run("llvm-cov", action, programs[0], *objects, f"-instr-profile={profile}", *options, *sources)
+
+
+def percent(part):
+    return f"{100.0 * part['covered'] / part['count']:5.1f} %" if part["count"] else "      -"
+
+
+def row(name, summary):
+    cells = (f"{percent(summary[what])} {summary[what]['covered']:>5}/{summary[what]['count']:<5}"
+             for what in ("lines", "branches"))
+    return f"{name:<52} {' '.join(cells)}"
+
+
+def table(report):
+    files = sorted(report["files"], key=lambda file: file["filename"])
+    body = [row(str(pathlib.Path(file["filename"]).relative_to(ROOT)), file["summary"]) for file in files]
     head = f"{'file':<52} {'lines':>7} {'covered':>11} {'branches':>7} {'covered':>10}"
-    body = [row(file["filename"], file) for file in sorted(files, key=lambda f: f["filename"])]
-    return "\n".join([head, *body, row("total", total)])
+    return "\n".join([head, *body, row("total", report["totals"])])
 
 
 def main():
     if len(sys.argv) > 1 and sys.argv[1] in ("-h", "--help"):
         print(__doc__.strip())
         return
-    if shutil.which("gcovr") is None:
-        raise Failure('the command "gcovr" is missing: run toolchain/setup.sh first.')
-    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/cov")
-    if not build.is_dir():
-        raise Failure(f'there is no folder {build}: build and test the preset "cov" first.')
-    files = run_gcovr(build)
-    if not files:
-        raise Failure("no file of the target code was run by the tests.")
-    text = table(files)
+    for command in ("llvm-cov", "llvm-profdata"):
+        if shutil.which(command) is None:
+            raise Failure(f'the command "{command}" is missing: run toolchain/setup.sh first.')
+    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/host-asan")
+    programs = sorted(path for path in build.rglob("*") if "CMakeFiles" not in path.parts and is_program(path))
+    if not programs:
+        raise Failure(f'there is no program in {build}: build and test the preset "host-asan" first.')
+    profile = merge_profiles(build)
+    text = table(json.loads(llvm_cov("export", programs, profile, "-summary-only"))["data"][0])
     (build / "coverage.txt").write_text(text + "\n")
+    llvm_cov("show", programs, profile, "-format=html", f"-output-dir={build / 'coverage'}")
     print(text)
 
 

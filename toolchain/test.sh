@@ -13,11 +13,12 @@
 #   test        its tests
 #   can         and those that need a CAN interface of the kernel, below toolchain/with-vcan
 #   proofs      no heap, exceptions, globals, recursion ... in the libraries of the target
-#   asan        build and tests with the address and undefined-behaviour sanitizers
+#   asan        built with clang, tests with the address and undefined-behaviour sanitizers
+#   coverage    what of the target code those tests have run; table in build/host-asan/coverage.txt
+#   boards      the firmware and its tests, executed in QEMU
 #   tidy        clang-tidy
 #   cppcheck    cppcheck over comp, hal and firmware
 #   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 30) seconds
-#   coverage    target code and its own tests with gcov; table in build/cov/coverage.txt
 #   bench       the benchmarks are built, not run
 #
 # VOLCOMP_JOBS limits the processes (default: the number of processors). The last line says how many
@@ -26,7 +27,7 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 # shellcheck source=toolchain/common.sh
 . "$script_folder/common.sh"
 
-readonly all_steps=(setup format scripts build test can proofs asan tidy cppcheck fuzz coverage bench)
+readonly all_steps=(setup format scripts build test can proofs asan coverage boards tidy cppcheck fuzz bench)
 readonly quick_steps=(format build test)
 readonly code_folders=(comp hal firmware host_sim tests)
 readonly logs=build/log
@@ -98,8 +99,24 @@ step_proofs() {
 }
 
 step_asan() {
+  need clang++
   build_preset host-asan
+  rm -rf build/host-asan/profile
   test_preset host-asan
+}
+
+step_coverage() {
+  need python3
+  python3 toolchain/coverage.py build/host-asan
+}
+
+step_boards() {
+  local board
+  need arm-none-eabi-g++ qemu-system-arm aarch64-linux-gnu-g++ qemu-system-aarch64
+  for board in m7 m4 a53; do
+    build_preset "$board"
+    test_preset "$board"
+  done
 }
 
 step_tidy() {
@@ -126,14 +143,6 @@ step_fuzz() {
   mapfile -t programs < <(find build/fuzz/tests -type f -name 'fuzz_*' -perm -u+x | sort)
   [ ${#programs[@]} -gt 0 ] || die "the preset \"fuzz\" built no fuzz program."
   bash toolchain/fuzz.sh "${programs[@]}"
-}
-
-step_coverage() {
-  need python3 gcovr
-  build_preset cov
-  find build/cov -name '*.gcda' -delete
-  test_preset cov
-  python3 toolchain/coverage.py build/cov
 }
 
 step_bench() {

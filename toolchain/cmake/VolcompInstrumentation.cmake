@@ -10,15 +10,22 @@ if(VOLCOMP_SANITIZE)
   add_link_options(${volcomp_sanitizers})
 endif()
 
+# volcomp_need_clang(OPTION PRESET)
+function(volcomp_need_clang option preset)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "${option} needs clang: configure with the preset \"${preset}\".")
+  endif()
+endfunction()
+
+# Counted in the source, before any optimization and before the sanitizers add their own branches.
 if(VOLCOMP_COVERAGE)
-  add_compile_options(--coverage -O0 -g1)
-  add_link_options(--coverage)
+  volcomp_need_clang(VOLCOMP_COVERAGE host-asan)
+  add_compile_options(-fprofile-instr-generate -fcoverage-mapping)
+  add_link_options(-fprofile-instr-generate)
 endif()
 
 if(VOLCOMP_FUZZ)
-  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    message(FATAL_ERROR "VOLCOMP_FUZZ needs clang: configure with the preset \"fuzz\".")
-  endif()
+  volcomp_need_clang(VOLCOMP_FUZZ fuzz)
   # Without -fno-sanitize-recover an undefined-behaviour report would not end the run.
   set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
     -fno-sanitize-recover=all)

@@ -11,7 +11,6 @@ using ::testing::IsEmpty;
 constexpr std::uint32_t kTarget = 0x607A'0020;
 constexpr std::uint32_t kControl = 0x6040'0010;
 constexpr std::uint32_t kStatus = 0x6041'0010;
-constexpr std::uint32_t kActual = 0x6064'0020;
 constexpr std::uint32_t kWide = 0x2005'0040;
 
 class PdoMapping : public DeviceTest {

@@ -55,7 +55,7 @@ struct Trouble {
 class Pair {
  public:
   Pair(std::int32_t slew, std::uint8_t late, const Trouble& trouble, Random& random)
-      : slew_(slew), late_(late), trouble_(trouble), random_(random) {
+      : late_(late), trouble_(trouble), random_(random) {
     gate_.configure(slew, late, true);
   }
 
@@ -118,7 +118,6 @@ class Pair {
   OffsetGate gate_;
   Wire offsets_;
   Wire reports_;
-  std::int32_t slew_;
   std::uint8_t late_;
   Trouble trouble_;
   Random& random_;
