@@ -2,21 +2,9 @@
 
 #include <algorithm>
 
-#include "hal/mps2/console.hpp"
 #include "hal/mps2/semihosting.hpp"
 
 namespace volcomp::hal::mps2 {
-namespace {
-
-constexpr int kToldToEnd = 0;
-constexpr int kUnusableInput = 2;
-
-void give_up(const char* sentence) {
-  console::put(sentence);
-  semihosting::exit(kUnusableInput);
-}
-
-}  // namespace
 
 bool PipePort::open() {
   to_node_ = semihosting::open(kPipeToNode, semihosting::Mode::read);
@@ -26,26 +14,31 @@ bool PipePort::open() {
 }
 
 void PipePort::begin_turn() {
-  for (;;) {
-    PipeBytes bytes{};
-    // One record at a time: how many instructions that takes must not depend on how fast they come.
-    if (!semihosting::read(to_node_, bytes)) give_up("The other end of the frame pipe is gone.\n");
-    const PipeRecord record = pipe_record(bytes);
-    switch (record.kind) {
-      case PipeRecord::Kind::frame:
-        if (!received_.push(record.frame)) give_up("More frames in one turn than fit.\n");
-        break;
-      case PipeRecord::Kind::end_of_turn:
-        now_us_ = record.sender_us;
-        return;
-      case PipeRecord::Kind::quit:
-        semihosting::exit(kToldToEnd);
-        break;
-      case PipeRecord::Kind::malformed:
-        give_up("What comes from the frame pipe is not a record of it.\n");
-        break;
-    }
+  PipeBytes bytes{};
+  // One record at a time: how many instructions that takes must not depend on how fast they come.
+  do {
+    if (end() == End::none && !semihosting::read(to_node_, bytes)) finish(End::gone);
+  } while (end() == End::none && take(pipe_record(bytes)));
+}
+
+// False: the turn is complete, or everything is at an end.
+bool PipePort::take(const PipeRecord& record) {
+  switch (record.kind) {
+    case PipeRecord::Kind::frame:
+      if (received_.push(record.frame)) return true;
+      finish(End::too_many_frames);
+      break;
+    case PipeRecord::Kind::end_of_turn:
+      now_us_ = record.sender_us;
+      break;
+    case PipeRecord::Kind::quit:
+      finish(End::told_to_quit);
+      break;
+    case PipeRecord::Kind::malformed:
+      finish(End::nonsense);
+      break;
   }
+  return false;
 }
 
 bool PipePort::send(const CanFrame& frame) {
@@ -57,9 +50,11 @@ bool PipePort::send(const CanFrame& frame) {
 void PipePort::end_turn() {
   write_record(pipe_end_of_turn(now_us_));
   const Span<const std::uint8_t> turn{outgoing_.data(), outgoing_bytes_};
-  if (!semihosting::write(from_node_, turn)) give_up("The other end of the frame pipe is gone.\n");
+  if (end() == End::none && !semihosting::write(from_node_, turn)) finish(End::gone);
   outgoing_bytes_ = 0;
 }
+
+void PipePort::finish(End end) { end_.store(end, std::memory_order_relaxed); }
 
 void PipePort::write_record(const PipeBytes& record) {
   std::copy(record.begin(), record.end(), &outgoing_[outgoing_bytes_]);

@@ -12,10 +12,11 @@
 //
 // Also the clock of hal/clock.hpp: the time of the other end at its last turn.
 //
-// Ends the program when the other end tells it to (0), is gone or talks nonsense (2): without it
-// there is no bus.
+// Once the other end has told it to quit, is gone or talks nonsense, end() says so, turns pass
+// without frames and time stands still.
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,10 +28,11 @@ namespace volcomp::hal::mps2 {
 
 class PipePort {
  public:
-  // A millisecond at 1 Mbit/s is 21 frames; a host that has been configured otherwise may send
-  // more.
-  static constexpr std::size_t kMostReceived = 512;
+  // A millisecond at 1 Mbit/s is 21 frames; a host may send an SDO block of 127 at once.
+  static constexpr std::size_t kMostReceived = 256;
   static constexpr std::size_t kMostSent = 64;
+
+  enum class End : std::uint8_t { none, told_to_quit, gone, nonsense, too_many_frames };
 
   // False when the host has no such pipes or nobody listens to semihosting.
   [[nodiscard]] bool open();
@@ -43,16 +45,22 @@ class PipePort {
   bool receive(CanFrame& frame) { return received_.pop(frame); }
 
   [[nodiscard]] std::uint64_t now_us() const { return now_us_; }
+  // In any context.
+  [[nodiscard]] End end() const { return end_.load(std::memory_order_relaxed); }
 
  private:
+  [[nodiscard]] bool take(const PipeRecord& record);
+  void finish(End end);
   void write_record(const PipeBytes& record);
 
-  int to_node_ = -1;
-  int from_node_ = -1;
+  // All zero, so that a static port takes no flash; open() sets them.
+  int to_node_ = 0;
+  int from_node_ = 0;
   Ring<CanFrame, kMostReceived> received_;
   std::array<std::uint8_t, (kMostSent + 1) * kPipeRecordBytes> outgoing_{};
   std::size_t outgoing_bytes_ = 0;
   std::uint64_t now_us_ = 0;
+  std::atomic<End> end_{End::none};
 };
 
 }  // namespace volcomp::hal::mps2

@@ -49,3 +49,17 @@ if(NOT VOLCOMP_SANITIZE AND NOT VOLCOMP_COVERAGE)
   # Not for host programs: GCC sees null pointers inside the JSON library, and wherever a sanitizer adds a check.
   target_compile_options(volcomp_target_rules INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wnull-dereference>)
 endif()
+
+# volcomp_tick_sources(SOURCE...): sources of this folder that instantiate a Compensator. The tick has a budget of
+# instructions: on boards, where all else is optimised for size, it is for speed.
+function(volcomp_tick_sources)
+  set(options "")
+  if(CMAKE_CROSSCOMPILING)
+    list(APPEND options -O2)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Pairs of scalars packed into half-filled vectors cost the tick a tenth of its instructions.
+    list(APPEND options -fno-tree-slp-vectorize)
+  endif()
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
+endfunction()

@@ -17,6 +17,7 @@ extern std::uint32_t stack_bottom[];
 extern std::uint32_t stack_top[];
 extern std::uint32_t fault_stack_top[];
 extern std::uint8_t block_memory_begin[];
+extern std::uint8_t block_memory_end[];
 extern volatile std::uint32_t retained_begin[];
 }
 
