@@ -22,7 +22,7 @@ inline constexpr std::uint32_t kTimer0Irq = 8;
 inline constexpr std::uint32_t kTimer1Irq = 9;
 
 // The one place where a number becomes a device register.
-inline volatile std::uint32_t& device_register(std::uint32_t address) {
+inline volatile std::uint32_t& device_register(std::uintptr_t address) {
   // NOLINTNEXTLINE(performance-no-int-to-ptr)
   return *reinterpret_cast<volatile std::uint32_t*>(address);
 }

@@ -44,9 +44,10 @@ std::uint32_t active_exception() {
 const char* exception_name(std::uint32_t number) {
   constexpr std::array<const char*, 5> kNames = {"NMI", "HardFault", "MemManage", "BusFault",
                                                  "UsageFault"};
-  constexpr std::uint32_t kFirst = 2;
-  if (number - kFirst >= kNames.size()) return "interrupt";
-  return kNames[number - kFirst];
+  constexpr std::size_t kFirst = 2;
+  const std::size_t index = number - kFirst;
+  if (index >= kNames.size()) return "interrupt";
+  return kNames[index];
 }
 
 void put_register(const char* name, std::uint32_t value) {

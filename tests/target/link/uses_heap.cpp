@@ -1,0 +1,4 @@
+int main() {
+  volatile int* const number = new int(1);
+  return *number;
+}
