@@ -60,30 +60,10 @@ void Device::fall_silent() {
   sdo_waiting_ = sync_waiting_ = false;
 }
 
-void Device::command(const hal::CanFrame& frame, std::uint64_t now_us) {
-  if (frame.size != 2 || (frame.data[1] != 0 && frame.data[1] != node_id_)) return;
-  switch (static_cast<NmtCommand>(frame.data[0])) {
-    case NmtCommand::start:
-      enter(NmtState::operational, now_us);
-      break;
-    case NmtCommand::stop:
-      enter(NmtState::stopped, now_us);
-      break;
-    case NmtCommand::enter_pre_operational:
-      enter(NmtState::pre_operational, now_us);
-      break;
-    case NmtCommand::reset_node:
-      restart(true, now_us);
-      break;
-    case NmtCommand::reset_communication:
-      restart(false, now_us);
-      break;
-  }
-}
-
 // --- in
 
-// By the identifier alone, so that the answer never depends on what is just being changed.
+// By the identifier and the NMT command alone, so that the answer never depends on what is just
+// being changed.
 Device::Work Device::work(const hal::CanFrame& frame) const {
   const std::uint16_t id = frame.id;
   if (id == kSdoRequest + node_id_) return Work::lengthy;
@@ -96,19 +76,48 @@ Device::Work Device::work(const hal::CanFrame& frame) const {
 }
 
 void Device::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
-  if (state_ == NmtState::boot_up) return;
+  switch (work(frame)) {
+    case Work::cyclic:
+      return receive_cyclic(frame, now_us);
+    case Work::service:
+      return receive_service(frame, now_us);
+    case Work::lengthy:
+      return receive_lengthy(frame, now_us);
+  }
+}
+
+bool Device::hears(std::uint64_t now_us) {
+  if (state_ == NmtState::boot_up) return false;
   now_us_ = now_us;
-  const std::uint16_t id = frame.id;
-  if (id == sync_.id()) {
-    take_sync(frame, now_us);
-  } else if (id == kNmt) {
-    command(frame, now_us);
-  } else if (id == kSdoRequest + node_id_) {
+  return true;
+}
+
+bool Device::commanded(const hal::CanFrame& frame) const {
+  return frame.size == 2 && (frame.data[1] == 0 || frame.data[1] == node_id_);
+}
+
+void Device::receive_cyclic(const hal::CanFrame& frame, std::uint64_t now_us) {
+  if (!hears(now_us)) return;
+  if (frame.id == sync_.id()) return take_sync(frame, now_us);
+  if (state_ == NmtState::operational) take_process_data(frame, now_us);
+}
+
+void Device::receive_service(const hal::CanFrame& frame, std::uint64_t now_us) {
+  if (!hears(now_us)) return;
+  if (frame.id != kNmt) return take_heartbeat(frame, now_us);
+  if (!commanded(frame)) return;
+  const auto command = static_cast<NmtCommand>(frame.data[0]);
+  if (command == NmtCommand::start) enter(NmtState::operational, now_us);
+  if (command == NmtCommand::stop) enter(NmtState::stopped, now_us);
+  if (command == NmtCommand::enter_pre_operational) enter(NmtState::pre_operational, now_us);
+}
+
+void Device::receive_lengthy(const hal::CanFrame& frame, std::uint64_t now_us) {
+  if (!hears(now_us)) return;
+  if (frame.id != kNmt) {
     if (state_ != NmtState::stopped && frame.size == 8) sdo_.request(frame.data, now_us);
-  } else if (id > kHeartbeat && id <= kHeartbeat + kMaxNodeId) {
-    take_heartbeat(frame, now_us);
-  } else if (state_ == NmtState::operational) {
-    take_process_data(frame, now_us);
+  } else if (commanded(frame)) {
+    restart(static_cast<NmtCommand>(frame.data[0]) == NmtCommand::reset_node, now_us);
   }
 }
 
@@ -178,15 +187,13 @@ void Device::take_heartbeat(const hal::CanFrame& frame, std::uint64_t now_us) {
 // --- time
 
 void Device::poll_services(std::uint64_t now_us) {
-  if (state_ == NmtState::boot_up) return;
-  now_us_ = now_us;
+  if (!hears(now_us)) return;
   sdo_.poll(now_us);
   watch_heartbeats(now_us);
 }
 
 void Device::poll_cycle(std::uint64_t now_us) {
-  if (state_ == NmtState::boot_up) return;
-  now_us_ = now_us;
+  if (!hears(now_us)) return;
   const std::uint64_t period_us = 1000U * std::uint64_t{values_.producer_heartbeat_ms};
   if (period_us != 0 && now_us - last_heartbeat_us_ >= period_us) {
     heartbeat_due_ = true;

@@ -87,6 +87,18 @@ class Device final : private ObjectAccess {
 
   void power_on(std::uint64_t now_us);
   void receive(const hal::CanFrame& frame, std::uint64_t now_us);
+  // The parts of receive(), for those who serve a device from two contexts: what a frame may set
+  // off, and the function for such frames only.
+  enum class Work : std::uint8_t {
+    cyclic,   // SYNC, process data, other people's frames
+    service,  // NMT command without reset, heartbeat: short, but may change the state of everything
+    lengthy,  // SDO request, reset: as long as the application takes
+  };
+  [[nodiscard]] Work work(const hal::CanFrame& frame) const;
+  void receive_cyclic(const hal::CanFrame& frame, std::uint64_t now_us);
+  void receive_service(const hal::CanFrame& frame, std::uint64_t now_us);
+  void receive_lengthy(const hal::CanFrame& frame, std::uint64_t now_us);
+
   void poll(std::uint64_t now_us) {
     poll_services(now_us);
     poll_cycle(now_us);
@@ -97,14 +109,6 @@ class Device final : private ObjectAccess {
   void poll_cycle(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
   void taken(std::uint64_t now_us);
-
-  // What a frame may set off in receive(), for those who serve a device from two contexts.
-  enum class Work : std::uint8_t {
-    cyclic,   // SYNC, process data, other people's frames
-    service,  // NMT command without reset, heartbeat: short, but may change the state of everything
-    lengthy,  // SDO request, reset: as long as the application takes
-  };
-  [[nodiscard]] Work work(const hal::CanFrame& frame) const;
 
   [[nodiscard]] NmtState state() const { return state_; }
   [[nodiscard]] Emergency& emergency() { return emergency_; }
@@ -143,7 +147,8 @@ class Device final : private ObjectAccess {
   AbortCode finish_download(ObjectId object, std::size_t size) override;
   void abandon_download(ObjectId object) override;
 
-  void command(const hal::CanFrame& frame, std::uint64_t now_us);
+  [[nodiscard]] bool hears(std::uint64_t now_us);
+  [[nodiscard]] bool commanded(const hal::CanFrame& frame) const;
   void restart(bool application_too, std::uint64_t now_us);
   void fall_silent();
   void take_sync(const hal::CanFrame& frame, std::uint64_t now_us);

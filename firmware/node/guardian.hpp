@@ -58,10 +58,11 @@ class Guardian {
   }
 
   [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] bool long_work() const { return long_work_.load(std::memory_order_relaxed); }
 
  private:
   [[nodiscard]] std::uint32_t patience_us() const {
-    return long_work_.load(std::memory_order_relaxed) ? settings_.long_work_us : settings_.stale_us;
+    return long_work() ? settings_.long_work_us : settings_.stale_us;
   }
   // The first check counts as one: the background may not have had its turn yet.
   bool take_token(std::uint64_t now_us) {

@@ -29,7 +29,7 @@ Node::Node(std::uint8_t node_id, Storage* storage, Preemption* preemption)
                {receive_.data(), receive_.size()},
                {transmit_.data(), transmit_.size()}},
               *this),
-      download_(objects_, compensator_),
+      download_(objects_, compensator_, running_, preemption_),
       storage_(storage) {
   device_.set_node_id(node_id);
 }
@@ -186,7 +186,7 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
 }
 
 AbortCode Node::run_table_command(TableCommand command) {
-  const AbortCode why = download_.command(command, running_);
+  const AbortCode why = download_.command(command);
   canopen::Emergency& emergency = device_.emergency();
   if (why == AbortCode::general)
     emergency.raise(ErrorCode::table_refused, objects_.where_axis, {objects_.reason});

@@ -26,24 +26,19 @@
 //   - While the node is being reset it is the other way round: everything belongs to the
 //     background, and the tick finds a device that neither hears nor says anything.
 
-#include "comp/realtime/instances.hpp"
 #include "firmware/canopen/device.hpp"
+#include "firmware/node/node_compensator.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "firmware/node/preemption.hpp"
 #include "firmware/node/storage.hpp"
 #include "firmware/node/table_download.hpp"
 #include "firmware/node/wire_scale.hpp"
+#include "hal/reset_cause.hpp"
 
 namespace volcomp::node {
 
-// Why the processor started.
-enum class ResetCause : std::uint8_t {
-  power_on = 0,
-  request = 1,   // by software, on purpose
-  watchdog = 2,  // nobody fed it
-  fault = 3,     // the processor met an instruction or an address it refused
-};
+using hal::ResetCause;
 
 class Node final : private canopen::Application {
  public:
@@ -57,8 +52,15 @@ class Node final : private canopen::Application {
   // A start that was not meant is told by an emergency.
   void power_on(std::uint64_t now_us, ResetCause cause = ResetCause::power_on);
   void receive(const hal::CanFrame& frame, std::uint64_t now_us) { device_.receive(frame, now_us); }
+  // Its parts, see canopen/device.hpp.
   [[nodiscard]] canopen::Device::Work work(const hal::CanFrame& frame) const {
     return device_.work(frame);
+  }
+  void receive_cyclic(const hal::CanFrame& frame, std::uint64_t now_us) {
+    device_.receive_cyclic(frame, now_us);
+  }
+  void receive_service(const hal::CanFrame& frame, std::uint64_t now_us) {
+    device_.receive_service(frame, now_us);
   }
   // At least every millisecond: deadlines, heartbeats, SDO timeouts, the scrub of the tables.
   void poll(std::uint64_t now_us) {
@@ -91,7 +93,7 @@ class Node final : private canopen::Application {
 
   [[nodiscard]] const canopen::Device& device() const { return device_; }
   [[nodiscard]] const NodeObjects& objects() const { return objects_; }
-  [[nodiscard]] const LoadedCompensator& compensator() const { return compensator_; }
+  [[nodiscard]] const NodeCompensator& compensator() const { return compensator_; }
 
  private:
   // What has arrived in this cycle, a bit per axis.
@@ -155,7 +157,7 @@ class Node final : private canopen::Application {
   std::array<canopen::Pdo, kTransmitPdos> transmit_{};
   Preemption* preemption_;
   canopen::Device device_;
-  LoadedCompensator compensator_{};
+  NodeCompensator compensator_{};
   TableDownload download_;
   Storage* storage_;
 

@@ -12,13 +12,11 @@
 #include <array>
 #include <cstdint>
 
-#include "comp/realtime/instances.hpp"
 #include "firmware/canopen/communication_objects.hpp"
 #include "firmware/canopen/pdo.hpp"
+#include "firmware/node/node_compensator.hpp"
 
 namespace volcomp::node {
-
-inline constexpr std::size_t kNodeAxes = LoadedCompensator::kAxes;
 
 template <class T>
 using PerAxis = std::array<T, kNodeAxes>;

@@ -5,18 +5,18 @@
 //   BoardPort port;  BoardClock clock;          // hal/can_port.hpp, hal/clock.hpp
 //   BoardSection section;  BoardWatchdog dog;   // hal/critical_section.hpp, hal/watchdog.hpp
 //
-//   auto& the_task() {  // made when main first asks for it: no constructor runs before main
-//     static NodeTask task(Board{port, clock, section, dog}, kNodeId, &storage);
-//     return task;
-//   }
-//   extern "C" void timer_handler() { the_task().on_timer_interrupt(); }  // every millisecond
+//   using Task = NodeTask<BoardPort, BoardClock, BoardSection, BoardWatchdog>;
+//   Task* task = nullptr;
+//   extern "C" void timer_handler() { task->on_timer_interrupt(); }  // every millisecond, say
 //
 //   int main() {
-//     the_task().power_on(board_reset_cause());  // loads and checks the stored tables
-//     dog.start();                               // bites after several ticks without food
+//     static Task the_task({port, clock, section, dog}, kNodeId, &storage);
+//     task = &the_task;
+//     task->power_on(board_reset_cause());  // loads and checks the stored tables
+//     dog.start();                          // bites after several ticks without food
 //     timer.start();
 //     for (;;) {
-//       if (!the_task().background_step()) wait_for_interrupt();
+//       if (!task->background_step()) wait_for_interrupt();
 //     }
 //   }
 //
@@ -102,17 +102,12 @@ class NodeTask final : private Preemption {
 
   // --- background
 
-  // One frame that waits, or the scrub. False: nothing is left to do until the next interrupt.
+  // One frame that waits, and the scrub when it is due. False: nothing is left to do until the next
+  // interrupt.
   bool background_step() {
     guardian_.alive();
-    const Guarded guarded(board_.section);
-    hal::CanFrame frame;
-    const bool waited = waiting_.pop(frame);
-    if (waited) {
-      node_.receive(frame, board_.clock.now_us());
-      --waiting_count_;
-    }
-    node_.poll_scrub(board_.clock.now_us());
+    serve();
+    scrub();
     return waiting_count_ != 0;
   }
 
@@ -153,6 +148,18 @@ class NodeTask final : private Preemption {
     --scopes_;
   }
 
+  void serve() {
+    const Guarded guarded(board_.section);
+    hal::CanFrame frame;
+    if (!waiting_.pop(frame)) return;
+    node_.receive(frame, board_.clock.now_us());
+    --waiting_count_;
+  }
+  void scrub() {
+    const Guarded guarded(board_.section);
+    node_.poll_scrub(board_.clock.now_us());
+  }
+
   // The background is neither in the middle of long work nor owes one for a frame.
   [[nodiscard]] bool undisturbed() const { return scopes_ == 0 && waiting_count_ == 0; }
 
@@ -168,10 +175,10 @@ class NodeTask final : private Preemption {
     hal::CanFrame frame;
     for (int i = 0; i < kMostFetched && board_.port.receive(frame); ++i) {
       const canopen::Device::Work work = node_.work(frame);
-      const bool now = work == canopen::Device::Work::cyclic ||
-                       (work == canopen::Device::Work::service && undisturbed());
-      if (now) {
-        node_.receive(frame, now_us);
+      if (work == canopen::Device::Work::cyclic) {
+        node_.receive_cyclic(frame, now_us);
+      } else if (work == canopen::Device::Work::service && undisturbed()) {
+        node_.receive_service(frame, now_us);
       } else if (waiting_.push(frame)) {
         ++waiting_count_;
       } else {

@@ -30,9 +30,14 @@ AbortCode TableDownload::begin(std::size_t announced, Span<std::uint8_t>& sink) 
   return AbortCode::none;
 }
 
+std::uint32_t TableDownload::name_of(Span<const std::uint8_t> image) const {
+  const Preemptible preemptible(preemption_);
+  return crc32(image);
+}
+
 void TableDownload::finish(std::size_t size) {
   objects_.staged_bytes = static_cast<std::uint32_t>(size);
-  objects_.staged_crc = crc32({image_.data(), size});
+  objects_.staged_crc = name_of({image_.data(), size});
   enter(TableState::received);
 }
 
@@ -66,18 +71,29 @@ AbortCode TableDownload::judge(const Status& status, TableState next) {
   return status.ok() ? AbortCode::none : AbortCode::general;
 }
 
+Status TableDownload::check(Span<const std::uint8_t> image) {
+  const Preemptible preemptible(preemption_);
+  return check_image(image, kNodeKnots, tables_);
+}
+
 AbortCode TableDownload::validate() {
-  Status status = check_image({image_.data(), objects_.staged_bytes}, kDefaultKnots, tables_);
+  Status status = check({image_.data(), objects_.staged_bytes});
   const std::uint32_t wanted = objects_.machine_id;
   if (status.ok() && wanted != 0 && tables_.provenance.machine_id != wanted)
     status = refuse(Reason::machine_mismatch);
   return judge(status, TableState::valid);
 }
 
+LoadedMachine<kNodeAxes> TableDownload::machine() const {
+  const Preemptible preemptible(preemption_);
+  return LoadedMachine<kNodeAxes>{make_runtime_chain(tables_.chain.description())};
+}
+
 // The first tables after a start decide which machine this is; later ones have to match.
 Status TableDownload::adopt_machine() {
-  const LoadedMachine<kNodeAxes> machine{make_runtime_chain(tables_.chain.description())};
-  if (same_chain(machine.chain, compensator_.machine().chain)) return {};
+  if (running_) return {};
+  const LoadedMachine<kNodeAxes> machine = this->machine();
+  if (running_ || same_chain(machine.chain, compensator_.machine().chain)) return {};
   if (machine.chain.axes > kNodeAxes) return refuse(Reason::too_many_axes);
   compensator_.restart(machine);
   objects_.active_crc = 0;
@@ -85,20 +101,26 @@ Status TableDownload::adopt_machine() {
   return {};
 }
 
-AbortCode TableDownload::arm(bool running) {
-  if (!running) {
-    const Status status = adopt_machine();
-    if (!status.ok()) return judge(status, TableState::armed);
-  }
-  const Status status =
-      compensator_.stage(tables_, tables_.chain.tool_point(), objects_.staged_crc);
+Status TableDownload::stage(std::uint32_t crc) {
+  const Preemptible preemptible(preemption_);
+  return compensator_.stage(tables_, tables_.chain.tool_point(), crc);
+}
+
+AbortCode TableDownload::arm() {
+  Status status = adopt_machine();
+  if (status.ok()) status = stage(objects_.staged_crc);
   return judge(status, TableState::armed);
 }
 
-AbortCode TableDownload::activate(bool running) {
+// Where no tick will come to take a request over.
+void TableDownload::settle() {
+  if (!running_) compensator_.settle();
+}
+
+AbortCode TableDownload::activate() {
   const AbortCode why = judge(compensator_.activate(), TableState::active);
   if (why != AbortCode::none) return why;
-  if (!running) compensator_.settle();
+  settle();
   const RuntimeChain& chain = compensator_.machine().chain;
   objects_.axes = chain.axes;
   objects_.axis_letters = {};
@@ -109,12 +131,12 @@ AbortCode TableDownload::activate(bool running) {
   return AbortCode::none;
 }
 
-AbortCode TableDownload::command(TableCommand command, bool running) {
+AbortCode TableDownload::command(TableCommand command) {
   if (command == TableCommand::none) return AbortCode::none;
   if (compensator_.pending()) return AbortCode::device_state;
   if (command == TableCommand::deactivate) {
     compensator_.deactivate();
-    if (!running) compensator_.settle();
+    settle();
     lost_active();
     return AbortCode::none;
   }
@@ -126,8 +148,8 @@ AbortCode TableDownload::command(TableCommand command, bool running) {
   if (objects_.staged_bytes == 0 || state() == TableState::receiving)
     return AbortCode::device_state;
   AbortCode why = validate();
-  if (why == AbortCode::none && command >= TableCommand::arm) why = arm(running);
-  if (why == AbortCode::none && command >= TableCommand::activate) why = activate(running);
+  if (why == AbortCode::none && command >= TableCommand::arm) why = arm();
+  if (why == AbortCode::none && command >= TableCommand::activate) why = activate();
   return why;
 }
 

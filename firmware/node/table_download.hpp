@@ -1,23 +1,30 @@
 #pragma once
 // Where a table image waits: downloaded, checked, folded, activated (2110h…2112h). One buffer: the
 // active tables themselves live in the compensator, so a download that fails costs nothing.
+//
+// On a board all of this is the background's. What takes long is done in preemptible scopes, which
+// read the image and write nothing but `tables_` and the spare half of the compensator.
 
 #include <array>
 
-#include "comp/realtime/instances.hpp"
 #include "firmware/canopen/abort_code.hpp"
+#include "firmware/node/node_compensator.hpp"
 #include "firmware/node/node_objects.hpp"
+#include "firmware/node/preemption.hpp"
 
 namespace volcomp::node {
 
 // An image of kNodeAxes axes with every knot used: header, machine, axes (comp/tables/image.hpp).
 inline constexpr std::size_t kImageCapacity =
-    96 + 160 * kMaxBodies + kNodeAxes * (64 + 48 * kDefaultKnots);
+    96 + 160 * kMaxBodies + kNodeAxes * (64 + 48 * kNodeKnots);
 
 class TableDownload {
  public:
-  TableDownload(NodeObjects& objects, LoadedCompensator& compensator)
-      : objects_(objects), compensator_(compensator) {}
+  // `running`: the compensator ticks, so the machine can no longer be exchanged. It may change in
+  // every preemptible scope.
+  TableDownload(NodeObjects& objects, NodeCompensator& compensator, const bool& running,
+                Preemption* preemption)
+      : objects_(objects), compensator_(compensator), running_(running), preemption_(preemption) {}
 
   // --- the DOMAIN object 2110h:01
 
@@ -30,10 +37,9 @@ class TableDownload {
 
   // --- 2111h
 
-  // `running`: the compensator ticks, so the machine can no longer be exchanged. Each command
-  // includes those before it that are still missing. Refuses device_state (nothing staged, or a
-  // download under way) and general (2112h says why).
-  canopen::AbortCode command(TableCommand command, bool running);
+  // Each command includes those before it that are still missing. Refuses device_state (nothing
+  // staged, or a download under way) and general (2112h says why).
+  canopen::AbortCode command(TableCommand command);
 
   // The compensator found its active tables damaged, or went back to none.
   void lost_active();
@@ -49,12 +55,21 @@ class TableDownload {
   void enter(TableState state) { objects_.table_state = static_cast<std::uint8_t>(state); }
   canopen::AbortCode judge(const Status& status, TableState next);
   canopen::AbortCode validate();
+  canopen::AbortCode arm();
+  canopen::AbortCode activate();
   Status adopt_machine();
-  canopen::AbortCode arm(bool running);
-  canopen::AbortCode activate(bool running);
+  void settle();
+
+  // --- what takes long
+  [[nodiscard]] std::uint32_t name_of(Span<const std::uint8_t> image) const;
+  Status check(Span<const std::uint8_t> image);
+  [[nodiscard]] LoadedMachine<kNodeAxes> machine() const;
+  Status stage(std::uint32_t crc);
 
   NodeObjects& objects_;
-  LoadedCompensator& compensator_;
+  NodeCompensator& compensator_;
+  const bool& running_;
+  Preemption* preemption_;
   std::array<std::uint8_t, kImageCapacity> image_{};
   TablesView tables_{};  // of the image, since it was last checked
 };

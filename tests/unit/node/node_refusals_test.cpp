@@ -104,7 +104,7 @@ TEST_F(NodeRefusals, TooFewKnots) {
 }
 
 TEST_F(NodeRefusals, MoreKnotsThanTheNodeHasRoomFor) {
-  put(image, axis_at(good, 1) + 16, 4, kDefaultKnots + 1);
+  put(image, axis_at(good, 1) + 16, 4, kNodeKnots + 1);
   expect_refused(resealed(image), Reason::too_many_knots, 'Y');
 }
 
