@@ -89,11 +89,15 @@ Status encode_image(const MachineTables& tables, Span<std::uint8_t> out, std::si
           w.f32(v);
       }
     }
-    w.u32(crc32({out.data() + start, w.at() - start}));
+    w.u32(crc32c({out.data() + start, w.at() - start}));
   }
   w.u32(crc32({out.data(), w.at()}));
   written = w.at();
   return {};
+}
+
+std::uint32_t image_crc(Span<const std::uint8_t> image) {
+  return image.size() < kCrcBytes ? 0 : crc32({image.data(), image.size() - kCrcBytes});
 }
 
 Status decode_image(Span<const std::uint8_t> image, std::size_t capacity, MachineTables& out) {

@@ -11,7 +11,8 @@
 //            constant error f64[6]
 //   axis     q0 i64 · pitch i64 · knots u32 · periodic u8 · direction f64[3] · forward
 //   f32[knots][6] · backward likewise ·
-//            crc32 u32 over this block, so that a damaged image can name the axis
+//            crc32c u32 over this block, so that a damaged image can name the axis (not crc32: the
+//            one at the end would not depend on the block any more, see crc32.hpp)
 //   end      crc32 u32 over everything before it
 
 #include "comp/span.hpp"
@@ -20,7 +21,7 @@
 
 namespace volcomp {
 
-inline constexpr std::uint16_t kImageVersion = 1;
+inline constexpr std::uint16_t kImageVersion = 2;
 
 // Bytes the image of these tables takes.
 [[nodiscard]] std::size_t image_size(const MachineTables& tables);
@@ -42,6 +43,9 @@ Status read_machine(Span<const std::uint8_t> image, MachineDescription& out);
 // check_image, then a copy. On refusal the content of `out` is unspecified: decode into a spare,
 // never into what is active.
 Status decode_image(Span<const std::uint8_t> image, std::size_t capacity, MachineTables& out);
+
+// The number that names an image: its closing CRC-32, computed again. 0 for fewer than 4 bytes.
+[[nodiscard]] std::uint32_t image_crc(Span<const std::uint8_t> image);
 
 // Where a stored float sits in an image: for diagnosis and for tests that damage it. travel 0 =
 // forward, 1 = backward.

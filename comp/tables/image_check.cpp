@@ -34,7 +34,7 @@ char damaged_axis(Bytes image, std::size_t axes, std::size_t bodies) {
     const std::size_t size = axis_bytes(knots);
     if (image.size() - at < size) return letter[a];
     const std::uint8_t* const axis = image.data() + at;
-    if (load_u32(axis + size - kCrcBytes) != crc32({axis, size - kCrcBytes})) return letter[a];
+    if (load_u32(axis + size - kCrcBytes) != crc32c({axis, size - kCrcBytes})) return letter[a];
     at += size;
   }
   return '\0';

@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-#include "comp/tables/crc32.hpp"
 #include "comp/tables/image.hpp"
 
 namespace volcomp::node {
@@ -32,7 +31,7 @@ AbortCode TableDownload::begin(std::size_t announced, Span<std::uint8_t>& sink) 
 
 std::uint32_t TableDownload::name_of(Span<const std::uint8_t> image) const {
   const Preemptible preemptible(preemption_);
-  return crc32(image);
+  return image_crc(image);
 }
 
 void TableDownload::finish(std::size_t size) {

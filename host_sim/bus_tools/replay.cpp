@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/tables/image.hpp"
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/bus_tools/comparison.hpp"
@@ -58,7 +58,7 @@ void check_tables(const std::vector<LoggedFrame>& log, std::size_t start, std::u
     throw UserError(fmt::format(
         "node {} began {}, the image given has CRC-32 {:08X}", node_id,
         had == 0 ? std::string("without tables") : fmt::format("with tables of CRC-32 {:08X}", had),
-        crc32({image.data(), image.size()})));
+        image_crc({image.data(), image.size()})));
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/tables/image.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/cli/commands.hpp"
@@ -31,7 +31,7 @@ NodeClient connect(const CanArguments& arguments) {
 }
 
 std::uint32_t crc_of(const std::vector<std::uint8_t>& image) {
-  return crc32({image.data(), image.size()});
+  return image_crc({image.data(), image.size()});
 }
 
 void send_with_progress(NodeClient& client, const std::vector<std::uint8_t>& image) {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/tables/image.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/data/user_error.hpp"
@@ -70,7 +70,7 @@ int build_tables(const BuildArguments& arguments) {
   fmt::print("first-order run-time model within {:.1f} nm of the exact chain\n",
              tables->model_bound_nm);
   fmt::print("{}: {} bytes, machine {}, CRC-32 {:08X}\n", arguments.out, image.size(), machine.id,
-             crc32({image.data(), image.size()}));
+             image_crc({image.data(), image.size()}));
   return 0;
 }
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "comp/realtime/tick_types.hpp"
-#include "comp/tables/crc32.hpp"
+#include "comp/tables/image.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
 
@@ -38,7 +38,7 @@ BusController::BusController(BusSettings settings, std::vector<std::uint8_t> ima
 
 void BusController::load_tables(std::vector<std::uint8_t> image) {
   image_ = std::move(image);
-  image_crc_ = crc32({image_.data(), image_.size()});
+  image_crc_ = image_crc({image_.data(), image_.size()});
   Station& node = stations_.back();
   if (node.phase == Station::Phase::running && !image_.empty()) queue_tables(node.channel);
 }

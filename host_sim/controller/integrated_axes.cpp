@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "comp/tables/crc32.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/machine_tables.hpp"
 #include "host_sim/data/user_error.hpp"
@@ -24,7 +23,7 @@ std::unique_ptr<LoadedCompensator> make_compensator(const CorrectionFile& settin
       std::make_unique<LoadedCompensator>(LoadedMachine<5>{make_runtime_chain(tables->machine)});
   require(compensator->configure(compensator_settings(settings)), "[correction]");
   const Vec3 tool = Eigen::Map<const Vec3>(tables->machine.tool_point.data());
-  const std::uint32_t crc = crc32({image.data(), image.size()});
+  const std::uint32_t crc = image_crc(image);
   require(compensator->stage(*tables, tool, crc), "table image");
   require(compensator->activate(), "table image");
   return compensator;

@@ -274,6 +274,23 @@ TEST_P(BusFault, NoStepAndFullRecovery) {
 INSTANTIATE_TEST_SUITE_P(Kinds, BusFault, ::testing::ValuesIn(faults()),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
+// The controller asks for the CRC of the active tables, and sends others.
+TEST(BusFaults, OtherTablesOfTheSameMachineComeIntoForce) {
+  BusWorld world(4);
+  world.run(300);
+  const node::NodeObjects& node = world.node();
+  const std::uint32_t crc = node.active_crc;
+  const std::uint32_t sequence = node.active_sequence;
+  world.controller().load_tables(bus_machine().other_image);
+  world.run(400);
+  EXPECT_NE(node.active_crc, crc);
+  EXPECT_EQ(node.active_sequence, sequence + 1);
+  world.controller().load_tables(bus_machine().image);
+  world.run(400);
+  EXPECT_EQ(node.active_crc, crc);
+  EXPECT_EQ(node.active_sequence, sequence);
+}
+
 std::uint64_t first_seed() {
   const char* text = std::getenv("VOLCOMP_FAULT_SEED");
   return text == nullptr ? 1000U : std::strtoull(text, nullptr, 10);

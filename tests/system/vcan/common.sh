@@ -61,7 +61,7 @@ lines_are() {
   [ "$(wc -l < "$2")" = "$1" ]
 }
 
-# crc32_of FILE: its CRC-32 in hexadecimal.
+# crc32_of IMAGE: the CRC-32 in hexadecimal that names it; its last four bytes hold the same.
 crc32_of() {
-  "$python" -c 'import sys, zlib; print("%08X" % zlib.crc32(open(sys.argv[1], "rb").read()))' "$1"
+  "$python" -c 'import sys, zlib; print("%08X" % zlib.crc32(open(sys.argv[1], "rb").read()[:-4]))' "$1"
 }

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/tables/image.hpp"
 #include "host_sim/bus_tools/replay.hpp"
 #include "host_sim/bus_tools/replayed_node.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
@@ -212,7 +212,7 @@ TEST(Replay, StoredTablesHaveToBeGiven) {
 
   EXPECT_THAT(refusal_of(bench.log), HasSubstr("give them with --image"));
   EXPECT_THAT(refusal_of(bench.log),
-              HasSubstr(fmt::format("{:08X}", crc32({image.data(), image.size()}))));
+              HasSubstr(fmt::format("{:08X}", image_crc({image.data(), image.size()}))));
   std::vector<std::uint8_t> other = image;
   other.back() ^= 1U;
   EXPECT_THAT(refusal_of(bench.log, other), HasSubstr("the image given"));

@@ -12,11 +12,6 @@ namespace {
 constexpr std::size_t kAxisHeader = 45;  // q0, pitch, knots, periodic, direction
 constexpr std::size_t kCrc = 4;
 
-void seal(Bytes& image, std::size_t from, std::size_t crc_at) {
-  const std::uint32_t crc = crc32({image.data() + from, crc_at - from});
-  canopen::store_le(&image[crc_at], kCrc, crc);
-}
-
 hal::CanFrame frame(unsigned id, std::uint8_t size) {
   hal::CanFrame f;
   f.id = static_cast<std::uint16_t>(id);
@@ -38,9 +33,13 @@ std::size_t axis_at(const MachineTables& tables, std::size_t axis) {
 }
 
 void reseal(Bytes& image, const MachineTables& tables) {
-  for (std::size_t a = 0; a < NodeBench::kDrives; ++a)
-    seal(image, axis_at(tables, a), image_value_offset(tables, a, 2, 0, 0));
-  seal(image, 0, image.size() - kCrc);
+  for (std::size_t a = 0; a < NodeBench::kDrives; ++a) {
+    const std::size_t begin = axis_at(tables, a);
+    const std::size_t end = image_value_offset(tables, a, 2, 0, 0);
+    canopen::store_le(&image[end], kCrc, crc32c({&image[begin], end - begin}));
+  }
+  const std::size_t end = image.size() - kCrc;
+  canopen::store_le(&image[end], kCrc, crc32({image.data(), end}));
 }
 
 MachineTables bench_tables(std::uint64_t seed) {

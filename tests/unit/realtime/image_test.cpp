@@ -32,12 +32,13 @@ std::uint32_t reflected(std::uint32_t value, int bits) {
   return out;
 }
 
-std::uint32_t slow_crc(const std::uint8_t* data, std::size_t size) {
+std::uint32_t slow_crc(const std::uint8_t* data, std::size_t size,
+                       std::uint32_t polynomial = 0x04C11DB7U) {
   std::uint32_t crc = 0xFFFFFFFFU;
   for (std::size_t i = 0; i < size; ++i) {
     crc ^= reflected(data[i], 8) << 24;
     for (int bit = 0; bit < 8; ++bit)
-      crc = (crc & 0x80000000U) != 0 ? (crc << 1) ^ 0x04C11DB7U : crc << 1;
+      crc = (crc & 0x80000000U) != 0 ? (crc << 1) ^ polynomial : crc << 1;
   }
   return ~reflected(crc, 32);
 }
@@ -70,6 +71,8 @@ TEST(Crc32, CheckValueAndReference) {
   const Bytes nine{'1', '2', '3', '4', '5', '6', '7', '8', '9'};
   EXPECT_EQ(crc32({nine.data(), nine.size()}), 0xCBF43926U);
   EXPECT_EQ(crc32({}), 0U);
+  EXPECT_EQ(crc32c({nine.data(), nine.size()}), 0xE3069283U);
+  EXPECT_EQ(crc32c({}), 0U);
   Random random(90);
   SCOPED_TRACE(random.trace());
   for (int n = 0; n < 200; ++n) {
@@ -77,7 +80,30 @@ TEST(Crc32, CheckValueAndReference) {
     for (std::uint8_t& b : bytes)
       b = static_cast<std::uint8_t>(random.integer(0, 255));
     ASSERT_EQ(crc32({bytes.data(), bytes.size()}), slow_crc(bytes.data(), bytes.size()));
+    ASSERT_EQ(crc32c({bytes.data(), bytes.size()}),
+              slow_crc(bytes.data(), bytes.size(), 0x1EDC6F41U));
   }
+}
+
+// Whatever the tables hold: the CRC-32 of all of an image would not.
+TEST(Image, IsNamedByItsClosingCrc) {
+  Random random(92);
+  SCOPED_TRACE(random.trace());
+  const Bytes a = encode(any_tables(random));
+  Bytes b = encode(any_tables(random));
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_NE(image_crc({a.data(), a.size()}), image_crc({b.data(), b.size()}));
+  EXPECT_EQ(crc32({a.data(), a.size()}), crc32({b.data(), b.size()}));
+  EXPECT_EQ(image_crc({a.data(), a.size()}), slow_crc(a.data(), a.size() - 4));
+  EXPECT_EQ(image_crc({a.data(), 3}), 0U);
+
+  // Nor can an image be made of two: axis X of one, the rest of another, all of it intact.
+  const MachineTables layout = any_tables(random);
+  const auto x = static_cast<std::ptrdiff_t>(image_value_offset(layout, 0, 0, 0, 0));
+  const auto y = static_cast<std::ptrdiff_t>(image_value_offset(layout, 1, 0, 0, 0));
+  std::copy(a.begin() + x, a.begin() + y, b.begin() + x);
+  auto out = std::make_unique<MachineTables>();
+  EXPECT_EQ(decode(b, *out).reason, Reason::crc_mismatch);
 }
 
 TEST(Image, RoundTripIsBitExact) {
