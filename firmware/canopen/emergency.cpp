@@ -17,6 +17,8 @@ const char* sentence(ErrorCode code) {
   switch (code) {
     case ErrorCode::none:
       return "No error.";
+    case ErrorCode::store_failed:
+      return "Parameters and tables could not be saved or forgotten; what was stored stays.";
     case ErrorCode::unexpected_reset:
       return "The device was restarted by its watchdog or by a fault.";
     case ErrorCode::background_overdue:

@@ -13,6 +13,7 @@ namespace volcomp::canopen {
 // Error codes of CiA 301 table 26 and of this device.
 enum class ErrorCode : std::uint16_t {
   none = 0x0000,
+  store_failed = 0x5530,          // 1010h or 1011h: non-volatile memory; 2600h:0C says why
   unexpected_reset = 0x6010,      // CiA 402: software reset (watchdog); first byte: ResetCause
   background_overdue = 0x6100,    // internal software: the background hangs
   parameters_lost = 0x6310,       // 1010h: stored parameters damaged

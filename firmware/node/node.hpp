@@ -147,6 +147,9 @@ class Node final : private canopen::Application {
   // --- store (node_store.cpp)
   canopen::AbortCode run_store(Span<const std::uint8_t> signature);
   canopen::AbortCode run_restore(Span<const std::uint8_t> signature);
+  StoreResult save_record(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image);
+  StoreResult erase_records();
+  canopen::AbortCode report_store(StoreResult result);
   void load_stored(bool application);
   std::size_t collect_parameters();
   void apply_parameters(Span<const std::uint8_t> stored, bool application);

@@ -9,6 +9,7 @@ namespace volcomp::node {
 
 using canopen::AbortCode;
 using canopen::Entry;
+using canopen::ErrorCode;
 using canopen::Pdo;
 using canopen::PdoKind;
 using canopen::PdoParameters;
@@ -86,15 +87,37 @@ AbortCode Node::run_store(Span<const std::uint8_t> signature) {
   const bool image_is_gone = compensator_.active() && download_.active_image().empty();
   if (image_is_gone) return AbortCode::local_control;
   const std::size_t size = collect_parameters();
-  const bool saved = storage_->save({parameters_.data(), size}, download_.active_image());
-  return saved ? AbortCode::none : AbortCode::hardware;
+  return report_store(save_record({parameters_.data(), size}, download_.active_image()));
 }
 
 AbortCode Node::run_restore(Span<const std::uint8_t> signature) {
   if (!signed_with(signature, kLoad)) return AbortCode::cannot_store;
   if (storage_ == nullptr) return AbortCode::hardware;
   if (device_.state() == canopen::NmtState::operational) return AbortCode::device_state;
-  return storage_->erase() ? AbortCode::none : AbortCode::hardware;
+  return report_store(erase_records());
+}
+
+StoreResult Node::save_record(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) {
+  const Preemptible preemptible(preemption_);
+  return storage_->save(parameters, image);
+}
+
+StoreResult Node::erase_records() {
+  const Preemptible preemptible(preemption_);
+  return storage_->erase();
+}
+
+// Only the latest answer stands, and one good answer takes back every complaint about the store.
+AbortCode Node::report_store(StoreResult result) {
+  objects_.store_result = static_cast<std::uint8_t>(result);
+  canopen::Emergency& emergency = device_.emergency();
+  for (std::uint8_t source = 0; source < kStoreResults; ++source) {
+    emergency.clear(ErrorCode::store_failed, source);
+    if (result == StoreResult::done) emergency.clear(ErrorCode::parameters_lost, source);
+  }
+  if (result == StoreResult::done) return AbortCode::none;
+  emergency.raise(ErrorCode::store_failed, objects_.store_result);
+  return AbortCode::hardware;
 }
 
 std::size_t Node::collect_parameters() {
@@ -148,14 +171,11 @@ void Node::load_stored(bool application) {
   if (storage_ == nullptr) return;
   Span<std::uint8_t> parameters{parameters_.data(), parameters_.size()};
   Span<std::uint8_t> image = application ? download_.buffer() : Span<std::uint8_t>{};
-  const Storage::Found found = storage_->load(parameters, image);
+  const StoreResult found = storage_->load(parameters, image);
   objects_.stored = static_cast<std::uint8_t>(found);
-  const bool usable = found == Storage::Found::newest || found == Storage::Found::older;
-  if (found == Storage::Found::damaged || found == Storage::Found::older) {
-    device_.emergency().raise(canopen::ErrorCode::parameters_lost,
-                              static_cast<std::uint8_t>(found));
-  }
-  if (!usable) return;
+  if (found != StoreResult::loaded && found != StoreResult::nothing_stored)
+    device_.emergency().raise(ErrorCode::parameters_lost, objects_.stored);
+  if (found != StoreResult::loaded && found != StoreResult::loaded_older) return;
   apply_parameters({parameters.data(), parameters.size()}, application);
   if (!application || image.empty()) return;
   download_.finish(image.size());

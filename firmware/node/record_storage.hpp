@@ -11,27 +11,25 @@ class RecordStorage final : public Storage {
  public:
   explicit RecordStorage(Blocks& blocks) : store_(blocks) {}
 
-  bool save(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) override {
-    return store_.save(parameters, image) == StoreResult::done;
+  StoreResult save(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) override {
+    return store_.save(parameters, image);
   }
 
-  Found load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) override {
-    const StoreResult result = store_.load();
-    if (result == StoreResult::nothing_stored) return Found::nothing;
-    if (result != StoreResult::loaded && result != StoreResult::loaded_older) return Found::damaged;
-    std::size_t parameter_bytes = 0;
-    std::size_t image_bytes = 0;
-    const bool wants_image = image.data() != nullptr;
-    if (store_.read_parameters(parameters, parameter_bytes) != StoreResult::done ||
-        (wants_image && store_.read_image(image, image_bytes) != StoreResult::done)) {
-      return Found::damaged;
-    }
-    parameters = {parameters.data(), parameter_bytes};
-    image = {image.data(), image_bytes};
-    return result == StoreResult::loaded ? Found::newest : Found::older;
+  StoreResult load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) override {
+    const StoreResult found = store_.load();
+    if (found != StoreResult::loaded && found != StoreResult::loaded_older) return found;
+    std::size_t size = 0;
+    const StoreResult first = store_.read_parameters(parameters, size);
+    if (first != StoreResult::done) return first;
+    parameters = {parameters.data(), size};
+    if (image.empty()) return found;
+    const StoreResult second = store_.read_image(image, size);
+    if (second != StoreResult::done) return second;
+    image = {image.data(), size};
+    return found;
   }
 
-  bool erase() override { return store_.erase_all() == StoreResult::done; }
+  StoreResult erase() override { return store_.erase_all(); }
 
  private:
   RecordStore<Blocks> store_;

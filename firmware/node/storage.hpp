@@ -1,25 +1,39 @@
 #pragma once
 // Where a node keeps its parameters and tables while there is no power, as the node sees it.
 
+#include <cstdint>
+
 #include "comp/span.hpp"
 
 namespace volcomp::node {
 
+// How a store answers; a node reports the value of its start in 2600h:0B and the last answer to
+// 1010h or 1011h in 2600h:0C.
+enum class [[nodiscard]] StoreResult : std::uint8_t{
+    nothing_stored = 0, loaded = 1,
+    loaded_older = 2,  // beside it is what may have been a newer record
+    damaged = 3,       // there was something, none of it can be used
+    done = 4,          // saved, read or erased as asked
+    too_large = 5,      buffer_too_small = 6, read_failed = 7, erase_failed = 8, write_failed = 9,
+    verify_failed = 10,  // what was read back is not what was written
+};
+
+inline constexpr std::uint8_t kStoreResults = 11;
+
+// One plain sentence for a person.
+[[nodiscard]] const char* sentence(StoreResult result);
+
 class Storage {
  public:
-  // Both parts or neither. False: the device reported a failure, what was stored before is intact.
-  virtual bool save(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) = 0;
+  // Both parts or neither: done; anything else, and what was stored before is intact.
+  virtual StoreResult save(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) = 0;
 
-  enum class Found : std::uint8_t {
-    nothing = 0,
-    newest = 1,
-    older = 2,    // the newest was damaged
-    damaged = 3,  // there was something, none of it can be used
-  };
-  // Reads into the given memory; the sizes become what was read.
-  virtual Found load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) = 0;
+  // Reads into the given memory, and the sizes become what was read: loaded or loaded_older.
+  // Anything else says why there is nothing to use. An empty `image` is not wanted.
+  virtual StoreResult load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) = 0;
 
-  virtual bool erase() = 0;
+  // done, or why something may be left.
+  virtual StoreResult erase() = 0;
 
  protected:
   Storage() = default;

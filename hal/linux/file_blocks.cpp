@@ -15,10 +15,6 @@ namespace {
 constexpr std::size_t kChunkBytes = 1024;  // on the stack
 using Chunk = std::array<std::uint8_t, kChunkBytes>;
 
-bool inside(std::size_t at, std::size_t size) {
-  return at <= FileBlocks::kBytes && size <= FileBlocks::kBytes - at;
-}
-
 // The system may move fewer bytes than asked for; every round moves at least one.
 bool read_all(int descriptor, std::size_t at, Span<std::uint8_t> out) {
   for (std::size_t done = 0; done < out.size();) {
@@ -75,14 +71,17 @@ void FileBlocks::close() {
   descriptor_ = -1;
 }
 
-bool FileBlocks::read(std::size_t at, Span<std::uint8_t> out) const {
-  return inside(at, out.size()) && descriptor_ >= 0 && read_all(descriptor_, at, out);
+BlockRead FileBlocks::read(std::size_t at, Span<std::uint8_t> out) const {
+  const bool done =
+      is_inside<FileBlocks>(at, out.size()) && descriptor_ >= 0 && read_all(descriptor_, at, out);
+  return done ? BlockRead::done : BlockRead::failed;
 }
 
-// write() and erase() change the file, if not the object.
+// program() and erase() change the file, if not the object.
 // NOLINTNEXTLINE(readability-make-member-function-const)
-bool FileBlocks::write(std::size_t at, Span<const std::uint8_t> bytes) {
-  if (!inside(at, bytes.size()) || descriptor_ < 0 || !only_clears_bits(at, bytes)) return false;
+bool FileBlocks::program(std::size_t at, Span<const std::uint8_t> bytes) {
+  if (!is_whole_units<FileBlocks>(at, bytes.size()) || descriptor_ < 0) return false;
+  if (!all_erased(at, bytes.size())) return false;
   return write_all(descriptor_, at, bytes) && ::fdatasync(descriptor_) == 0;
 }
 
@@ -90,7 +89,7 @@ bool FileBlocks::write(std::size_t at, Span<const std::uint8_t> bytes) {
 bool FileBlocks::erase(std::size_t sector) {
   if (sector >= kSectors || descriptor_ < 0) return false;
   Chunk erased{};
-  erased.fill(0xFF);
+  erased.fill(kErasedByte);
   for (std::size_t at = 0; at < kSectorBytes; at += kChunkBytes) {
     if (!write_all(descriptor_, sector * kSectorBytes + at, {erased.data(), erased.size()}))
       return false;
@@ -98,14 +97,12 @@ bool FileBlocks::erase(std::size_t sector) {
   return ::fdatasync(descriptor_) == 0;
 }
 
-bool FileBlocks::only_clears_bits(std::size_t at, Span<const std::uint8_t> bytes) const {
+bool FileBlocks::all_erased(std::size_t at, std::size_t size) const {
   Chunk present{};
-  for (std::size_t done = 0; done < bytes.size(); done += kChunkBytes) {
-    const std::size_t n = std::min(kChunkBytes, bytes.size() - done);
+  for (std::size_t done = 0; done < size; done += kChunkBytes) {
+    const std::size_t n = std::min(kChunkBytes, size - done);
     if (!read_all(descriptor_, at + done, {present.data(), n})) return false;
-    for (std::size_t i = 0; i < n; ++i) {
-      if ((present[i] & bytes[done + i]) != bytes[done + i]) return false;
-    }
+    if (!is_erased({present.data(), n})) return false;
   }
   return true;
 }

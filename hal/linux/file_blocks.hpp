@@ -1,18 +1,20 @@
 #pragma once
 // The block device of hal/block_device.hpp over a file, for a node that runs as a Linux process.
-// Behaves like flash: erased bytes are 0xFF and writing can only clear bits. A write that would set
-// one is refused whole, because it is a mistake of the store above.
+// Behaves like the flash of a controller: a program() that is not of whole, erased units is refused
+// whole, because it is a mistake of the store above.
 
 #include <cstddef>
 #include <cstdint>
 
 #include "comp/span.hpp"
+#include "hal/block_device.hpp"
 #include "hal/linux/open_status.hpp"
 
 namespace volcomp::hal {
 
 class FileBlocks {
  public:
+  static constexpr std::size_t kUnitBytes = 32;
   static constexpr std::size_t kSectorBytes = std::size_t{64} * 1024;
   static constexpr std::size_t kSectors = 2;
   static constexpr std::size_t kBytes = kSectorBytes * kSectors;
@@ -28,16 +30,16 @@ class FileBlocks {
   OpenStatus open(const char* path);
   void close();
 
-  // All false when the file is closed, the range leaves the device or the system reports an error.
-  // write() and erase() return when the data are on the medium.
-  bool read(std::size_t at, Span<std::uint8_t> out) const;
-  bool write(std::size_t at, Span<const std::uint8_t> bytes);
+  // All fail when the file is closed, the range leaves the device or the system reports an error.
+  // program() and erase() return when the data are on the medium.
+  BlockRead read(std::size_t at, Span<std::uint8_t> out) const;
+  bool program(std::size_t at, Span<const std::uint8_t> bytes);
   bool erase(std::size_t sector);
 
  private:
   [[nodiscard]] OpenStatus attach(const char* path);
   [[nodiscard]] OpenStatus create();
-  [[nodiscard]] bool only_clears_bits(std::size_t at, Span<const std::uint8_t> bytes) const;
+  [[nodiscard]] bool all_erased(std::size_t at, std::size_t size) const;
 
   int descriptor_ = -1;
 };

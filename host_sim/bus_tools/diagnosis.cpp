@@ -74,7 +74,10 @@ void read_counters(NodeClient& client, Diagnosis& d) {
   d.sync_foreign = counter(8);
   d.activations = counter(9);
   d.rejections = counter(10);
-  d.stored = client.read_value<std::uint8_t>({0x2600, 11}, "result of reading the store");
+  d.stored = static_cast<node::StoreResult>(
+      client.read_value<std::uint8_t>({0x2600, 11}, "result of reading the store"));
+  d.saved = static_cast<node::StoreResult>(
+      client.read_value<std::uint8_t>({0x2600, 12}, "result of the last save"));
 }
 
 }  // namespace

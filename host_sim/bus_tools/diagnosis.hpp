@@ -10,6 +10,7 @@
 
 #include "comp/realtime/tick_types.hpp"
 #include "firmware/node/node_objects.hpp"
+#include "firmware/node/storage.hpp"
 #include "host_sim/bus_tools/node_client.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 
@@ -47,7 +48,8 @@ struct Diagnosis {
   std::uint32_t sync_foreign = 0;
   std::uint32_t activations = 0;
   std::uint32_t rejections = 0;
-  std::uint8_t stored = 0;          // node::Storage::Found
+  node::StoreResult stored{};       // of the start
+  node::StoreResult saved{};        // of the last save or restore; nothing_stored: there was none
   std::vector<AxisDiagnosis> axes;  // those with a drive
 };
 

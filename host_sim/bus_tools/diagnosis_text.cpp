@@ -88,19 +88,8 @@ const char* words(node::TableState state) {
   return "unknown";
 }
 
-const char* store_words(std::uint8_t found) {
-  using Found = node::Storage::Found;
-  switch (static_cast<Found>(found)) {
-    case Found::nothing:
-      return "was empty or is not there";
-    case Found::newest:
-      return "was read";
-    case Found::older:
-      return "the newest record was damaged, the one before it was read";
-    case Found::damaged:
-      return "was damaged, nothing could be read";
-  }
-  return "unknown";
+const char* saved_words(node::StoreResult result) {
+  return result == node::StoreResult::nothing_stored ? "There was none." : sentence(result);
 }
 
 std::string tables_line(const Diagnosis& d) {
@@ -199,6 +188,10 @@ std::string describe_error(std::uint32_t field) {
     case ErrorCode::offset_not_confirmed:
       where = fmt::format("axis {}: ", source);
       break;
+    case ErrorCode::store_failed:
+    case ErrorCode::parameters_lost:
+      where = fmt::format("{} ", node::sentence(static_cast<node::StoreResult>(source)));
+      break;
     default:
       break;
   }
@@ -217,7 +210,8 @@ std::string describe(const Diagnosis& d) {
   line("image last sent:", words(d.table_state));
   if (!d.refusal.empty()) line("last refusal:", d.refusal);
   line("machine:", machine_line(d));
-  line("store at the start:", store_words(d.stored));
+  line("store at the start:", sentence(d.stored));
+  line("last save or restore:", saved_words(d.saved));
   line("cycles:", fmt::format("{}, {} of them incomplete at the deadline, {} cut short by SYNC",
                               d.cycles, d.deadline_missed, d.cycles_skipped));
   line("SYNC:", fmt::format("{} missed, {} of another producer", d.sync_missed, d.sync_foreign));
@@ -261,7 +255,8 @@ nlohmann::json to_json(const Diagnosis& d) {
           {"sync_foreign", d.sync_foreign},
           {"activations", d.activations},
           {"rejections", d.rejections},
-          {"stored", store_words(d.stored)},
+          {"stored", sentence(d.stored)},
+          {"saved", saved_words(d.saved)},
           {"axes", axes}};
 }
 

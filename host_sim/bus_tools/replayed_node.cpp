@@ -7,6 +7,9 @@
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
+
+using node::StoreResult;
+
 namespace {
 
 // What a node asks of its surroundings: poll() at least every millisecond.
@@ -22,23 +25,24 @@ void fill(Span<std::uint8_t>& target, const std::vector<std::uint8_t>& source) {
 
 }  // namespace
 
-bool ImageStorage::save(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) {
+StoreResult ImageStorage::save(Span<const std::uint8_t> parameters,
+                               Span<const std::uint8_t> image) {
   parameters_.assign(parameters.begin(), parameters.end());
   image_.assign(image.begin(), image.end());
-  return true;
+  return StoreResult::done;
 }
 
-node::Storage::Found ImageStorage::load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) {
-  if (parameters_.empty() && image_.empty()) return Found::nothing;
+StoreResult ImageStorage::load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) {
+  if (parameters_.empty() && image_.empty()) return StoreResult::nothing_stored;
   fill(parameters, parameters_);
   fill(image, image_);
-  return Found::newest;
+  return StoreResult::loaded;
 }
 
-bool ImageStorage::erase() {
+StoreResult ImageStorage::erase() {
   parameters_.clear();
   image_.clear();
-  return true;
+  return StoreResult::done;
 }
 
 ReplayedNode::ReplayedNode(std::uint8_t node_id, std::vector<std::uint8_t> stored_image,

@@ -19,9 +19,10 @@ class ImageStorage final : public node::Storage {
  public:
   explicit ImageStorage(std::vector<std::uint8_t> image) : image_(std::move(image)) {}
 
-  bool save(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) override;
-  Found load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) override;
-  bool erase() override;
+  node::StoreResult save(Span<const std::uint8_t> parameters,
+                         Span<const std::uint8_t> image) override;
+  node::StoreResult load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) override;
+  node::StoreResult erase() override;
 
  private:
   std::vector<std::uint8_t> parameters_;
@@ -46,9 +47,9 @@ class ReplayedNode final : public ReplaySubject {
   [[nodiscard]] hal::CanFrame status() const;
   [[nodiscard]] bool status_every_cycle() const;
   [[nodiscard]] canopen::NmtState state() const { return node_->device().state(); }
-  [[nodiscard]] std::uint32_t active_crc() const { return node_->objects().active_crc; }
   // When its next deadline is; UINT64_MAX: there is none.
   [[nodiscard]] std::uint64_t deadline_us() const { return node_->deadline_us(); }
+  [[nodiscard]] std::uint32_t active_crc() const { return node_->objects().active_crc; }
 
  private:
   [[nodiscard]] const canopen::Pdo& status_pdo() const;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware/node/storage.hpp"
 #include "firmware/node/table_download.hpp"
 #include "host_sim/data/user_error.hpp"
 
@@ -32,6 +33,12 @@ void command(NodeClient& client, TableCommand what, const char* name) {
                         refused.code);
     throw;
   }
+}
+
+std::string why_not_saved(NodeClient& client) {
+  const auto result = static_cast<node::StoreResult>(
+      client.read_value<std::uint8_t>({0x2600, 12}, "result of the save"));
+  return result == node::StoreResult::nothing_stored ? "the node has no store" : sentence(result);
 }
 
 }  // namespace
@@ -78,9 +85,8 @@ void store_all(NodeClient& client) {
                                     client.node_id()),
                         refused.code);
     if (refused.code == AbortCode::hardware)
-      throw NodeRefused(
-          fmt::format("node {}: saving: the node has no working store", client.node_id()),
-          refused.code);
+      throw NodeRefused(fmt::format("node {}: saving: {}", client.node_id(), why_not_saved(client)),
+                        refused.code);
     throw;
   }
 }

@@ -80,6 +80,7 @@ ValueNames node_states() {
 ValueNames error_codes() {
   using canopen::ErrorCode;
   return {named(ErrorCode::none, "error gone"),
+          named(ErrorCode::store_failed, "saving failed"),
           named(ErrorCode::unexpected_reset, "restarted by watchdog or fault"),
           named(ErrorCode::background_overdue, "background hangs"),
           named(ErrorCode::parameters_lost, "stored parameters damaged"),

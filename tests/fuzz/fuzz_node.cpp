@@ -44,11 +44,12 @@ std::vector<std::uint8_t> make_image() {
 // Three axes on drives 1, 2, 3, SYNC with counter, and tables: what a configured node has stored.
 class Stored final : public Storage {
  public:
-  bool save(Span<const std::uint8_t> /*parameters*/, Span<const std::uint8_t> /*image*/) override {
-    return true;
+  StoreResult save(Span<const std::uint8_t> /*parameters*/,
+                   Span<const std::uint8_t> /*image*/) override {
+    return StoreResult::done;
   }
-  bool erase() override { return true; }
-  Found load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) override {
+  StoreResult erase() override { return StoreResult::done; }
+  StoreResult load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) override {
     static const std::vector<std::uint8_t> kImage = make_image();
     static const std::vector<std::uint8_t> kParameters{
         0x06, 0x10, 0, 4, 0xD0, 0x07, 0,    0,  // 1006h = 2000 us
@@ -57,7 +58,7 @@ class Stored final : public Storage {
         0x10, 0x20, 2, 1, 2,    0x10, 0x20, 3, 1, 3};
     fill(kParameters, parameters);
     if (image.data() != nullptr) fill(kImage, image);
-    return Found::newest;
+    return StoreResult::loaded;
   }
 
  private:

@@ -13,6 +13,7 @@ namespace volcomp::test {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
+using hal::BlockRead;
 using hal::FileBlocks;
 using hal::OpenResult;
 static_assert(hal::IsBlockDevice<FileBlocks>::value);
@@ -38,8 +39,8 @@ class FileBlocksTest : public ::testing::Test {
        ".flash");
 };
 
-bool write(FileBlocks& blocks, std::size_t at, const Bytes& bytes) {
-  return blocks.write(at, {bytes.data(), bytes.size()});
+bool program(FileBlocks& blocks, std::size_t at, const Bytes& bytes) {
+  return blocks.program(at, {bytes.data(), bytes.size()});
 }
 
 TEST_F(FileBlocksTest, MissingFileBecomesAnErasedOne) {
@@ -58,49 +59,61 @@ TEST_F(FileBlocksTest, EmptyFileBecomesAnErasedOne) {
 TEST_F(FileBlocksTest, WhatWasWrittenIsThereAfterReopening) {
   Random random;
   SCOPED_TRACE(random.trace());
-  Bytes written(5000);
+  Bytes written(5024);
   for (std::uint8_t& byte : written)
     byte = static_cast<std::uint8_t>(random.integer(0, 255));
-  const std::size_t at = FileBlocks::kSectorBytes - 2500;
+  const std::size_t at = FileBlocks::kSectorBytes - 2496;
   {
     FileBlocks blocks;
     ASSERT_EQ(open(blocks), OpenResult::ok);
-    ASSERT_TRUE(write(blocks, at, written));
+    ASSERT_TRUE(program(blocks, at, written));
   }
   FileBlocks blocks;
   ASSERT_EQ(open(blocks), OpenResult::ok);
   Bytes read(written.size());
-  ASSERT_TRUE(blocks.read(at, read));
+  ASSERT_EQ(blocks.read(at, read), BlockRead::done);
   EXPECT_EQ(read, written);
 }
 
-TEST_F(FileBlocksTest, WritingChangesOnlyTheBytesGiven) {
+TEST_F(FileBlocksTest, ProgrammingChangesOnlyTheUnitsGiven) {
   FileBlocks blocks;
   ASSERT_EQ(open(blocks), OpenResult::ok);
-  ASSERT_TRUE(write(blocks, 7, {1, 2, 3}));
+  ASSERT_TRUE(program(blocks, 64, Bytes(32, 0x5A)));
   Bytes expected(FileBlocks::kBytes, 0xFF);
-  std::copy_n(Bytes{1, 2, 3}.begin(), 3, expected.begin() + 7);
+  std::fill_n(expected.begin() + 64, 32, std::uint8_t{0x5A});
   EXPECT_EQ(content(), expected);
+  Bytes across(3);
+  ASSERT_EQ(blocks.read(94, across), BlockRead::done);
+  EXPECT_EQ(across, Bytes({0x5A, 0x5A, 0xFF}));
 }
 
 TEST_F(FileBlocksTest, EraseRestoresOneSectorOnly) {
   FileBlocks blocks;
   ASSERT_EQ(open(blocks), OpenResult::ok);
-  ASSERT_TRUE(write(blocks, 0, Bytes(FileBlocks::kBytes, 0x00)));
+  ASSERT_TRUE(program(blocks, 0, Bytes(FileBlocks::kBytes, 0x00)));
   ASSERT_TRUE(blocks.erase(0));
   Bytes expected(FileBlocks::kBytes, 0x00);
   std::fill_n(expected.begin(), FileBlocks::kSectorBytes, std::uint8_t{0xFF});
   EXPECT_EQ(content(), expected);
 }
 
-TEST_F(FileBlocksTest, WriteThatWouldSetABitChangesNothing) {
+TEST_F(FileBlocksTest, AUnitIsProgrammedOnceAfterAnErase) {
   FileBlocks blocks;
   ASSERT_EQ(open(blocks), OpenResult::ok);
-  ASSERT_TRUE(write(blocks, 3000, {0xF0}));
+  ASSERT_TRUE(program(blocks, 3200, Bytes(32, 0xF0)));
   const Bytes before = content();
-  EXPECT_FALSE(write(blocks, 0, Bytes(3001, 0x0F)));  // only its last byte is at fault
+  EXPECT_FALSE(program(blocks, 0, Bytes(3232, 0x00)));  // only its last unit is at fault
   EXPECT_EQ(content(), before);
-  EXPECT_TRUE(write(blocks, 3000, {0x30}));
+  ASSERT_TRUE(blocks.erase(0));
+  EXPECT_TRUE(program(blocks, 0, Bytes(3232, 0x00)));
+}
+
+TEST_F(FileBlocksTest, OnlyWholeUnits) {
+  FileBlocks blocks;
+  ASSERT_EQ(open(blocks), OpenResult::ok);
+  EXPECT_FALSE(program(blocks, 0, Bytes(31)));
+  EXPECT_FALSE(program(blocks, 16, Bytes(32)));
+  EXPECT_EQ(content(), Bytes(FileBlocks::kBytes, 0xFF));
 }
 
 TEST_F(FileBlocksTest, FileOfAnotherSizeIsRefusedAndLeftAlone) {
@@ -109,7 +122,7 @@ TEST_F(FileBlocksTest, FileOfAnotherSizeIsRefusedAndLeftAlone) {
   EXPECT_EQ(open(blocks), OpenResult::wrong_size);
   EXPECT_EQ(content().size(), std::string("a letter to somebody").size());
   Bytes one(1);
-  EXPECT_FALSE(blocks.read(0, one));
+  EXPECT_EQ(blocks.read(0, one), BlockRead::failed);
 }
 
 TEST_F(FileBlocksTest, SecondUserIsRefusedUntilTheFirstIsGone) {
@@ -133,9 +146,9 @@ TEST_F(FileBlocksTest, NothingOutsideTheDevice) {
   FileBlocks blocks;
   ASSERT_EQ(open(blocks), OpenResult::ok);
   Bytes two(2);
-  EXPECT_FALSE(blocks.read(FileBlocks::kBytes - 1, two));
-  EXPECT_FALSE(blocks.read(static_cast<std::size_t>(-1), two));
-  EXPECT_FALSE(write(blocks, FileBlocks::kBytes - 1, two));
+  EXPECT_EQ(blocks.read(FileBlocks::kBytes - 1, two), BlockRead::failed);
+  EXPECT_EQ(blocks.read(static_cast<std::size_t>(-1), two), BlockRead::failed);
+  EXPECT_FALSE(program(blocks, FileBlocks::kBytes, Bytes(32)));
   EXPECT_FALSE(blocks.erase(FileBlocks::kSectors));
   EXPECT_EQ(content().size(), FileBlocks::kBytes);
 }
@@ -143,8 +156,8 @@ TEST_F(FileBlocksTest, NothingOutsideTheDevice) {
 TEST_F(FileBlocksTest, NothingWorksWhileClosed) {
   FileBlocks blocks;
   Bytes one(1);
-  EXPECT_FALSE(blocks.read(0, one));
-  EXPECT_FALSE(write(blocks, 0, one));
+  EXPECT_EQ(blocks.read(0, one), BlockRead::failed);
+  EXPECT_FALSE(program(blocks, 0, Bytes(32)));
   EXPECT_FALSE(blocks.erase(0));
 }
 

@@ -11,6 +11,8 @@
 #include "comp/tables/image.hpp"
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/emergency.hpp"
+#include "firmware/node/record_storage.hpp"
+#include "hal/loopback/memory_blocks.hpp"
 #include "host_sim/bus_tools/bus_load.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
@@ -115,7 +117,19 @@ TEST(TableTransfer, NothingToFetchIsARefusal) {
 TEST(TableTransfer, NodeWithoutStoreSaysSo) {
   ServiceBench bench;
   EXPECT_THAT(text_of<NodeRefused>([&] { store_all(bench.client); }),
-              HasSubstr("no working store"));
+              HasSubstr("the node has no store"));
+}
+
+TEST(TableTransfer, AStoreThatFailsIsReportedWithItsReason) {
+  const auto blocks = std::make_unique<hal::MemoryBlocks<16384, 2>>();
+  node::RecordStorage<hal::MemoryBlocks<16384, 2>> storage(*blocks);
+  ServiceBench bench(&storage);
+  blocks->refuse_erases(true);
+  EXPECT_THAT(text_of<NodeRefused>([&] { store_all(bench.client); }),
+              HasSubstr("failure while erasing"));
+  EXPECT_THAT(describe(diagnose(bench.client)), HasSubstr("failure while erasing"));
+  blocks->refuse_erases(false);
+  store_all(bench.client);
 }
 
 TEST(TableTransfer, FilesNoNodeCanTakeAreRefusedUnsent) {
@@ -186,8 +200,14 @@ TEST(Diagnosis, ErrorsNameWhomTheyConcern) {
   EXPECT_THAT(describe_error(0x0000'1000), HasSubstr("another device"));
 }
 
+TEST(Diagnosis, ErrorsOfTheStoreSayWhatWentWrong) {
+  EXPECT_THAT(describe_error(0x0008'5530), HasSubstr("failure while erasing"));
+  EXPECT_THAT(describe_error(0x0002'6310), HasSubstr("the one before is used"));
+}
+
 TEST(Diagnosis, EveryErrorCodeHasItsOwnSentence) {
   const std::vector<ErrorCode> codes{ErrorCode::none,
+                                     ErrorCode::store_failed,
                                      ErrorCode::parameters_lost,
                                      ErrorCode::can_overrun,
                                      ErrorCode::heartbeat,

@@ -14,6 +14,20 @@ using canopen::ErrorCode;
 constexpr std::uint32_t kSave = 0x65766173;  // "save"
 constexpr std::uint32_t kLoad = 0x64616F6C;  // "load"
 
+// X is wrong by this much everywhere, Y and Z are right.
+MachineTables tables_of(std::int32_t error_nm) {
+  MachineTables tables;
+  tables.machine = kXyfzMachine;
+  for (std::size_t a = 0; a < NodeBench::kDrives; ++a) {
+    tables.axis[a].q0 = -100'000'000;
+    tables.axis[a].pitch = 100'000'000;
+    tables.axis[a].knots = 2;
+  }
+  for (auto& travel : tables.axis[0].value)
+    travel[0][0] = travel[1][0] = static_cast<float>(error_nm);
+  return tables;
+}
+
 class NodeStorage : public ::testing::Test {
  protected:
   using Blocks = hal::MemoryBlocks<16384, 2>;
@@ -24,14 +38,8 @@ class NodeStorage : public ::testing::Test {
     ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, period_us), AbortCode::none);
     ASSERT_EQ(save(), AbortCode::none);
   }
-  // One bit of the parameters of one slot falls (flash can not rise without an erase).
   void damage(std::size_t slot) {
-    const std::size_t at = slot * Blocks::kSectorBytes + kParametersAt + 8;
-    std::array<std::uint8_t, 1> byte{};
-    ASSERT_TRUE(blocks->read(at, byte));
-    ASSERT_NE(byte[0], 0);
-    byte[0] = 0;
-    ASSERT_TRUE(blocks->write(at, {byte.data(), byte.size()}));
+    blocks->flip(slot * Blocks::kSectorBytes + kParametersAt + 8, 1);
   }
 
   std::unique_ptr<Blocks> blocks = std::make_unique<Blocks>();
@@ -100,10 +108,104 @@ TEST_F(NodeStorage, WithoutADeviceItSaysSo) {
   EXPECT_EQ(without.set<std::uint32_t>(0x1011, 1, kLoad), AbortCode::hardware);
 }
 
+// CiA 301, 7.5.2.13: a failed save answers 0606 0000h. The node says which step it was.
+TEST_F(NodeStorage, AFailureOfTheMemoryIsReportedUntilASaveSucceeds) {
+  save_with_period(4000);
+  const auto expect_reported = [this](StoreResult why) {
+    const auto number = static_cast<std::uint8_t>(why);
+    ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, 5000), AbortCode::none);
+    EXPECT_EQ(save(), AbortCode::hardware);
+    EXPECT_EQ(bench.number(0x2600, 12), number);
+    bench.wait(50'000);
+    EXPECT_TRUE(bench.emergency(ErrorCode::store_failed, number)) << sentence(why);
+    EXPECT_EQ(bench.number(0x1001, 0), 1U);
+  };
+  blocks->refuse_erases(true);
+  expect_reported(StoreResult::erase_failed);
+  blocks->refuse_erases(false);
+  blocks->refuse_programs(true);
+  expect_reported(StoreResult::write_failed);
+  blocks->refuse_programs(false);
+  blocks->set_stuck_bits(0x01);
+  expect_reported(StoreResult::verify_failed);
+  blocks->set_stuck_bits(0);
+  blocks->refuse_reads(1, true);  // the slot that is written
+  expect_reported(StoreResult::read_failed);
+  blocks->refuse_reads(1, false);
+
+  bench.power_on();
+  EXPECT_EQ(bench.number(0x1006, 0), 4000U) << "the last good record stays";
+  EXPECT_EQ(bench.number(0x2600, 11), 2U);
+  EXPECT_EQ(bench.number(0x2600, 12), 0U) << "not asked since the start";
+  bench.forget_emergencies();
+  save_with_period(5000);
+  bench.wait(100'000);
+  EXPECT_EQ(bench.number(0x2600, 12), 4U);
+  EXPECT_EQ(bench.number(0x1001, 0), 0U);
+  EXPECT_TRUE(bench.emergency(ErrorCode::none, 2)) << "the lost parameters are no longer missed";
+}
+
+TEST_F(NodeStorage, AFailedRestoreIsReportedAndForgetsNothing) {
+  save_with_period(4000);
+  blocks->refuse_erases(true);
+  EXPECT_EQ(bench.set<std::uint32_t>(0x1011, 1, kLoad), AbortCode::hardware);
+  EXPECT_EQ(bench.number(0x2600, 12), static_cast<std::uint8_t>(StoreResult::erase_failed));
+  blocks->refuse_erases(false);
+  bench.power_on();
+  EXPECT_EQ(bench.number(0x1006, 0), 4000U);
+}
+
+TEST_F(NodeStorage, AMemoryThatDoesNotAnswerAtTheStartIsReported) {
+  save_with_period(4000);
+  blocks->refuse_reads(0, true);
+  blocks->refuse_reads(1, true);
+  bench.power_on();
+  bench.wait(50'000);
+  EXPECT_EQ(bench.number(0x1006, 0), 0U);
+  EXPECT_EQ(bench.number(0x2600, 11), static_cast<std::uint8_t>(StoreResult::read_failed));
+  EXPECT_TRUE(bench.emergency(ErrorCode::parameters_lost, 7));
+}
+
+// The machine starts with the offsets the drives hold, and goes from there along s(u) = 6u⁵ − 15u⁴
+// + 10u³ to those of the tables.
+TEST_F(NodeStorage, StoredTablesAreRampedIn) {
+  constexpr int kRampCycles = 20;
+  constexpr std::int32_t kError_nm = 3000;
+  bench.configure();  // with this ramp
+  bench.load(tables_of(kError_nm));
+  ASSERT_EQ(save(), AbortCode::none);
+
+  bench.power_on();
+  constexpr std::int32_t kHeld_nm = 700;
+  bench.drive[0].held = bench.drive[0].next = kHeld_nm;
+  bench.nmt(canopen::NmtCommand::start);
+  while (bench.state() != NodeState::compensating)
+    bench.cycle();
+  for (int k = 1; k <= kRampCycles; ++k, bench.cycle()) {
+    const double u = static_cast<double>(k) / kRampCycles;
+    const double s = u * u * u * (10 - 15 * u + 6 * u * u);
+    EXPECT_NEAR(bench.drive[0].next, kHeld_nm + s * (kError_nm - kHeld_nm), 1.0) << "cycle " << k;
+    EXPECT_EQ(bench.drive[1].next, 0);
+  }
+  EXPECT_EQ(bench.drive[0].next, kError_nm);
+}
+
+TEST_F(NodeStorage, WithoutTablesNothingIsCorrectedAndTheStateSaysSo) {
+  bench.configure();
+  ASSERT_EQ(save(), AbortCode::none);
+  bench.power_on();
+  bench.drive[0].held = bench.drive[0].next = 700;
+  bench.nmt(canopen::NmtCommand::start);
+  bench.cycles(60);
+  EXPECT_EQ(bench.number(0x2600, 1), static_cast<std::uint8_t>(NodeState::no_tables));
+  EXPECT_EQ(bench.number(0x2112, 7), 0U);
+  EXPECT_EQ(bench.offsets(), (std::array<std::int32_t, 3>{700, 0, 0}));
+}
+
 TEST_F(NodeStorage, APowerFailureWhileSavingKeepsTheRecordBefore) {
   save_with_period(4000);
   ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, 5000), AbortCode::none);
-  blocks->fail_after(40);
+  blocks->cut_power_at(4, hal::Torn::random);
   EXPECT_EQ(save(), AbortCode::hardware);
   blocks->power_on();
   bench.power_on();
