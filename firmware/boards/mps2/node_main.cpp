@@ -1,0 +1,106 @@
+// volcomp-node: the compensation node on a board. The tick of 1 kHz is the timer interrupt, all the
+// rest the background; see firmware/node/node_task.hpp.
+//
+// When anything fails for good, nothing is sent any more: the drives keep their last offset, and
+// the missing heartbeat stops the feed. Why the processor was restarted is told by the next start.
+
+#include "firmware/boards/mps2/exit_code.hpp"
+#include "firmware/boards/mps2/linker_symbols.hpp"
+#include "firmware/boards/mps2/node_link.hpp"
+#include "firmware/boards/mps2/reset_cause.hpp"
+#include "firmware/boards/mps2/stack.hpp"
+#include "firmware/node/node_task.hpp"
+#include "firmware/node/record_storage.hpp"
+#include "hal/mps2/console.hpp"
+#include "hal/mps2/flash_blocks.hpp"
+#include "hal/mps2/nvic.hpp"
+#include "hal/mps2/tick_mask.hpp"
+#include "hal/mps2/timer.hpp"
+#include "hal/mps2/watchdog.hpp"
+
+namespace {
+
+using volcomp::boards::NodeLink;
+using volcomp::hal::mps2::FlashBlocks;
+using volcomp::hal::mps2::PipePort;
+using volcomp::hal::mps2::TickMask;
+using volcomp::hal::mps2::Watchdog;
+using Task = volcomp::node::NodeTask<NodeLink, NodeLink, TickMask, Watchdog>;
+namespace console = volcomp::hal::mps2::console;
+
+constexpr std::uint8_t kNodeId = 32;
+constexpr std::uint32_t kTick_us = 1000;
+// 20 ticks without food. Not a whole number, so that the bite falls between two ticks: inside one
+// it could leave the other end of a frame pipe without the answer to its turn.
+constexpr std::uint32_t kBite_us = 20'500;
+
+NodeLink link;
+TickMask tick_mask;
+Watchdog watchdog;
+FlashBlocks flash;
+Task* task = nullptr;  // main makes it before the interrupts start
+
+// Function-local, because nothing is constructed before main.
+Task& make_task() {
+  static volcomp::node::RecordStorage<FlashBlocks> storage(flash);
+  static Task the_task({link, link, tick_mask, watchdog}, kNodeId, &storage);
+  return the_task;
+}
+
+bool attach_flash() {
+  using volcomp::boards::address_of;
+  const std::size_t bytes = address_of(block_memory_end) - address_of(block_memory_begin);
+  return flash.attach({block_memory_begin, bytes});
+}
+
+int give_up(const char* sentence) {
+  console::put(sentence);
+  console::put("\n");
+  return volcomp::boards::kUnusableInput;
+}
+
+int end_of_pipe(PipePort::End end) {
+  switch (end) {
+    case PipePort::End::gone:
+      return give_up("The other end of the frame pipe is gone.");
+    case PipePort::End::nonsense:
+      return give_up("What comes from the frame pipe is not a record of it.");
+    case PipePort::End::too_many_frames:
+      return give_up("The frame pipe brought more frames in one turn than fit.");
+    case PipePort::End::told_to_quit:
+    case PipePort::End::none:
+      break;
+  }
+  console::put("stack: ");
+  console::put_unsigned(volcomp::boards::deepest_stack_bytes());
+  console::put(" bytes\n");
+  return volcomp::boards::kFine;
+}
+
+}  // namespace
+
+extern "C" void TIMER0_Handler() {
+  volcomp::hal::mps2::timer0.acknowledge();
+  task->on_timer_interrupt();
+  if (!link.is_pipe()) task->frames_lost(link.slcan().take_losses());
+}
+
+extern "C" void UARTRX0_Handler() { link.slcan().on_receive_interrupt(); }
+extern "C" void UARTTX0_Handler() { link.slcan().on_transmit_interrupt(); }
+
+int main() {
+  if (!attach_flash()) return give_up("The board has less flash than the store wants.");
+  if (!link.open())
+    return give_up("There is no frame pipe: to_node and from_node must be where QEMU starts.");
+  task = &make_task();
+  task->power_on(volcomp::boards::take_reset_cause());
+  watchdog.start(kBite_us);
+  volcomp::hal::mps2::timer0.start(kTick_us);
+  while (link.pipe().end() == PipePort::End::none) {
+    const bool more = task->background_step();
+    // The pipe wants every run alike, and in the emulator's count of instructions a processor that
+    // waits loses time; see nvic.hpp.
+    if (!more && !link.is_pipe()) volcomp::hal::mps2::nvic::wait_for_interrupt();
+  }
+  return end_of_pipe(link.pipe().end());
+}
