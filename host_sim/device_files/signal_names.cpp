@@ -71,9 +71,11 @@ ValueNames nmt_commands() {
 
 ValueNames node_states() {
   using node::NodeState;
-  return {named(NodeState::idle, "idle"), named(NodeState::no_tables, "no tables"),
+  return {named(NodeState::idle, "idle"),
+          named(NodeState::no_tables, "no tables"),
           named(NodeState::waiting, "waiting for drives"),
-          named(NodeState::compensating, "compensating"), named(NodeState::degraded, "degraded"),
+          named(NodeState::compensating, "compensating"),
+          named(NodeState::degraded, "degraded"),
           named(NodeState::overdue, "background overdue")};
 }
 
