@@ -13,7 +13,7 @@ build_packages=(g++ cmake ninja-build binutils ca-certificates libeigen3-dev lib
 check_packages=(ccache git clang clang-format clang-tidy cppcheck llvm python3 shellcheck)
 bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
 board_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib g++-aarch64-linux-gnu
-  qemu-system-arm)
+  qemu-system-arm gdb-multiarch)
 vm_packages=(qemu-system-x86 busybox-static cpio kmod xz-utils)
 report_folder=host_sim/report
 eds_parser_folder=tests/system/eds_parser
