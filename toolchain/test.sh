@@ -15,7 +15,7 @@
 #   proofs      no heap, exceptions, globals, recursion ... in the libraries of the target
 #   asan        built with clang, tests with the address and undefined-behaviour sanitizers
 #   coverage    what of the target code those tests have run; table in build/host-asan/coverage.txt
-#   boards      the firmware and its tests, executed in QEMU
+#   boards      the firmware and its tests, executed in QEMU, and in the loop with the simulated machine
 #   tidy        clang-tidy
 #   cppcheck    cppcheck over comp, hal and firmware
 #   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 30) seconds
@@ -86,7 +86,7 @@ step_can() {
   build_preset host
   way=$(bash toolchain/with-vcan --how)
   printf 'way to vcan0: %s\n' "$way"
-  VOLCOMP_VM_TIMEOUT=1500 VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/vcan/run_all.sh 2>&1 | tee "$logs/ctest-can.txt"
+  VOLCOMP_VM_TIMEOUT=1500 VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/run_all.sh vcan 2>&1 | tee "$logs/ctest-can.txt"
 }
 
 step_proofs() {
@@ -113,10 +113,12 @@ step_coverage() {
 step_boards() {
   local board
   need arm-none-eabi-g++ qemu-system-arm aarch64-linux-gnu-g++ qemu-system-aarch64
+  build_preset host
   for board in m7 m4 a53; do
     build_preset "$board"
     test_preset "$board"
   done
+  bash tests/system/run_all.sh firmware 2>&1 | tee "$logs/ctest-firmware.txt"
 }
 
 step_tidy() {

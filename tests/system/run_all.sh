@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# Runs every test of this folder; vcan0 must be up:
+# Runs every test of a folder here:
 #
-#   toolchain/with-vcan tests/system/vcan/run_all.sh
+#   toolchain/with-vcan tests/system/run_all.sh vcan    the node on a CAN interface of the kernel; vcan0 must be up
+#   tests/system/run_all.sh firmware                    the node as firmware in QEMU; presets m7 and m4 must be built
 #
 # VOLCOMP_BUILD is the folder with the programs under test (default build/host). The last line is the
 # summary of ctest, for who adds up.
 set -u
-cd "$(dirname "${BASH_SOURCE[0]}")/../../.." || exit 1
+cd "$(dirname "${BASH_SOURCE[0]}")/../.." || exit 1
 
 readonly limit_s=900
-tests=(tests/system/vcan/*_test.sh)
+tests=(tests/system/"$1"/*_test.sh)
 failed=0
 for test in "${tests[@]}"; do
   name=$(basename "$test" .sh)
