@@ -22,7 +22,8 @@ run_on_board() {
     --log "$work/$2.log" --json "$work/$2.json"
 }
 
-for board in m7; do
+boards=(m7)
+for board in "${boards[@]}"; do
   knots=$(knots_of "$board")
   run_on_linux "$knots"
   run_on_board "$board" "$board"
