@@ -140,7 +140,7 @@ TEST(Image, LayoutIsAsDocumented) {
   const MachineTables in = any_tables(random);
   const Bytes bytes = encode(in);
   EXPECT_EQ(std::memcmp(bytes.data(), "VCT1", 4), 0);
-  EXPECT_EQ(bytes[4] + 256 * bytes[5], 1);
+  EXPECT_EQ(bytes[4] + 256 * bytes[5], 2);
   EXPECT_EQ(bytes[6], 4);
   EXPECT_EQ(bytes[7], 6);
   const auto u32 = [&](std::size_t at) {
@@ -179,7 +179,7 @@ TEST(Image, WrongMagicVersionAndCapacity) {
     seal(bad);
     EXPECT_EQ(decode(bad, *out).reason, Reason::bad_magic);
   }
-  for (const unsigned version : {0U, 2U, 0x100U, 0xFFFFU}) {
+  for (const unsigned version : {0U, 1U, 3U, 0x100U, 0xFFFFU}) {
     Bytes bad = good;
     bad[4] = static_cast<std::uint8_t>(version & 0xFFU);
     bad[5] = static_cast<std::uint8_t>(version >> 8);
