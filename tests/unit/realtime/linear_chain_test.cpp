@@ -1,6 +1,8 @@
 // Linear machines of every build: other axis orders, everything on one side, rotated fixed offsets,
 // fixed bodies with constant errors. Oracle: odd part of the exact 4×4 chain.
 
+#include <ostream>
+
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {
@@ -150,15 +152,12 @@ struct LinearMachine {
   MachineDescription description;
 };
 
-std::array<LinearMachine, 5> machines() {
-  return {{{"fxyz", fxyz()},
-           {"xyzf", xyzf()},
-           {"gantry", gantry()},
-           {"constants", with_constant_errors()},
-           {"rotated", rotated()}}};
-}
+void PrintTo(const LinearMachine& machine, std::ostream* out) { *out << machine.name; }
 
-void tick_equals_first_order(const MachineDescription& d) {
+class LinearChain : public ::testing::TestWithParam<LinearMachine> {};
+
+TEST_P(LinearChain, TickEqualsFirstOrderOfTheExactChain) {
+  const MachineDescription& d = GetParam().description;
   Random random(10);
   SCOPED_TRACE(random.trace());
   const MachineTables tables = tables_for(d, random);
@@ -185,16 +184,11 @@ void tick_equals_first_order(const MachineDescription& d) {
     }
     ASSERT_LT(worst, 1.0) << "point " << n;
   }
+  RecordProperty("worst_nm", std::to_string(worst));
 }
 
-TEST(LinearChain, TickEqualsFirstOrderOfTheExactChain) {
-  for (const LinearMachine& machine : machines()) {
-    SCOPED_TRACE(machine.name);
-    tick_equals_first_order(machine.description);
-  }
-}
-
-void second_order_model_equals_exact_chain(const MachineDescription& d) {
+TEST_P(LinearChain, SecondOrderModelEqualsTheExactChain) {
+  const MachineDescription& d = GetParam().description;
   Random random(11);
   SCOPED_TRACE(random.trace());
   const MachineTables tables = tables_for(d, random);
@@ -221,17 +215,12 @@ void second_order_model_equals_exact_chain(const MachineDescription& d) {
     }
     ASSERT_LT(worst, 1.0) << "point " << n;
   }
-}
-
-TEST(LinearChain, SecondOrderModelEqualsTheExactChain) {
-  for (const LinearMachine& machine : machines()) {
-    SCOPED_TRACE(machine.name);
-    second_order_model_equals_exact_chain(machine.description);
-  }
+  RecordProperty("worst_nm", std::to_string(worst));
 }
 
 // What the tick computes never exceeds what was promised at load time.
-void bound_covers_every_error(const MachineDescription& d) {
+TEST_P(LinearChain, LoadTimeBoundCoversEveryError) {
+  const MachineDescription& d = GetParam().description;
   Random random(12);
   SCOPED_TRACE(random.trace());
   MachineTables tables = tables_for(d, random);
@@ -253,12 +242,13 @@ void bound_covers_every_error(const MachineDescription& d) {
   }
 }
 
-TEST(LinearChain, LoadTimeBoundCoversEveryError) {
-  for (const LinearMachine& machine : machines()) {
-    SCOPED_TRACE(machine.name);
-    bound_covers_every_error(machine.description);
-  }
-}
+INSTANTIATE_TEST_SUITE_P(Machines, LinearChain,
+                         ::testing::Values(LinearMachine{"fxyz", fxyz()},
+                                           LinearMachine{"xyzf", xyzf()},
+                                           LinearMachine{"gantry", gantry()},
+                                           LinearMachine{"constants", with_constant_errors()},
+                                           LinearMachine{"rotated", rotated()}),
+                         [](const auto& machine) { return std::string(machine.param.name); });
 
 }  // namespace
 }  // namespace volcomp::test
