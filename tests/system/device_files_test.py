@@ -90,7 +90,7 @@ class Database(unittest.TestCase):
             self.assertEqual(self.frame(can_id).signal_by_name("NmtState").values, nmt)
         state = self.frame(0x1A0).signal_by_name("NodeState")
         self.assertEqual(state.values, {0: "idle", 1: "no tables", 2: "waiting for drives",
-                                        3: "compensating", 4: "degraded"})
+                                        3: "compensating", 4: "degraded", 5: "background overdue"})
         error = self.frame(0x0A0).signal_by_name("ErrorCode")
         self.assertEqual(error.values[0x8130], "a node fell silent")
 
