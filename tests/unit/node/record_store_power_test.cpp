@@ -77,7 +77,7 @@ class PowerFailure : public ::testing::Test {
 
 // 256-bit units as in an STM32H7, 64-bit ones as in an STM32G4: there the header is torn as well.
 using UnitSizes = ::testing::Types<hal::MemoryBlocks<512, 2, 32>, hal::MemoryBlocks<512, 2, 8>>;
-TYPED_TEST_SUITE(PowerFailure, UnitSizes);
+TYPED_TEST_SUITE(PowerFailure, UnitSizes, );
 
 TYPED_TEST(PowerFailure, ASaveLeavesTheOldRecordOrTheNewAndSaysWhich) {
   for (const std::size_t slot : {0U, 1U}) {

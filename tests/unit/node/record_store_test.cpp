@@ -68,7 +68,7 @@ template <class Flash>
 class RecordStoreOf : public ::testing::Test {};
 using UnitSizes = ::testing::Types<hal::MemoryBlocks<32768, 2, 32>, hal::MemoryBlocks<32768, 2, 8>,
                                    hal::MemoryBlocks<32768, 2, 1>>;
-TYPED_TEST_SUITE(RecordStoreOf, UnitSizes);
+TYPED_TEST_SUITE(RecordStoreOf, UnitSizes, );
 
 TYPED_TEST(RecordStoreOf, ReturnsEverySizeUpToAFullSector) {
   const std::vector<std::pair<std::size_t, std::size_t>> sizes{
