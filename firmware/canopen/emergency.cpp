@@ -20,7 +20,7 @@ const char* sentence(ErrorCode code) {
     case ErrorCode::store_failed:
       return "Parameters and tables could not be saved or forgotten; what was stored stays.";
     case ErrorCode::unexpected_reset:
-      return "The device was restarted by its watchdog or by a fault.";
+      return "The device restarted without being asked to.";
     case ErrorCode::background_overdue:
       return "The background of the device hangs; corrections were ramped to zero.";
     case ErrorCode::parameters_lost:

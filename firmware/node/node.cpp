@@ -37,6 +37,7 @@ Node::Node(std::uint8_t node_id, Storage* storage, Preemption* preemption)
 // --- resets
 
 void Node::power_on(std::uint64_t now_us, ResetCause cause) {
+  reset_cause_ = cause;
   device_.power_on(now_us);
   const bool meant = cause == ResetCause::power_on || cause == ResetCause::request;
   if (!meant)
@@ -46,6 +47,7 @@ void Node::power_on(std::uint64_t now_us, ResetCause cause) {
 void Node::reset_application() {
   const Preemptible preemptible(preemption_);
   objects_ = {};
+  objects_.reset_cause = static_cast<std::uint8_t>(reset_cause_);
   compensator_.restart({});
   download_.reset();
   running_ = cycle_open_ = overdue_ = false;
@@ -121,6 +123,8 @@ Status Node::scrub() {
 void Node::frames_lost(std::uint32_t count) {
   if (device_.state() == NmtState::boot_up) return;
   if (count == 0) return device_.emergency().clear(ErrorCode::can_overrun, 0);
+  const std::uint32_t room = UINT32_MAX - objects_.frames_lost;
+  objects_.frames_lost += count < room ? count : room;
   device_.emergency().raise(ErrorCode::can_overrun, 0);
 }
 

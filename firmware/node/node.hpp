@@ -178,7 +178,8 @@ class Node final : private canopen::Application {
   bool overdue_ = false;                   // the background
   PerAxis<std::uint16_t> clean_cycles_{};  // without trouble, per axis
   std::uint16_t clean_syncs_ = 0;          // since the last bad SYNC
-  std::uint32_t start_given_ = 0;          // 2206h written since the last start, a bit per axis
+  ResetCause reset_cause_ = ResetCause::power_on;
+  std::uint32_t start_given_ = 0;  // 2206h written since the last start, a bit per axis
   std::array<std::uint8_t, 2048> parameters_{};  // as stored
 };
 

@@ -23,7 +23,7 @@ constexpr std::uint16_t at_began(std::size_t axis) {
                                     axis * sizeof(std::array<std::uint16_t, kStatusBits>));
 }
 
-constexpr std::array<Entry, 62> kOwn{{
+constexpr std::array<Entry, 64> kOwn{{
     {0x1010, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(store), 0,
      "Save all parameters"},
     {0x1011, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(restore), 0,
@@ -134,6 +134,10 @@ constexpr std::array<Entry, 62> kOwn{{
      "Result of reading the stored parameters"},
     {0x2600, 12, 12, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(store_result), 0,
      "Result of the last save or restore"},
+    {0x2600, 13, 13, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(reset_cause), 0,
+     "Why the processor started"},
+    {0x2600, 14, 14, DataType::unsigned32, Access::read_only, kPlain, VOLCOMP_AT(frames_lost), 0,
+     "Received frames lost"},
     {0x2601, 1, kNodeAxes, DataType::unsigned16, Access::read_only, kTransmit, VOLCOMP_AT(status),
      0, "Status word of the axis"},
     {0x2602, 1, kNodeAxes, DataType::integer32, Access::read_only, kPlain, VOLCOMP_AT(largest), 0,

@@ -114,6 +114,8 @@ struct NodeObjects {
   std::uint32_t rejections = 0;       // 2600h:0A
   std::uint8_t stored = 0;            // 2600h:0B StoreResult of the start
   std::uint8_t store_result = 0;      // 2600h:0C StoreResult of the last save or restore, 0: none
+  std::uint8_t reset_cause = 0;       // 2600h:0D hal::ResetCause
+  std::uint32_t frames_lost = 0;      // 2600h:0E before the node saw them
   PerAxis<std::uint16_t> status{};    // 2601h
   PerAxis<std::int32_t> largest{};    // 2602h
   PerAxis<std::array<std::uint16_t, kStatusBits>> began{};  // 2610h… how often each bit began

@@ -78,6 +78,9 @@ void read_counters(NodeClient& client, Diagnosis& d) {
       client.read_value<std::uint8_t>({0x2600, 11}, "result of reading the store"));
   d.saved = static_cast<node::StoreResult>(
       client.read_value<std::uint8_t>({0x2600, 12}, "result of the last save"));
+  d.start = static_cast<hal::ResetCause>(
+      client.read_value<std::uint8_t>({0x2600, 13}, "reason of the start"));
+  d.frames_lost = counter(14);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "comp/realtime/tick_types.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/storage.hpp"
+#include "hal/reset_cause.hpp"
 #include "host_sim/bus_tools/node_client.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 
@@ -50,6 +51,8 @@ struct Diagnosis {
   std::uint32_t rejections = 0;
   node::StoreResult stored{};       // of the start
   node::StoreResult saved{};        // of the last save or restore; nothing_stored: there was none
+  hal::ResetCause start{};          // why the processor started
+  std::uint32_t frames_lost = 0;    // before the node saw them
   std::vector<AxisDiagnosis> axes;  // those with a drive
 };
 

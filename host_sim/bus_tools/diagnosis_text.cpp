@@ -88,6 +88,20 @@ const char* words(node::TableState state) {
   return "unknown";
 }
 
+const char* words(hal::ResetCause cause) {
+  switch (cause) {
+    case hal::ResetCause::power_on:
+      return "power was switched on";
+    case hal::ResetCause::request:
+      return "on request";
+    case hal::ResetCause::watchdog:
+      return "by the watchdog";
+    case hal::ResetCause::fault:
+      return "after a fault of the processor";
+  }
+  return "unknown";
+}
+
 const char* saved_words(node::StoreResult result) {
   return result == node::StoreResult::nothing_stored ? "There was none." : sentence(result);
 }
@@ -192,6 +206,9 @@ std::string describe_error(std::uint32_t field) {
     case ErrorCode::parameters_lost:
       where = fmt::format("{} ", node::sentence(static_cast<node::StoreResult>(source)));
       break;
+    case ErrorCode::unexpected_reset:
+      where = fmt::format("{}: ", words(static_cast<hal::ResetCause>(source)));
+      break;
     default:
       break;
   }
@@ -210,11 +227,13 @@ std::string describe(const Diagnosis& d) {
   line("image last sent:", words(d.table_state));
   if (!d.refusal.empty()) line("last refusal:", d.refusal);
   line("machine:", machine_line(d));
+  line("last start:", words(d.start));
   line("store at the start:", sentence(d.stored));
   line("last save or restore:", saved_words(d.saved));
   line("cycles:", fmt::format("{}, {} of them incomplete at the deadline, {} cut short by SYNC",
                               d.cycles, d.deadline_missed, d.cycles_skipped));
   line("SYNC:", fmt::format("{} missed, {} of another producer", d.sync_missed, d.sync_foreign));
+  line("frames lost:", std::to_string(d.frames_lost));
   line("tables:", fmt::format("{} times activated, {} times refused", d.activations, d.rejections));
   line("errors now:", d.error_register == 0
                           ? std::string("none")
@@ -257,6 +276,8 @@ nlohmann::json to_json(const Diagnosis& d) {
           {"rejections", d.rejections},
           {"stored", sentence(d.stored)},
           {"saved", saved_words(d.saved)},
+          {"start", words(d.start)},
+          {"frames_lost", d.frames_lost},
           {"axes", axes}};
 }
 

@@ -161,6 +161,7 @@ TEST(Diagnosis, HealthyNode) {
   EXPECT_EQ(d.axes[0].letter, 'X');
   EXPECT_EQ(d.axes[0].drive, 1);
   EXPECT_THAT(describe(d), HasSubstr("PRE-OPERATIONAL"));
+  EXPECT_THAT(describe(d), HasSubstr("power was switched on"));
   EXPECT_EQ(to_json(d).at("active_crc"), fmt::format("{:08X}", d.tables.crc));
 }
 
@@ -197,6 +198,7 @@ TEST(Diagnosis, ErrorsNameWhomTheyConcern) {
   EXPECT_THAT(describe_error(0x0003'8130), testing::StartsWith("node 3: "));
   EXPECT_THAT(describe_error(0x0002'FF02), testing::StartsWith("axis 2: "));
   EXPECT_THAT(describe_error(0x0059'FF10), testing::StartsWith("axis Y: "));
+  EXPECT_THAT(describe_error(0x0002'6010), testing::StartsWith("by the watchdog: "));
   EXPECT_THAT(describe_error(0x0000'1000), HasSubstr("another device"));
 }
 
