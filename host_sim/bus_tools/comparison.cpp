@@ -109,6 +109,9 @@ void Comparison::replayed(std::uint64_t time_us, const hal::CanFrame& frame) {
     status_.push_back(frame);
     status_due_ = true;
     return;
+  } else if (node().is_status(frame.id) && !cycle_begun_) {
+    start_status_ = frame;
+    return;
   }
   Stream& stream = streams_[frame.id];
   stream.replayed.push_back({frame, time_us, result_.cycles, counter_, 0});
@@ -119,7 +122,8 @@ void Comparison::replayed(std::uint64_t time_us, const hal::CanFrame& frame) {
 void Comparison::forget_unsent() {
   for (auto& [id, stream] : streams_)
     stream.replayed.clear();
-  status_due_ = status_overdue_ = false;
+  status_due_ = status_overdue_ = cycle_begun_ = false;
+  start_status_.reset();
 }
 
 // In order; process data at the latest one cycle after they were made.
@@ -169,7 +173,9 @@ void Comparison::take_input(const LoggedFrame& logged) {
     begin_cycle();
   }
   ++result_.fed;
+  const canopen::NmtState before = node().state();
   subject_->receive(logged.frame, logged.time_us);
+  if (node().state() != before) cycle_begun_ = false;
 }
 
 // Whoever is slower than the node of the log gets the time to say what that has said.
@@ -187,6 +193,7 @@ void Comparison::take_answer(const LoggedFrame& logged) {
   const Said said{logged.frame, logged.time_us, result_.cycles, counter_, logged.line};
   if (logged.frame.id == canopen::kHeartbeat + node_id_) return compare_heartbeat(said);
   if (free_status(logged.frame.id)) return compare_status(said);
+  if (take_start_status(logged.frame)) return;
   await(logged.frame.id);
   Stream& stream = streams_[logged.frame.id];
   stream.logged.push_back(said);
@@ -228,6 +235,16 @@ void Comparison::compare_status(const Said& said) {
   (status_overdue_ ? status_overdue_ : status_due_) = false;
 }
 
+// The first status after a start belongs to no cycle. Where the command to start and the first SYNC
+// came to the node at once, it had nothing to say in between.
+bool Comparison::take_start_status(const hal::CanFrame& frame) {
+  if (!node().is_status(frame.id) || !start_status_) return false;
+  const bool said = *start_status_ == frame && streams_[frame.id].replayed.empty();
+  start_status_.reset();
+  if (said) ++result_.compared;
+  return said;
+}
+
 // --- cycles
 
 void Comparison::begin_cycle() {
@@ -236,6 +253,7 @@ void Comparison::begin_cycle() {
   status_due_ = false;
   earlier_status_ = std::move(status_);
   status_.clear();
+  cycle_begun_ = true;
   ++result_.cycles;
 }
 

@@ -52,6 +52,7 @@ class Comparison {
   void await(std::uint16_t id);
   void compare_heartbeat(const Said& said);
   void compare_status(const Said& said);
+  [[nodiscard]] bool take_start_status(const hal::CanFrame& frame);
   void replayed(std::uint64_t time_us, const hal::CanFrame& frame);
   void forget_unsent();
   void match(Stream& stream);
@@ -78,6 +79,8 @@ class Comparison {
   std::uint64_t now_us_ = 0;
   std::uint8_t counter_ = 0;
 
+  bool cycle_begun_ = false;                   // a SYNC has come in this NMT state
+  std::optional<hal::CanFrame> start_status_;  // said before; not yet found in the log
   std::set<std::uint8_t> states_;              // NMT, since the last heartbeat in the log
   std::vector<hal::CanFrame> status_;          // said in this cycle
   std::vector<hal::CanFrame> earlier_status_;  // and in the one before

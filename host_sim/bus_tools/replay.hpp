@@ -5,8 +5,9 @@
 // Compared bit for bit: offsets and other process data, each in its SYNC cycle; SDO responses,
 // emergency messages and boot-ups in their order. The status PDO leaves when its inhibit time
 // allows and says what is true at that moment: it has to be what the node said in this cycle or in
-// the one before; where it has no inhibit time, no cycle may lack it. Heartbeats are compared by
-// the state they tell, since their moment is a matter of each node's clock.
+// the one before; where it has no inhibit time, no cycle may lack it. That of the start, before the
+// first cycle, may be missing in the log. Heartbeats are compared by the state they tell, since
+// their moment is a matter of each node's clock.
 //
 // What the node does depends on time only through the deadline 2200h:03, inhibit times and
 // timeouts, for which the log's clock stands. In a log in lock step (volcomp run --can) none of

@@ -82,6 +82,39 @@ TEST(ReplayOverPipe, DownloadAndRefusalAreRepeatedByteForByte) {
   EXPECT_TRUE(result.equal()) << describe(result);
 }
 
+// A node that is started may say so before the first SYNC or after it; when both reach it in the
+// same turn, its first status is that of the first cycle.
+TEST(ReplayOverPipe, StatusOfTheStartMayComeEarlyOrNotButNotWrong) {
+  const std::vector<LoggedFrame> log = parse_can_log(record_quiet_run(), "bus.log");
+  const auto first = [&log](std::uint16_t id, std::size_t from) {
+    const auto it = std::find_if(log.begin() + static_cast<std::ptrdiff_t>(from), log.end(),
+                                 [id](const LoggedFrame& l) { return l.frame.id == id; });
+    return static_cast<std::size_t>(it - log.begin());
+  };
+  std::size_t start = first(0x000, 0);
+  while (log.at(start).frame != hal::CanFrame{0x000, 2, {1, kLinuxNode}})
+    start = first(0x000, start + 1);
+  const std::size_t sync = first(0x080, start);
+  const std::size_t status = first(0x1A0, start);
+  ASSERT_GT(status, sync);
+  ASSERT_EQ(log.at(status).frame.data[5], 0) << "a SYNC counter: not the status of the start";
+
+  std::vector<LoggedFrame> changed = log;
+  changed[status].frame.data[4] ^= 1U;
+  EXPECT_FALSE(Nodes().replay(changed).equal());
+
+  changed = log;
+  changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(status));
+  const ReplayResult without = Nodes().replay(changed);
+  EXPECT_TRUE(without.equal()) << describe(without);
+
+  LoggedFrame early = log[status];
+  early.time_us = log[start].time_us + 1;
+  changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(sync), early);
+  const ReplayResult before = Nodes().replay(changed);
+  EXPECT_TRUE(before.equal()) << describe(before);
+}
+
 // One byte of one frame of the node, each kind of frame in turn.
 TEST(ReplayOverPipe, EveryChangedAnswerIsADifference) {
   const std::vector<LoggedFrame> log = parse_can_log(record_quiet_run(), "bus.log");
