@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The whole campaign with the node as firmware on the M7 board: the figures and every frame in motion are those of
+# The whole campaign with the node as firmware on M7 and M4F: the figures and every frame in motion are those of
 # the Linux node with the same tables, bit for bit, and each node does again what the log of the other says.
 # shellcheck source=tests/system/firmware/common.sh
 . "$(dirname "$0")/common.sh"
@@ -22,7 +22,7 @@ run_on_board() {
     --log "$work/$2.log" --json "$work/$2.json"
 }
 
-boards=(m7)
+boards=(m7 m4)
 for board in "${boards[@]}"; do
   knots=$(knots_of "$board")
   run_on_linux "$knots"
