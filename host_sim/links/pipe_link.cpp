@@ -95,6 +95,7 @@ bool PipeLink::receive(hal::CanFrame& frame) {
 }
 
 void PipeLink::turn(std::uint64_t now_us) {
+  look();  // a node that always answers at once is never awaited
   now_us_ = now_us;
   append(outgoing_, hal::pipe_end_of_turn(now_us));
   write_turn();

@@ -21,8 +21,8 @@ void make_frame_pipes(const std::filesystem::path& folder);
 
 class PipeLink final : public FrameLink {
  public:
-  // Called several times a second while the other end is awaited, and once when it is gone. May
-  // throw, which ends the waiting: whoever started the other end knows more about it.
+  // Called at every turn, several times a second while the other end is awaited, and once when it
+  // is gone. May throw, which ends the waiting: whoever started the other end knows more about it.
   using Watch = std::function<void(bool gone)>;
 
   // Makes the pipes where they are missing and waits some seconds for the other end. Throws

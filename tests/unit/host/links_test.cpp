@@ -129,6 +129,18 @@ TEST(PipeLink, WatchKnowsBetterWhyTheNodeIsGone) {
             "pulled the plug");
 }
 
+// Whoever wants to end the program need not wait for a slow answer.
+TEST(PipeLink, WatchIsAskedAtEveryTurn) {
+  const TemporaryFolder folder;
+  const PipeNode node(folder.path());
+  int asked = 0;
+  PipeLink link(folder.path(), [&asked](bool /*gone*/) { ++asked; });
+  for (int turn = 1; turn <= 100; ++turn) {
+    link.wait(0);
+    ASSERT_GE(asked, turn);
+  }
+}
+
 TEST(PipeLink, NonsenseFromTheNodeIsRefused) {
   const TemporaryFolder folder;
   make_frame_pipes(folder.path());
