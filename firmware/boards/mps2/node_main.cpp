@@ -30,9 +30,19 @@ namespace console = volcomp::hal::mps2::console;
 
 constexpr std::uint8_t kNodeId = 32;
 constexpr std::uint32_t kTick_us = 1000;
+
+// How long the tick and the background may be overdue.
+struct Patience {
+  std::uint32_t bite_us;
+  volcomp::node::GuardianSettings guardian;
+};
 // 20 ticks without food. Not a whole number, so that the bite falls between two ticks: inside one
 // it could leave the other end of a frame pipe without the answer to its turn.
-constexpr std::uint32_t kBite_us = 20'500;
+constexpr Patience kTurnByTurn{20'500, {}};
+// In real time the emulated processor stands still whenever the computer has something else to do,
+// but its timers do not: measured up to a second on a busy computer, and then all missed ticks come
+// at once.
+constexpr Patience kRealTime{5'000'000, {5'000'000, 5'000'000, 5'000'000}};
 
 NodeLink link;
 TickMask tick_mask;
@@ -40,10 +50,13 @@ Watchdog watchdog;
 FlashBlocks flash;
 Task* task = nullptr;  // main makes it before the interrupts start
 
+// After the link is open.
+const Patience& patience() { return link.is_pipe() ? kTurnByTurn : kRealTime; }
+
 // Function-local, because nothing is constructed before main.
 Task& make_task() {
   static volcomp::node::RecordStorage<FlashBlocks> storage(flash);
-  static Task the_task({link, link, tick_mask, watchdog}, kNodeId, &storage);
+  static Task the_task({link, link, tick_mask, watchdog}, kNodeId, &storage, patience().guardian);
   return the_task;
 }
 
@@ -94,7 +107,7 @@ int main() {
     return give_up("There is no frame pipe: to_node and from_node must be where QEMU starts.");
   task = &make_task();
   task->power_on(volcomp::boards::take_reset_cause());
-  watchdog.start(kBite_us);
+  watchdog.start(patience().bite_us);
   volcomp::hal::mps2::timer0.start(kTick_us);
   while (link.pipe().end() == PipePort::End::none) {
     const bool more = task->background_step();
