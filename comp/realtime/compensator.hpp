@@ -13,8 +13,10 @@
 // tables stay active.
 
 #include <atomic>
+#include <type_traits>
 
 #include "comp/realtime/direction.hpp"
+#include "comp/realtime/everyday_tally.hpp"
 #include "comp/realtime/limiter.hpp"
 #include "comp/realtime/motion_inverse.hpp"
 #include "comp/realtime/tick_types.hpp"
@@ -36,8 +38,9 @@ class Compensator {
   Compensator() : Compensator(Machine{}) {}
   // A machine with more axes than fit is treated as none: every stage() is then refused.
   explicit Compensator(const Machine& machine)
-      : machine_(machine.chain.axes <= kAxes ? machine : Machine{}),
-        unknown_axes_(machine_.chain.axes) {
+      : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {
+    unknown_axes_ = machine_.chain.axes;
+    fresh_ramp_.restart(settings_.ramp_ticks);
     for (std::size_t a = 0; a < kAxes; ++a)
       apply_limits(a);
   }
@@ -66,7 +69,7 @@ class Compensator {
   Status activate();
 
   // Corrections ramp to 0 and stay there until the next activate().
-  void deactivate() { request_.store(Request::deactivate, std::memory_order_release); }
+  void deactivate();
 
   // Does at once what the next tick would begin with. Only while no tick can come.
   void settle() {
@@ -81,9 +84,9 @@ class Compensator {
   [[nodiscard]] bool pending() const {
     return request_.load(std::memory_order_acquire) != Request::none;
   }
-  [[nodiscard]] bool active() const { return active_ >= 0; }
+  [[nodiscard]] bool active() const { return active_ != nullptr; }
   [[nodiscard]] const FoldReport& fold_report() const { return report_; }
-  [[nodiscard]] const Diagnostics<kAxes>& diagnostics() const { return diagnostics_; }
+  [[nodiscard]] Diagnostics<kAxes> diagnostics() const;
   [[nodiscard]] const Machine& machine() const { return machine_; }
 
   // --- interrupt
@@ -99,43 +102,74 @@ class Compensator {
   // No two accepted positions of a linear axis are further apart.
   static constexpr std::int64_t kAnyStep = 2 * kMaxPosition;
   static constexpr std::int64_t kAnyTurn = 2 * kMaxTurningPosition;
+  static constexpr std::uint16_t kNoStatusYet = 1U << 15U;
 
-  // One cache line per axis: what was configured, then what changes.
   struct AxisState {
-    std::int64_t most_step = kAnyStep;  // largest plausible |Δposition|
-    float limit = 0.0F;
-    std::int32_t rate = 1;
-    std::int32_t soft_rate = 1;
-    std::int32_t hysteresis = 0;
-    std::int64_t position = 0;  // last good one
-    std::int64_t seen = 0;      // last one given, good or implausible
-    std::int32_t output = 0;
-    std::int32_t ramp_from = 0;
+    // what a usual tick reads and writes, in its order
+    std::int64_t seen = 0;         // position given last, good or implausible
+    std::uint64_t usual_step = 0;  // largest |Δposition| of a usual sample
+    std::uint64_t window = 0;      // 2·usual_step + 1 while one may come, else 0
     DirectionTracker direction;
+    std::int32_t hysteresis = 0;
+    Magnitude limit;
+    float ramp_from = 0.0F;  // 0 unless a ramp is under way
+    std::int32_t output = 0;
+    std::int32_t rate = 1;
+    std::int32_t largest = 0;
+
+    // what only the exceptions need
+    std::uint64_t most_step = kAnyStep;  // largest plausible |Δposition|
+    std::int64_t position = 0;           // last good one, unless steady: then it is the one seen
+    std::int32_t soft_rate = 1;
     std::uint16_t stale_ticks = 0;
-    std::uint16_t status = 0;
-    bool known = false;   // has ever had a valid position
-    bool steady = false;  // known, and the last sample was good
-    bool soft = false;    // dropped, not homed or coming back: soft_rate instead of rate
-  };
-  using StatusWords = std::array<std::uint32_t, kAxes>;
-  struct PutOut {
-    std::int32_t output;
-    std::uint32_t status;
+    std::uint16_t status = kNoStatusYet;  // of the last tick, 0 if it was an everyday one
+    std::uint16_t exception = 0;          // what was unusual about the sample of this tick
+    bool known = false;                   // has ever had a valid position
+    bool steady = false;                  // known, and the last sample was good
+    bool soft = false;  // dropped, not homed or coming back: soft_rate instead of rate
+    Located place{};    // in the table, for a sample that is no usual one
+    Knot mean{};        // row in use until a direction is known
   };
 
+  // What a tick works on: a compiled-in machine keeps it in registers, a loaded one here instead of
+  // on the stack of the interrupt.
+  struct Work {
+    std::array<Located, kAxes> at;
+    kernel::Carried<kAxes> carried;
+  };
+  struct Nothing {};
+  using KeptWork = std::conditional_t<Machine::kCompiledIn, Nothing, Work>;
+
+  // compensator_tick.inl
   template <class Visit>
   void for_each_axis(const Visit& visit) const;
-  void begin_change();
+  template <class Visit>
+  void for_each_correcting(const Visit& visit) const;
+  template <bool Turns>
+  static bool within_reach(const AxisState& s, std::int64_t position);
+  template <bool Turns>
+  Located follow_as(std::size_t axis, const AxisSample& sample, const Tables& set);
+  Located follow(std::size_t axis, const AxisSample& sample, const Tables& set);
+  Work& work(Work& local);
+  bool find_excess(const Tables& set, Work& work, kernel::Excess& excess);
+  void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t usual,
+               EverydayBits& everyday, Output& out);
+  void limited(std::size_t correcting, StatusBit how, EverydayBits& everyday, Output& out);
+
+  // compensator_exceptions.inl
   void take_request();
-  [[nodiscard]] bool in_reach(std::size_t axis, std::int64_t position) const;
+  void begin_change();
+  float advance_ramp();
+  bool ready(const Input& in);
   std::uint32_t take_sample(std::size_t axis, const AxisSample& sample);
-  std::uint32_t take_unusual_sample(std::size_t axis, const AxisSample& sample);
-  Located place(std::size_t axis, const Tables& set, bool add_offset, std::uint32_t& status);
-  kernel::Offsets wanted_offsets(StatusWords& status);
-  PutOut put_out(AxisState& s, float wanted, float ramp, std::uint32_t status);
-  PutOut put_out_unusual(AxisState& s, float wanted, float ramp, std::uint32_t status);
-  void count_changes(std::size_t axis, std::uint32_t status);
+  void place(std::size_t axis, const Tables& set, std::uint32_t& status);
+  const Located& follow_unusual(std::size_t axis, const AxisSample& sample, const Tables& set);
+  void put_out_unusual(AxisState& s, float excess, float ramp, std::uint32_t& status);
+  void idle(const Input& in, float ramp, Output& out);
+  void finish_unusual(std::uint32_t gate, float ramp, Output& out);
+  bool count_changes(std::size_t axis, std::uint32_t status);
+
+  // compensator_background.inl
   void apply_limits(std::size_t axis);
   Status open_spare(const Provenance& provenance);
   Status fold_into_spare(const TablesView& tables, const Vec3& tool_point, std::uint32_t image_crc);
@@ -145,23 +179,41 @@ class Compensator {
     return machine_.chain.kind[axis] == JointKind::rotary;
   }
 
-  Machine machine_{};
-  Settings settings_{};
-  std::array<Tables, 2> buffer_{};
-  std::array<AxisState, kAxes> axis_{};
-  std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
+  // what a usual tick needs comes first: short offsets are short instructions
+  std::atomic<Request> request_{Request::none};
+  const Tables* usable_ = nullptr;  // the active ones, once every axis has reported
+  std::int32_t target_mask_ = -1;   // all ones where the offset is to be added to the position
+  std::uint32_t guarded_axes_ = 0;  // bit per axis: its next output takes the long way
+  std::uint32_t ticks_ = 0;
   Ramp ramp_{};
   Float3 error_nm_{};
-  FoldReport report_{};
-  Diagnostics<kAxes> diagnostics_{};
-  std::atomic<Request> request_{Request::none};
-  std::int8_t active_ = -1;  // index of the active buffer, −1 = none
-  std::int8_t next_ = 0;     // the spare one
+  std::array<AxisState, kAxes> axis_{};
+  EverydayTally tally_{};
+  KeptWork work_{};
+
+  const Tables* active_ = nullptr;
+  const Tables* handed_over_ = nullptr;  // by activate(), for the tick to take
+  const Tables* latest_ = nullptr;       // activated last
+  const Tables* before_latest_ = nullptr;
+  kernel::Excess excess_{};         // of a tick in which something was unusual
+  Ramp fresh_ramp_{};               // not begun
+  std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
+  std::uint32_t last_ramp_tick_ = UINT32_MAX;
+  std::uint32_t handed_over_count_ = 0;
+  std::uint32_t ramps_ = 0;  // begun
+  bool ticks_wrapped_ = false;
+  std::int8_t next_ = 0;  // index of the spare buffer
   bool staged_ = false;
   std::atomic<bool> damaged_{false};
+  FoldReport report_{};
+  Diagnostics<kAxes> diagnostics_{};
+  Settings settings_{};
+  Machine machine_{};
+  std::array<Tables, 2> buffer_{};
 };
 
 }  // namespace volcomp
 
 #include "comp/realtime/compensator_background.inl"
+#include "comp/realtime/compensator_exceptions.inl"
 #include "comp/realtime/compensator_tick.inl"

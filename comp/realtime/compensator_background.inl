@@ -30,6 +30,8 @@ Status Compensator<Machine, Knots>::configure(const Settings& settings) {
     return refuse(Reason::bad_setting, where);
   }
   settings_ = settings;
+  fresh_ramp_.restart(settings.ramp_ticks);
+  target_mask_ = settings.source == PositionSource::target ? -1 : 0;
   for (std::size_t a = 0; a < kAxes; ++a)
     apply_limits(a);
   return {};
@@ -40,8 +42,11 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
   const AxisLimits& l = settings_.axis[axis];
   AxisState& s = axis_[axis];
   const std::int64_t any = rotary(axis) ? kAnyTurn : kAnyStep;
-  s.most_step = l.max_step == 0 || l.max_step > any ? any : l.max_step;
-  s.limit = static_cast<float>(l.limit);
+  const std::int64_t most = l.max_step == 0 || l.max_step > any ? any : l.max_step;
+  s.most_step = static_cast<std::uint64_t>(most);
+  s.usual_step = rotary(axis) || s.most_step < kMaxUsualStep ? s.most_step : kMaxUsualStep;
+  if (s.window != 0) s.window = 2 * s.usual_step + 1;
+  s.limit = Magnitude(static_cast<float>(l.limit));
   s.rate = l.rate;
   s.soft_rate = l.soft_rate;
   s.hysteresis = l.hysteresis;
@@ -56,13 +61,20 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   }
   request_.store(Request::none, std::memory_order_relaxed);
   damaged_.store(false, std::memory_order_relaxed);
-  active_ = -1;
+  active_ = usable_ = latest_ = before_latest_ = nullptr;
   next_ = 0;
+  handed_over_count_ = 0;
   staged_ = false;
   diagnostics_ = {};
   report_ = {};
   error_nm_ = {};
   ramp_ = {};
+  tally_ = {};
+  ticks_ = 0;
+  last_ramp_tick_ = UINT32_MAX;
+  ticks_wrapped_ = false;
+  ramps_ = 0;
+  guarded_axes_ = 0;
   unknown_axes_ = machine_.chain.axes;
   for (std::size_t a = 0; a < kAxes; ++a) {
     axis_[a] = {};
@@ -82,11 +94,15 @@ Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kA
     return refuse(Reason::bad_setting, where);
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
+    const std::int32_t largest = axis_[a].largest;
     axis_[a] = {};
+    axis_[a].largest = largest;
     apply_limits(a);
     axis_[a].output = offsets[a];
   }
   unknown_axes_ = machine_.chain.axes;
+  usable_ = nullptr;
+  last_ramp_tick_ = ticks_ - 1U;  // a new beginning
   begin_change();
   return {};
 }
@@ -152,19 +168,58 @@ Status Compensator<Machine, Knots>::activate() {
   if (!staged_) return refuse(Reason::not_staged);
   staged_ = false;
   damaged_.store(false, std::memory_order_relaxed);
+  handed_over_ = &buffer_[static_cast<std::size_t>(next_)];
+  before_latest_ = latest_;
+  latest_ = handed_over_;
+  next_ = static_cast<std::int8_t>(1 - next_);
+  ++handed_over_count_;
   request_.store(Request::activate, std::memory_order_release);
   return {};
 }
 
 template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::deactivate() {
+  const Request before = request_.exchange(Request::deactivate, std::memory_order_acq_rel);
+  if (before != Request::activate) return;
+  next_ = static_cast<std::int8_t>(1 - next_);  // the tick has not taken them
+  latest_ = before_latest_;
+  --handed_over_count_;
+}
+
+template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::scrub() {
-  const std::int8_t active = active_;
-  if (active < 0 || pending()) return {};
-  const Tables& set = buffer_[static_cast<std::size_t>(active)];
-  if (checksum(set) == set.checksum) return {};
+  const Tables* const set = active_;
+  if (set == nullptr || pending()) return {};
+  if (checksum(*set) == set->checksum) return {};
   damaged_.store(true, std::memory_order_relaxed);
   deactivate();
   return reject(refuse(Reason::crc_mismatch));
+}
+
+template <class Machine, std::size_t Knots>
+Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::diagnostics() const {
+  const auto saturated = [](std::uint32_t n) {
+    return static_cast<std::uint16_t>(n < UINT16_MAX ? n : UINT16_MAX);
+  };
+  Diagnostics<kAxes> d = diagnostics_;
+  d.ticks = ticks_wrapped_ ? UINT32_MAX : ticks_;
+  const bool waiting = request_.load(std::memory_order_relaxed) == Request::activate;
+  d.activations = handed_over_count_ - (waiting ? 1U : 0U);
+  const Tables* const taken = waiting ? before_latest_ : latest_;
+  if (taken != nullptr) d.active_crc = taken->image_crc;
+  for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
+    d.largest[a] = axis_[a].largest;
+    d.began[a][bit_of(kRamping)] = saturated(ramps_);
+  }
+  for (std::size_t c = 0; c < machine_.chain.correcting_count; ++c) {
+    auto& began = d.began[machine_.chain.correcting[c]];
+    std::array<std::uint32_t, kEverydayWidth> more{};
+    tally_.add_to(more, c);
+    began[bit_of(kValid)] = saturated(began[bit_of(kValid)] + more[0]);
+    began[bit_of(kClamped)] = saturated(began[bit_of(kClamped)] + more[1]);
+    began[bit_of(kRateLimited)] = saturated(began[bit_of(kRateLimited)] + more[2]);
+  }
+  return d;
 }
 
 }  // namespace volcomp

@@ -18,21 +18,21 @@ class DirectionTracker {
   // `position`: low 32 bits in nm or 2^-32 turn, may wrap; steps up to 2.1 m. A window of width
   // `hysteresis` is dragged along; its upper edge moving means forward, its lower edge backward.
   // Interrupt-safe.
-  VOLCOMP_INLINE Direction update(std::uint32_t position, std::int32_t hysteresis) {
-    if (!started_) {
-      started_ = true;
-      direction_ = Direction::unknown;
-      lower_edge_ = position - static_cast<std::uint32_t>(hysteresis / 2);
-      return direction_;
-    }
+  Direction update(std::uint32_t position, std::int32_t hysteresis) {
+    if (started_) return follow(position, hysteresis);
+    started_ = true;
+    lower_edge_ = position - static_cast<std::uint32_t>(hysteresis / 2);
+    return direction_;
+  }
+
+  // The same once it has been started. Selections, not branches: a flip costs nothing.
+  VOLCOMP_INLINE Direction follow(std::uint32_t position, std::int32_t hysteresis) {
     const auto above = static_cast<std::int32_t>(position - lower_edge_);
-    if (above > hysteresis) {
-      lower_edge_ = position - static_cast<std::uint32_t>(hysteresis);
-      direction_ = Direction::forward;
-    } else if (above < 0) {
-      lower_edge_ = position;
-      direction_ = Direction::backward;
-    }
+    const bool left = static_cast<std::uint32_t>(above) > static_cast<std::uint32_t>(hysteresis);
+    const bool backward = above < 0;
+    const std::uint32_t edge = position - (backward ? 0U : static_cast<std::uint32_t>(hysteresis));
+    lower_edge_ = left ? edge : lower_edge_;
+    direction_ = left ? static_cast<Direction>(backward) : direction_;
     return direction_;
   }
 

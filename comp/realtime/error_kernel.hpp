@@ -41,6 +41,15 @@ VOLCOMP_INLINE void walk_down(std::size_t from, std::size_t to, const Visit& vis
   }
 }
 
+// Calls visit(axis) for the linear axes.
+template <class Machine, class Visit>
+VOLCOMP_INLINE void for_each_linear(const Machine& machine, const Visit& visit) {
+  const auto linear = [&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
+    if (machine.chain.kind[a] == JointKind::prismatic) visit(a);
+  };
+  visit_each(0, machine.chain.axes, linear, std::make_index_sequence<Machine::kAxes>{});
+}
+
 VOLCOMP_INLINE void add(Float3& a, const Float3& b) {
   a[0] += b[0];
   a[1] += b[1];
@@ -72,9 +81,19 @@ VOLCOMP_INLINE void add_cross(Float3& e, const Float3& w, const Float3& n, float
   e[2] += (w[0] * n[1] - w[1] * n[0]) * x;
 }
 
-// Length of travel of a linear axis, nm, from its held place in the table.
-VOLCOMP_INLINE float travel_nm(const AxisLookup& axis, const Located& at) {
-  return static_cast<float>(at.u) + axis.origin_nm;
+// p += x · unit vector of `axis`
+VOLCOMP_INLINE void add_along(Float3& p, Axis axis, float x) {
+  switch (axis) {
+    case Axis::x:
+      p[0] += x;
+      break;
+    case Axis::y:
+      p[1] += x;
+      break;
+    case Axis::z:
+      p[2] += x;
+      break;
+  }
 }
 
 // E = Σ a + Σ Ω × (travel of each axis), one pass around the loop work tip → base → tool tip. Ω
@@ -90,7 +109,7 @@ VOLCOMP_INLINE Float3 folded_error(const Machine& machine, const Set& set, const
     const std::size_t a = step.nc_axis;
     ChannelValues v;
     interpolate(at[a], v);
-    const float x = travel_nm(set.lookup[a], at[a]) * step.sign;
+    const float x = at[a].travel_nm * step.sign;
     const Float3 w{v[3], v[4], v[5]};
     const bool first = i == machine.chain.first_folded && !machine.chain.has_constant_error;
     if (machine.chain.has_constant_error) add(omega, set.turn_before[a]);
@@ -170,25 +189,28 @@ VOLCOMP_INLINE void orient_inverse(Float3& p, const std::array<float, 9>& R) {
        R[2] * p[0] + R[5] * p[1] + R[8] * p[2]};
 }
 
-// Error and, where the Jacobian changes with the pose, its columns (base frame, nm per nm or nm per
-// rad).
-struct Deviation {
-  Float3 error{};
-  std::array<Float3, kMaxCorrecting> column{};
+// Jacobian columns that change with the pose, base frame, nm per nm or nm per rad.
+using Columns = std::array<Float3, kMaxCorrecting>;
+
+// What the recursion keeps besides the point and its deviation; at its end the columns are where
+// InversePlan says.
+template <std::size_t Axes>
+struct Carried {
+  Columns column;
+  std::array<SineCosine, Axes> turn;  // of the rotary work axes
 };
 
-// State carried along the recursion.
-template <class Machine>
+// State of the recursion.
+template <class Carried>
 struct Recursion {
-  Float3 p{};  // ideal point
-  Float3 e{};  // deviation
-  std::array<Float3, kMaxCorrecting> column{};
-  std::array<SineCosine, Machine::kAxes> turn{};
+  Float3 p;  // ideal point
+  Float3 e;  // deviation
+  Carried& carried;
 };
 
 VOLCOMP_INLINE Float3 unit(Axis axis, float length) {
   Float3 v{};
-  v[static_cast<std::size_t>(axis)] = length;
+  add_along(v, axis, length);
   return v;
 }
 
@@ -201,121 +223,122 @@ VOLCOMP_INLINE Float3 motion_column(const RuntimeStep& step, const Float3& p) {
   return column;
 }
 
-// Tool branch, one step towards base: e ← R_H R_J (e + δ + (R_E − I)(p + e)), p ← H J p.
-template <class Machine, class Set, class Places>
-VOLCOMP_INLINE void step_to_base(const RuntimeStep& step, const Set& set, const Places& at,
-                                 Recursion<Machine>& r) {
-  ChannelValues v = step.error;
-  if (step.kind != JointKind::fixed) interpolate(at[step.nc_axis], v);
-  if (step.kind != JointKind::fixed || step.has_error) {
-    const Float3 d =
-        rotate_minus_identity(&v[3], {r.p[0] + r.e[0], r.p[1] + r.e[1], r.p[2] + r.e[2]});
-    add(r.e, {v[0] + d[0], v[1] + d[1], v[2] + d[2]});
+// Calls visit(column) for `count` carried columns from `first` on.
+template <class Visit>
+VOLCOMP_INLINE void for_columns(Columns& column, std::size_t first, std::size_t count,
+                                const Visit& visit) {
+  VOLCOMP_UNROLL
+  for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
+    if (c >= first && c < first + count) visit(column[c]);
   }
+}
+
+// Tool branch, one step towards base: e ← R_H R_J (e + δ + (R_E − I)(p + e)), p ← H J p. `fresh`: e
+// is still 0.
+template <class Carried, class Places>
+VOLCOMP_INLINE void step_to_base(const RuntimeStep& step, const Places& at, bool fresh,
+                                 Recursion<Carried>& r) {
   const std::size_t a = step.nc_axis;
+  if (step.kind != JointKind::fixed || step.has_error) {
+    ChannelValues v = step.error;
+    if (step.kind != JointKind::fixed) interpolate(at[a], v);
+    Float3 w{r.p[0], r.p[1], r.p[2]};
+    if (!fresh) add(w, r.e);
+    const Float3 d = rotate_minus_identity(&v[3], w);
+    const Float3 grown{v[0] + d[0], v[1] + d[1], v[2] + d[2]};
+    if (fresh) r.e = grown;
+    if (!fresh) add(r.e, grown);
+  }
   if (step.kind == JointKind::rotary) {
-    const SineCosine t = sine_cosine(at[a].u + set.lookup[a].phase);
+    const SineCosine t = sine_cosine(at[a].angle);
     const float s = t.sine * step.sign;
     rotate(r.p, step.axis, s, t.cosine);
     rotate(r.e, step.axis, s, t.cosine);
-    VOLCOMP_UNROLL
-    for (Float3& column : r.column)
-      rotate(column, step.axis, s, t.cosine);
+    for_columns(r.carried.column, 0, step.columns_before,
+                [&](Float3& column)
+                    VOLCOMP_INLINE_LAMBDA { rotate(column, step.axis, s, t.cosine); });
   } else if (step.kind == JointKind::prismatic) {
-    r.p[static_cast<std::size_t>(step.axis)] += travel_nm(set.lookup[a], at[a]) * step.sign;
+    add_along(r.p, step.axis, at[a].travel_nm * step.sign);
   }
-  if (step.corrects()) r.column[step.correcting] = motion_column(step, r.p);
+  if (step.carried()) r.carried.column[step.column] = motion_column(step, r.p);
   if (step.has_orientation) {
     orient(r.p, step.orientation);
     orient(r.e, step.orientation);
-    VOLCOMP_UNROLL
-    for (Float3& column : r.column)
-      orient(column, step.orientation);
+    const std::size_t columns = step.columns_before + (step.carried() ? 1U : 0U);
+    for_columns(r.carried.column, 0, columns,
+                [&](Float3& column) VOLCOMP_INLINE_LAMBDA { orient(column, step.orientation); });
   }
   if (step.has_offset) add(r.p, step.offset_nm);
 }
 
 // Work branch, one step towards its tip: v = R_Jᵀ R_Hᵀ e − δ, e ← v + (R_Eᵀ − I)(p + v).
-template <class Machine, class Set, class Places>
-VOLCOMP_INLINE void step_to_work(const RuntimeStep& step, const Set& set, const Places& at,
-                                 Recursion<Machine>& r, std::array<Float3, kMaxCorrecting>& local) {
+template <class Carried, class Places>
+VOLCOMP_INLINE void step_to_work(const RuntimeStep& step, const Places& at, Recursion<Carried>& r) {
   if (step.has_offset) add(r.p, {-step.offset_nm[0], -step.offset_nm[1], -step.offset_nm[2]});
   if (step.has_orientation) {
     orient_inverse(r.p, step.orientation);
     orient_inverse(r.e, step.orientation);
   }
-  if (step.corrects()) local[step.correcting] = motion_column(step, r.p);
+  if (step.carried()) r.carried.column[step.column] = motion_column(step, r.p);
   const std::size_t a = step.nc_axis;
   if (step.kind == JointKind::rotary) {
-    SineCosine t = sine_cosine(at[a].u + set.lookup[a].phase);
+    SineCosine t = sine_cosine(at[a].angle);
     t.sine *= step.sign;
-    r.turn[a] = t;
+    r.carried.turn[a] = t;
     rotate(r.p, step.axis, -t.sine, t.cosine);
     rotate(r.e, step.axis, -t.sine, t.cosine);
   } else if (step.kind == JointKind::prismatic) {
-    r.p[static_cast<std::size_t>(step.axis)] -= travel_nm(set.lookup[a], at[a]) * step.sign;
+    add_along(r.p, step.axis, -(at[a].travel_nm * step.sign));
   }
+  if (step.kind == JointKind::fixed && !step.has_error) return;
   ChannelValues v = step.error;
   if (step.kind != JointKind::fixed) interpolate(at[a], v);
-  if (step.kind == JointKind::fixed && !step.has_error) return;
   const Float3 w{r.e[0] - v[0], r.e[1] - v[1], r.e[2] - v[2]};
   const Float3 d = unrotate_minus_identity(&v[3], {r.p[0] + w[0], r.p[1] + w[1], r.p[2] + w[2]});
   r.e = {w[0] + d[0], w[1] + d[1], w[2] + d[2]};
 }
 
 // Turns the error in the work frame back into base orientation, together with the columns of the
-// work axes.
-template <class Machine>
-VOLCOMP_INLINE void step_back_to_base(const RuntimeStep& step, Recursion<Machine>& r,
-                                      std::array<Float3, kMaxCorrecting>& columns,
-                                      std::array<bool, kMaxCorrecting>& live,
-                                      const std::array<Float3, kMaxCorrecting>& local) {
+// work axes between this step and the tip.
+template <class Machine, class Carried>
+VOLCOMP_INLINE void step_back_to_base(const Machine& machine, const RuntimeStep& step,
+                                      Recursion<Carried>& r) {
+  const std::size_t first = machine.chain.tool_columns;
   if (step.kind == JointKind::rotary) {
-    const SineCosine& t = r.turn[step.nc_axis];
+    const SineCosine& t = r.carried.turn[step.nc_axis];
     rotate(r.e, step.axis, t.sine, t.cosine);
-    VOLCOMP_UNROLL
-    for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
-      if (live[c]) rotate(columns[c], step.axis, t.sine, t.cosine);
-    }
-  }
-  if (step.corrects()) {
-    const std::size_t c = step.correcting;
-    columns[c] = local[c];
-    live[c] = true;
+    for_columns(r.carried.column, first, step.columns_before,
+                [&](Float3& column)
+                    VOLCOMP_INLINE_LAMBDA { rotate(column, step.axis, t.sine, t.cosine); });
   }
   if (!step.has_orientation) return;
   orient(r.e, step.orientation);
-  VOLCOMP_UNROLL
-  for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
-    if (live[c]) orient(columns[c], step.orientation);
-  }
+  const std::size_t columns = step.columns_before + (step.carried() ? 1U : 0U);
+  for_columns(r.carried.column, first, columns,
+              [&](Float3& column) VOLCOMP_INLINE_LAMBDA { orient(column, step.orientation); });
 }
 
-// Second-order recursion (seed 000 section 1), error returned in base orientation.
-template <class Machine, class Set, class Places>
-VOLCOMP_INLINE Deviation recursive_error(const Machine& machine, const Set& set, const Places& at) {
-  Recursion<Machine> r;
-  r.p = set.tool_nm;
-  walk_up<Machine>(0, machine.chain.tool_steps, [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
-    step_to_base(machine.chain.step[i], set, at, r);
+// Second-order recursion (seed 000 section 1): the error in base orientation.
+template <class Machine, class Set, class Places, class Carried>
+VOLCOMP_INLINE Float3 recursive_error(const Machine& machine, const Set& set, const Places& at,
+                                      Carried& carried) {
+  const RuntimeChain& chain = machine.chain;
+  Recursion<Carried> r{{set.tool_nm[0], set.tool_nm[1], set.tool_nm[2]}, {}, carried};
+  if (chain.inverse.form == InverseForm::general) carried.column = {};
+  walk_up<Machine>(0, chain.tool_steps, [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
+    step_to_base(chain.step[i], at, Machine::kCompiledIn && i == 0, r);
   });
-  VOLCOMP_UNROLL
-  for (std::size_t a = 0; a < Machine::kAxes; ++a) {
-    if (a >= machine.chain.axes || machine.chain.kind[a] != JointKind::prismatic) continue;
-    const float x = travel_nm(set.lookup[a], at[a]);
+  for_each_linear<Machine>(machine, [&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
+    const float x = at[a].travel_nm;
     add(r.e, {set.direction[a][0] * x, set.direction[a][1] * x, set.direction[a][2] * x});
-  }
-  std::array<Float3, kMaxCorrecting> local{};
-  walk_up<Machine>(machine.chain.tool_steps, machine.chain.steps,
-                   [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
-                     step_to_work(machine.chain.step[i], set, at, r, local);
-                   });
-  std::array<bool, kMaxCorrecting> live{};
-  walk_down<Machine>(machine.chain.tool_steps, machine.chain.steps,
-                     [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
-                       step_back_to_base(machine.chain.step[i], r, r.column, live, local);
-                     });
-  return {r.e, r.column};
+  });
+  walk_up<Machine>(chain.tool_steps, chain.steps, [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
+    step_to_work(chain.step[i], at, r);
+  });
+  walk_down<Machine>(chain.tool_steps, chain.steps, [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
+    step_back_to_base(machine, chain.step[i], r);
+  });
+  return r.e;
 }
 
 }  // namespace volcomp::kernel

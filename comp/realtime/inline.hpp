@@ -10,3 +10,6 @@
 #else
 #define VOLCOMP_UNROLL _Pragma("GCC unroll 8")
 #endif
+
+// The condition of an exception: its branch is moved out of the straight run.
+#define VOLCOMP_RARELY(condition) __builtin_expect(static_cast<bool>(condition), false)

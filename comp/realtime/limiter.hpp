@@ -41,6 +41,40 @@ struct Limiter {
   }
 };
 
+// |a − b| > most, most ≥ 0; a − b must be representable.
+VOLCOMP_INLINE bool further(std::int32_t a, std::int32_t b, std::int32_t most) {
+  const auto span = static_cast<std::uint32_t>(most);
+  return static_cast<std::uint32_t>(a - b) + span > 2U * span;
+}
+
+// A largest magnitude, ≥ 0, in the form it is compared in: magnitudes of floats compare like
+// integers (IEEE 754).
+class Magnitude {
+ public:
+  constexpr Magnitude() = default;
+  explicit Magnitude(float most) : twice_(bits_of(most) << 1U) {}
+
+  [[nodiscard]] float value() const {
+    const std::uint32_t bits = twice_ >> 1U;
+    float most = 0.0F;
+    std::memcpy(&most, &bits, sizeof most);
+    return most;
+  }
+  // NaN exceeds all.
+  VOLCOMP_INLINE friend bool exceeds(float x, Magnitude most) {
+    return bits_of(x) << 1U > most.twice_;
+  }
+
+ private:
+  VOLCOMP_INLINE static std::uint32_t bits_of(float x) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+  }
+
+  std::uint32_t twice_ = 0;
+};
+
 // Nearest integer, half to even, |x| < 2^22: adding 1.5·2^23 leaves the integer in the low mantissa
 // bits (conventions, section 5). No library call, the same on every target.
 VOLCOMP_INLINE std::int32_t round_half_even(float x) {
@@ -50,30 +84,42 @@ VOLCOMP_INLINE std::int32_t round_half_even(float x) {
   return bits - 0x4B400000;
 }
 
+inline constexpr std::int32_t kMostRounded = 4'194'303;
 inline constexpr float kMaxRounded = 4194303.0F;
 
 // Smooth step from 0 to 1: s(u) = u³ (10 − 15u + 6u²), zero slope and curvature at both ends.
 class Ramp {
  public:
   void restart(std::uint32_t ticks) {
-    ticks_ = ticks;
-    passed_ = 0;
+    ticks_ = remaining_ = ticks;
     per_tick_ = ticks == 0 ? 0.0F : 1.0F / static_cast<float>(ticks);
+    first_ = ticks <= 1 ? 1.0F : smooth(per_tick_);
   }
 
-  [[nodiscard]] bool running() const { return passed_ < ticks_; }
+  [[nodiscard]] bool running() const { return remaining_ != 0; }
+  [[nodiscard]] bool begun() const { return remaining_ != ticks_; }
 
+  // Factor of one more tick. That of the first is known beforehand: its tick, the one of an
+  // exchange of tables, has enough to do.
   VOLCOMP_INLINE float advance() {
-    if (passed_ >= ticks_) return 1.0F;
-    ++passed_;
-    const float u = static_cast<float>(static_cast<std::int32_t>(passed_)) * per_tick_;
-    return passed_ == ticks_ ? 1.0F : u * u * u * (10.0F + u * (6.0F * u - 15.0F));
+    if (remaining_ == 0) return 1.0F;
+    const bool first = !begun();
+    --remaining_;
+    if (first) return first_;
+    if (remaining_ == 0) return 1.0F;
+    const auto passed = static_cast<std::int32_t>(ticks_ - remaining_);
+    return smooth(static_cast<float>(passed) * per_tick_);
   }
 
  private:
+  VOLCOMP_INLINE static float smooth(float u) {
+    return u * u * u * (10.0F + u * (6.0F * u - 15.0F));
+  }
+
+  std::uint32_t remaining_ = 0;
   std::uint32_t ticks_ = 0;
-  std::uint32_t passed_ = 0;
   float per_tick_ = 0.0F;
+  float first_ = 1.0F;
 };
 
 }  // namespace volcomp

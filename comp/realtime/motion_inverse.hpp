@@ -1,12 +1,12 @@
 #pragma once
-// From the error of a tick to offsets of the correcting axes: Δq = −J⁺ E in nm (linear) or rad
-// (rotary).
+// From the error of a tick to the excess of the correcting axes, J⁺ E in nm (linear) or rad
+// (rotary); the motion offset is its negative (conventions, section 4).
 
 #include "comp/realtime/error_kernel.hpp"
 
 namespace volcomp::kernel {
 
-using Offsets = std::array<float, kMaxCorrecting>;
+using Excess = std::array<float, kMaxCorrecting>;
 
 VOLCOMP_INLINE float dot(const Float3& a, const Float3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -16,18 +16,22 @@ VOLCOMP_INLINE Float3 cross(const Float3& a, const Float3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// Linear correcting axes: constant inverse, a signed selection where the axes lie along X, Y, Z.
-template <class Machine, class Set>
-VOLCOMP_INLINE Offsets constant_offsets(const Machine& machine, const Set& set, const Float3& e) {
-  Offsets out{};
+// Three correcting axes that lie along X, Y and Z.
+VOLCOMP_INLINE Excess aligned_excess(const InversePlan& plan, const Float3& e) {
+  Excess out{};
   VOLCOMP_UNROLL
-  for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
-    if (machine.chain.inverse.valid) {
-      out[c] = -machine.chain.inverse.gain[c] * e[machine.chain.inverse.component[c]];
-    } else {
-      out[c] = dot(set.inverse[c], e);
-    }
-  }
+  for (std::size_t c = 0; c < kMaxCorrecting; ++c)
+    out[c] = plan.gain[c] * e[plan.component[c]];
+  return out;
+}
+
+// Linear correcting axes: the rows of J⁻¹ come with the tables.
+template <class Set>
+VOLCOMP_INLINE Excess constant_excess(const Set& set, const Float3& e) {
+  Excess out{};
+  VOLCOMP_UNROLL
+  for (std::size_t c = 0; c < kMaxCorrecting; ++c)
+    out[c] = dot(set.inverse[c], e);
   return out;
 }
 
@@ -36,21 +40,20 @@ VOLCOMP_INLINE Offsets constant_offsets(const Machine& machine, const Set& set, 
 inline constexpr float kMinAuthoritySquared = 0.01F;
 
 // Three correcting axes: Cramer's rule. False without authority; `out` is then 0.
-VOLCOMP_INLINE bool solve_three(const std::array<Float3, 3>& column, const Float3& e,
-                                Offsets& out) {
+VOLCOMP_INLINE bool solve_three(const std::array<Float3, 3>& column, const Float3& e, Excess& out) {
   const Float3 yz = cross(column[1], column[2]);
   const float det = dot(column[0], yz);
   const float scale =
       dot(column[0], column[0]) * dot(column[1], column[1]) * dot(column[2], column[2]);
   if (!(det * det >= kMinAuthoritySquared * scale) || !(scale > 0.0F)) return false;
-  const float k = -1.0F / det;
+  const float k = 1.0F / det;
   out = {k * dot(e, yz), k * dot(e, cross(column[2], column[0])),
          k * dot(e, cross(column[0], column[1]))};
   return true;
 }
 
 // Two: least squares by the normal equations. One: projection.
-VOLCOMP_INLINE bool solve_two(const Float3& a, const Float3& b, const Float3& e, Offsets& out) {
+VOLCOMP_INLINE bool solve_two(const Float3& a, const Float3& b, const Float3& e, Excess& out) {
   const float aa = dot(a, a);
   const float bb = dot(b, b);
   const float ab = dot(a, b);
@@ -58,22 +61,55 @@ VOLCOMP_INLINE bool solve_two(const Float3& a, const Float3& b, const Float3& e,
   if (!(det >= kMinAuthoritySquared * aa * bb) || !(det > 0.0F)) return false;
   const float ae = dot(a, e);
   const float be = dot(b, e);
-  out = {(ab * be - bb * ae) / det, (ab * ae - aa * be) / det, 0.0F};
+  out = {(bb * ae - ab * be) / det, (aa * be - ab * ae) / det, 0.0F};
   return true;
 }
 
-VOLCOMP_INLINE bool solve_one(const Float3& a, const Float3& e, Offsets& out) {
+VOLCOMP_INLINE bool solve_one(const Float3& a, const Float3& e, Excess& out) {
   const float aa = dot(a, a);
   if (!(aa > 0.0F)) return false;
-  out = {-dot(a, e) / aa, 0.0F, 0.0F};
+  out = {dot(a, e) / aa, 0.0F, 0.0F};
   return true;
 }
 
-VOLCOMP_INLINE bool varying_offsets(std::size_t correcting, const Deviation& d, Offsets& out) {
+// Two aligned axes and one with the column b: Cramer's rule with its zeros and ones left out; the
+// same bits as solve_three.
+VOLCOMP_INLINE bool solve_one_varying(const InversePlan& plan, const Float3& b, const Float3& e,
+                                      Excess& out) {
+  const std::size_t w = plan.varying_component;
+  const float scale = dot(b, b);
+  if (!(b[w] * b[w] >= kMinAuthoritySquared * scale) || !(scale > 0.0F)) return false;
+  const float k = 1.0F / b[w];
+  VOLCOMP_UNROLL
+  for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
+    const std::size_t a = plan.component[c];
+    out[c] = c == plan.varying ? k * e[w] : plan.gain[c] * (k * (e[a] * b[w] - e[w] * b[a]));
+  }
+  return true;
+}
+
+// By the columns of the recursion. False without authority; `out` is then 0.
+template <class Machine>
+VOLCOMP_INLINE bool varying_excess(const Machine& machine, const Columns& columns, const Float3& e,
+                                   Excess& out) {
+  const InversePlan& plan = machine.chain.inverse;
+  if (plan.form == InverseForm::aligned) {
+    out = aligned_excess(plan, e);
+    return true;
+  }
   out = {};
-  if (correcting == 3) return solve_three(d.column, d.error, out);
-  if (correcting == 2) return solve_two(d.column[0], d.column[1], d.error, out);
-  return correcting == 1 && solve_one(d.column[0], d.error, out);
+  if (plan.form == InverseForm::one_varying) return solve_one_varying(plan, columns[0], e, out);
+  const auto column = [&](std::size_t c) VOLCOMP_INLINE_LAMBDA { return columns[plan.column[c]]; };
+  switch (machine.chain.correcting_count) {
+    case 3:
+      return solve_three({column(0), column(1), column(2)}, e, out);
+    case 2:
+      return solve_two(column(0), column(1), e, out);
+    case 1:
+      return solve_one(column(0), e, out);
+    default:
+      return false;
+  }
 }
 
 }  // namespace volcomp::kernel

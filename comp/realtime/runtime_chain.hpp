@@ -11,6 +11,7 @@
 namespace volcomp {
 
 inline constexpr std::uint8_t kNotCorrecting = 0xFF;
+inline constexpr std::uint8_t kNotCarried = 0xFF;
 
 struct RuntimeStep {
   JointKind kind = JointKind::fixed;
@@ -22,20 +23,32 @@ struct RuntimeStep {
   std::uint8_t body = 0;
   std::uint8_t nc_axis = 0;
   std::uint8_t correcting = kNotCorrecting;  // index among the correcting axes
+  std::uint8_t column = kNotCarried;         // where the walk carries its Jacobian column
+  std::uint8_t columns_before = 0;           // carried ones of its branch nearer to the tip
   float sign = 1.0F;
   std::array<float, 3> offset_nm{};
   std::array<float, 9> orientation{};
   std::array<float, 6> error{};  // nm, rad
 
   [[nodiscard]] constexpr bool corrects() const { return correcting != kNotCorrecting; }
+  [[nodiscard]] constexpr bool carried() const { return column != kNotCarried; }
 };
 
-// When the Jacobian is a signed permutation (three linear correcting axes along X, Y, Z), the
-// inverse costs nothing.
-struct AlignedInverse {
-  bool valid = false;
-  std::array<std::uint8_t, kMaxCorrecting> component{};
+// What is known beforehand of the Jacobian of the correcting axes, and saves the tick work.
+enum class InverseForm : std::uint8_t {
+  aligned,      // three linear axes that always lie along X, Y, Z: a signed selection
+  constant,     // linear axes, none of them turned: J⁻¹ comes with the tables
+  one_varying,  // two aligned axes and one whose column changes with the pose
+  general,
+};
+
+struct InversePlan {
+  InverseForm form = InverseForm::general;
+  std::array<std::uint8_t, kMaxCorrecting> component{};  // of the aligned ones
   std::array<float, kMaxCorrecting> gain{};
+  std::array<std::uint8_t, kMaxCorrecting> column{};  // where the walk carries the others
+  std::uint8_t varying = 0;                           // the one of one_varying
+  std::uint8_t varying_component = 0;                 // what the aligned ones leave to it
 };
 
 enum class RuntimeModel : std::uint8_t {
@@ -52,13 +65,15 @@ struct RuntimeChain {
   std::uint8_t axes = 0;
   std::uint8_t correcting_count = 0;
   std::array<std::uint8_t, kMaxCorrecting> correcting{};  // NC axes
+  std::array<std::uint8_t, kMaxAxes> correcting_index{};  // by NC axis, or kNotCorrecting
   std::array<JointKind, kMaxAxes> kind{};                 // by NC axis
   std::array<char, kMaxAxes> letter{};
   std::uint8_t first_folded = 0;  // step of the first axis met from the work tip
   bool folded = true;
   bool has_orientation = false;
   bool has_constant_error = false;
-  AlignedInverse inverse{};
+  std::uint8_t tool_columns = 0;  // carried along the tool branch; those of the work branch follow
+  InversePlan inverse{};
 };
 
 namespace detail {
@@ -88,22 +103,70 @@ constexpr RuntimeStep runtime_step(const Body& body, std::uint8_t index, bool wo
   return step;
 }
 
-constexpr AlignedInverse aligned_inverse(const RuntimeChain& chain) {
-  AlignedInverse inverse;
+// The column of the correcting axis at step `i` is a unit vector of base, whatever the pose: a
+// linear axis, and between it and base nothing turns and nothing is rotated.
+constexpr bool is_aligned(const RuntimeChain& chain, std::size_t i) {
+  const bool work = chain.step[i].work;
+  const std::size_t from = work ? chain.tool_steps : i;
+  const std::size_t to = work ? i + 1U : chain.tool_steps;
+  for (std::size_t k = from; k < to; ++k) {
+    if (chain.step[k].kind == JointKind::rotary || chain.step[k].has_orientation) return false;
+  }
+  return true;
+}
+
+constexpr InversePlan plan_inverse(const RuntimeChain& chain) {
+  InversePlan plan;
+  if (chain.folded) plan.form = InverseForm::constant;
+  if (chain.correcting_count != kMaxCorrecting || (chain.folded && chain.has_orientation))
+    return plan;
   std::array<bool, 3> taken{};
-  if (chain.has_orientation || chain.correcting_count != 3) return inverse;
+  std::size_t aligned = 0;
+  std::size_t varying = 0;
   for (std::size_t i = 0; i < chain.steps; ++i) {
     const RuntimeStep& step = chain.step[i];
-    if (step.kind == JointKind::rotary) return inverse;
     if (!step.corrects()) continue;
-    const std::size_t c = step.correcting;
-    if (taken[index(step.axis)]) return inverse;
+    if (!is_aligned(chain, i)) {
+      plan.varying = step.correcting;
+      ++varying;
+      continue;
+    }
+    if (taken[index(step.axis)]) return plan;
     taken[index(step.axis)] = true;
-    inverse.component[c] = static_cast<std::uint8_t>(step.axis);
-    inverse.gain[c] = (step.work ? -1.0F : 1.0F) * step.sign;
+    ++aligned;
+    plan.component[step.correcting] = static_cast<std::uint8_t>(step.axis);
+    plan.gain[step.correcting] = (step.work ? -1.0F : 1.0F) * step.sign;
   }
-  inverse.valid = taken[0] && taken[1] && taken[2];
-  return inverse;
+  const bool all_met = aligned + varying == kMaxCorrecting;
+  if (all_met && varying == 0) plan.form = InverseForm::aligned;
+  if (all_met && varying == 1) plan.form = InverseForm::one_varying;
+  plan.varying_component = static_cast<std::uint8_t>(!taken[0] ? 0 : !taken[1] ? 1 : 2);
+  return plan;
+}
+
+// Numbers the columns the walk has to carry, each branch from its tip towards base.
+constexpr void number_columns(RuntimeChain& chain) {
+  std::uint8_t next = 0;
+  for (std::uint8_t& column : chain.inverse.column)
+    column = kNotCarried;
+  const auto visit = [&](RuntimeStep& step, std::uint8_t first) {
+    step.columns_before = static_cast<std::uint8_t>(next - first);
+    const bool carried = step.corrects() && (chain.inverse.form == InverseForm::general ||
+                                             (chain.inverse.form == InverseForm::one_varying &&
+                                              step.correcting == chain.inverse.varying));
+    if (!carried) return;
+    chain.inverse.column[step.correcting] = next;
+    step.column = next++;
+  };
+  for (std::size_t i = 0; i < chain.tool_steps; ++i)
+    visit(chain.step[i], 0);
+  chain.tool_columns = next;
+  for (std::size_t i = chain.steps; i > chain.tool_steps; --i)
+    visit(chain.step[i - 1U], chain.tool_columns);
+  for (std::size_t c = 0; c < chain.correcting_count; ++c) {
+    if (chain.inverse.column[c] == kNotCarried && chain.inverse.form == InverseForm::general)
+      chain.inverse.column[c] = next++;  // an axis the walk does not meet: its column stays 0
+  }
 }
 
 }  // namespace detail
@@ -132,21 +195,24 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
   }
   chain.correcting_count = machine.correcting_count;
   chain.correcting = machine.correcting;
+  for (std::uint8_t& c : chain.correcting_index)
+    c = kNotCorrecting;
+  for (std::uint8_t c = 0; c < machine.correcting_count; ++c)
+    chain.correcting_index[machine.correcting[c]] = c;
   bool any_rotary = false;
   for (std::size_t i = 0; i < chain.steps; ++i) {
     RuntimeStep& step = chain.step[i];
-    for (std::size_t c = 0; c < machine.correcting_count; ++c) {
-      if (step.kind != JointKind::fixed && step.nc_axis == machine.correcting[c]) {
-        step.correcting = static_cast<std::uint8_t>(c);
-      }
+    if (step.kind != JointKind::fixed) {
+      step.correcting = chain.correcting_index[step.nc_axis];
+      chain.first_folded = static_cast<std::uint8_t>(i);
     }
-    if (step.kind != JointKind::fixed) chain.first_folded = static_cast<std::uint8_t>(i);
     any_rotary = any_rotary || step.kind == JointKind::rotary;
     chain.has_orientation = chain.has_orientation || step.has_orientation;
     chain.has_constant_error = chain.has_constant_error || step.has_error;
   }
   chain.folded = !any_rotary && model != RuntimeModel::second_order;
-  chain.inverse = detail::aligned_inverse(chain);
+  chain.inverse = detail::plan_inverse(chain);
+  detail::number_columns(chain);
   return chain;
 }
 

@@ -11,6 +11,8 @@
 namespace volcomp {
 namespace {
 
+using Rows = std::array<Knot, 2>*;  // [knot][travel]
+
 Float3 to_float(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
@@ -22,7 +24,7 @@ AxisLookup make_lookup(const TableGrid& table, bool rotary) {
   l.origin_nm = rotary ? 0.0F : static_cast<float>(table.q0);
   l.phase = rotary ? static_cast<std::uint32_t>(table.q0 >> 8) : 0U;
   if (table.periodic) {
-    l.travel = 0xFFFFFFFFU;
+    l.travel = l.usual_travel = 0xFFFFFFFFU;
     l.scale = table.knots << kFractionBits;
     return l;
   }
@@ -32,6 +34,7 @@ AxisLookup make_lookup(const TableGrid& table, bool rotary) {
   while ((travel << (l.shift + 1U)) < (std::uint64_t{1} << 32U))
     ++l.shift;
   l.travel = static_cast<std::uint32_t>(travel);
+  l.usual_travel = rotary || l.travel <= kMaxUsualTravel ? l.travel : 0U;
   l.scale = static_cast<std::uint32_t>((segments << (32U + kFractionBits)) / (travel << l.shift));
   l.margin = static_cast<std::uint32_t>(travel / segments / 2U);
   return l;
@@ -69,7 +72,7 @@ ErrorMotion channels_of(const AxisTableView& table, std::size_t travel, std::siz
 // Rows of one axis: `value(travel, knot)` in nm and rad, differences to the next knot, periodic or
 // ending flat.
 template <class ValueAt>
-void write_rows(const TableGrid& table, const std::array<Knot*, 2>& rows, const ValueAt& value) {
+void write_rows(const TableGrid& table, Rows rows, const ValueAt& value) {
   for (std::size_t travel = 0; travel < 2; ++travel) {
     ErrorMotion here = value(travel, 0);
     const ErrorMotion first = here;
@@ -78,8 +81,8 @@ void write_rows(const TableGrid& table, const std::array<Knot*, 2>& rows, const 
       const ErrorMotion next = !last ? value(travel, i + 1) : (table.periodic ? first : here);
       for (std::size_t c = 0; c < 6; ++c) {
         const auto channel = static_cast<Eigen::Index>(c);
-        rows[travel][i].v[c] = static_cast<float>(here(channel));
-        rows[travel][i].d[c] = static_cast<float>(next(channel) - here(channel));
+        rows[i][travel].v[c] = static_cast<float>(here(channel));
+        rows[i][travel].d[c] = static_cast<float>(next(channel) - here(channel));
       }
       here = next;
     }
@@ -93,15 +96,15 @@ class Bounds {
  public:
   Bounds(bool folded, double arm_nm) : folded_(folded), arm_nm_(arm_nm) {}
 
-  void include(const TableGrid& table, const std::array<Knot*, 2>& rows, bool rotary) {
+  void include(const TableGrid& table, Rows rows, bool rotary) {
     double displacement = 0.0;
     double turn = 0.0;
     double steepest = 0.0;
-    for (const Knot* column : rows) {
-      for (std::size_t i = 0; i < table.knots; ++i) {
-        displacement = std::max(displacement, size(column[i].v, 0));
-        turn = std::max(turn, size(column[i].v, 3));
-        steepest = std::max(steepest, size(column[i].d, 0));
+    for (std::size_t i = 0; i < table.knots; ++i) {
+      for (const Knot& row : rows[i]) {
+        displacement = std::max(displacement, size(row.v, 0));
+        turn = std::max(turn, size(row.v, 3));
+        steepest = std::max(steepest, size(row.d, 0));
       }
     }
     add(displacement, turn);
@@ -179,10 +182,10 @@ void fold_constant_errors(const TablesView& tables, const RuntimeChain& runtime,
   if (first_axis < 0) return;
   const auto a = static_cast<std::size_t>(first_axis);
   const Float3 shift_nm = to_float(kNmPerMm * shift);
-  for (Knot* column : set.rows[a]) {
-    for (std::size_t i = 0; i < tables.axis[a].grid().knots; ++i) {
+  for (std::size_t i = 0; i < tables.axis[a].grid().knots; ++i) {
+    for (Knot& row : set.rows[a][i]) {
       for (std::size_t c = 0; c < 3; ++c)
-        column[i].v[c] += shift_nm[c];
+        row.v[c] += shift_nm[c];
     }
   }
 }
@@ -195,7 +198,7 @@ void copy_axis(const TablesView& tables, std::size_t axis, const TableSetView& s
   set.direction[axis] = to_float(tables.directions[axis]);
 }
 
-// Rows of −J⁻¹ at machine zero (mm/mm): constant as long as only linear axes correct and none
+// Rows of J⁻¹ at machine zero (mm/mm): constant as long as only linear axes correct and none
 // turns.
 Status fold_inverse(const MachineChain& chain, const RuntimeChain& runtime, const Vec3& tool_point,
                     const TableSetView& set) {
@@ -207,7 +210,7 @@ Status fold_inverse(const MachineChain& chain, const RuntimeChain& runtime, cons
       return s;
     for (std::size_t c = 0; c < runtime.correcting_count; ++c) {
       set.inverse[c][static_cast<std::size_t>(k)] =
-          static_cast<float>(offset.offset[runtime.correcting[c]]);
+          static_cast<float>(-offset.offset[runtime.correcting[c]]);
     }
   }
   return {};

@@ -17,14 +17,13 @@ struct TableSet {
   static_assert(Knots >= 2 && Knots <= kMaxLookupKnots && Axes <= kMaxAxes);
 
   std::array<AxisLookup, Axes> lookup{};
-  std::array<std::array<std::array<Knot, Knots>, 2>, Axes> rows{};  // [axis][direction][knot]
+  std::array<std::array<std::array<Knot, 2>, Knots>, Axes> rows{};  // [axis][knot][direction]
   std::array<Float3, Axes>
       direction{};  // squareness per nm of a linear axis (recursion only: folded holds it in rows)
   std::array<Float3, Axes>
       travel_axis{};  // unit vector of a linear motion in base (folded, rotated joints only)
   std::array<Float3, Axes> turn_before{};  // constant angles met before an axis in the folded walk
-  std::array<Float3, kMaxCorrecting>
-      inverse{};  // rows of −J⁻¹ where it is constant but not aligned
+  std::array<Float3, kMaxCorrecting> inverse{};  // rows of J⁻¹ where it is constant but not aligned
   Float3 tool_nm{};
   std::uint32_t image_crc = 0;  // of the image it was made from
   std::uint32_t checksum =
@@ -39,7 +38,7 @@ struct TableSetView {
   Float3* turn_before;
   Float3* inverse;
   Float3* tool_nm;
-  std::array<std::array<Knot*, 2>, kMaxAxes> rows;
+  std::array<std::array<Knot, 2>*, kMaxAxes> rows{};
   std::size_t axes;
   std::size_t knots;  // capacity
 
@@ -51,11 +50,10 @@ struct TableSetView {
         turn_before(set.turn_before.data()),
         inverse(set.inverse.data()),
         tool_nm(&set.tool_nm),
-        rows{},
         axes(Axes),
         knots(Knots) {
     for (std::size_t a = 0; a < Axes; ++a)
-      rows[a] = {set.rows[a][0].data(), set.rows[a][1].data()};
+      rows[a] = set.rows[a].data();
   }
 };
 

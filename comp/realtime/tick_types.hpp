@@ -2,6 +2,7 @@
 // What goes into a tick, what comes out, and how it is set up.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "comp/status.hpp"
@@ -33,6 +34,10 @@ enum StatusBit : std::uint16_t {
   kTableDamaged = 1U << 13U,     // the active tables changed in memory: correction ramped to 0
 };
 inline constexpr int kStatusBits = 14;
+
+constexpr std::size_t bit_of(StatusBit status) {
+  return static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(status)));
+}
 
 template <std::size_t Axes>
 struct TickInput {

@@ -20,7 +20,7 @@ static_assert(Xyfz::chain.letter[0] == 'X' && Xyfz::chain.letter[1] == 'Y' &&
               Xyfz::chain.letter[2] == 'Z');
 static_assert(Xyfz::chain.kind[2] == JointKind::prismatic);
 // Tool relative to work moves +1 with every NC coordinate: −1 (branch) · −1 (sign) for X and Y.
-static_assert(Xyfz::chain.inverse.valid);
+static_assert(Xyfz::chain.inverse.form == InverseForm::aligned);
 static_assert(Xyfz::chain.inverse.gain[0] > 0.5F && Xyfz::chain.inverse.gain[1] > 0.5F &&
               Xyfz::chain.inverse.gain[2] > 0.5F);
 static_assert(Xyfz::chain.inverse.component[0] == 0 && Xyfz::chain.inverse.component[1] == 1 &&
@@ -50,7 +50,7 @@ using Rotary = CompiledMachine<kRotary>;
 
 static_assert(Rotary::kAxes == 2);
 static_assert(!Rotary::chain.folded, "a rotary axis needs the recursion");
-static_assert(!Rotary::chain.inverse.valid);
+static_assert(Rotary::chain.inverse.form == InverseForm::general);
 static_assert(Rotary::chain.kind[1] == JointKind::rotary);
 static_assert(Rotary::chain.step[0].has_offset && !Rotary::chain.step[1].has_offset);
 static_assert(CompiledMachine<kXyfzMachine, RuntimeModel::second_order>::chain.folded == false);

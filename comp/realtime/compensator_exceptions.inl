@@ -1,0 +1,208 @@
+// What happens in a tick besides the usual: changes of tables, ramps, samples that are late, lost
+// or implausible, axes that are not referenced, positions beyond a table. Functions of their own,
+// so that the usual tick stays one straight run; only what belongs to an exchange of tables is
+// inlined, because that tick counts, too.
+
+namespace volcomp {
+
+template <class Machine, std::size_t Knots>
+VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
+  const bool activate = request_.load(std::memory_order_acquire) == Request::activate;
+  active_ = activate ? handed_over_ : nullptr;
+  usable_ = unknown_axes_ == 0 ? active_ : nullptr;
+  begin_change();
+  request_.store(Request::none, std::memory_order_release);
+}
+
+// Whatever changes, the output goes from where it is to where it should be along the ramp.
+template <class Machine, std::size_t Knots>
+VOLCOMP_INLINE void Compensator<Machine, Knots>::begin_change() {
+  for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
+    AxisState& s = axis_[machine_.chain.correcting[c]];
+    s.ramp_from = static_cast<float>(s.output);
+  });
+  ramp_ = fresh_ramp_;
+}
+
+// Ramp factor of this tick. At the end nothing of the start is left: from + 1 · (x − from) is
+// exactly x where `from` is 0.
+template <class Machine, std::size_t Knots>
+VOLCOMP_INLINE float Compensator<Machine, Knots>::advance_ramp() {
+  if (!ramp_.begun() && last_ramp_tick_ != ticks_ - 1U) ++ramps_;
+  last_ramp_tick_ = ticks_;
+  const float factor = ramp_.advance();
+  if (!ramp_.running()) {
+    for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
+      axis_[machine_.chain.correcting[c]].ramp_from = 0.0F;
+    });
+  }
+  return factor;
+}
+
+// Whether there are tables, and every axis has reported at last.
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] bool Compensator<Machine, Knots>::ready(const Input& in) {
+  if (active_ == nullptr) return false;
+  for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
+    AxisState& s = axis_[a];
+    if (s.known || !in.axis[a].valid) continue;
+    const std::int64_t position = in.axis[a].position;
+    s.known = true;
+    s.seen = rotary(a) ? clamp_turning(position) : clamp_position(position);
+    --unknown_axes_;
+  }
+  if (unknown_axes_ == 0) usable_ = active_;
+  return unknown_axes_ == 0;
+}
+
+// A first, lost, implausible, returning, unreferenced or absurdly large sample, or a usual one.
+// Returns the status bits it raises.
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] std::uint32_t Compensator<Machine, Knots>::take_sample(std::size_t axis,
+                                                                         const AxisSample& sample) {
+  AxisState& s = axis_[axis];
+  const bool turns = rotary(axis);
+  if (s.steady) s.position = s.seen;
+  const std::int64_t position =
+      turns ? clamp_turning(sample.position) : clamp_position(sample.position);
+  const std::uint64_t moved =
+      static_cast<std::uint64_t>(position) - static_cast<std::uint64_t>(s.seen);
+  const bool plausible = !s.known || moved + s.most_step <= 2 * s.most_step;
+  std::uint32_t status = sample.homed ? 0U : std::uint32_t{kNotHomed};
+  s.steady = sample.valid && plausible;
+  if (s.steady && !s.known) --unknown_axes_;
+  s.known = s.known || s.steady;
+  if (sample.valid) s.seen = position;
+  s.window = 0;
+  if (s.steady) {
+    s.stale_ticks = 0;
+    s.position = position;
+    const std::int64_t low = turns ? position >> 8 : position;
+    s.direction.update(static_cast<std::uint32_t>(low), s.hysteresis);
+    return status;
+  }
+  status |= kStale;
+  if (sample.valid) status |= kImplausible;
+  if (s.stale_ticks >= settings_.stale_drop_ticks) status |= kDropped;
+  if (s.stale_ticks < UINT16_MAX) ++s.stale_ticks;
+  return status;
+}
+
+// Where the axis stands in its table, held at the ends.
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] void Compensator<Machine, Knots>::place(std::size_t axis, const Tables& set,
+                                                          std::uint32_t& status) {
+  AxisState& s = axis_[axis];
+  const bool turns = rotary(axis);
+  std::int64_t r = distance(set.lookup[axis], s.position, s.output & target_mask_, turns);
+  const RangeState range = hold_inside(set.lookup[axis], turns, r);
+  if (range != RangeState::inside) status |= kOutOfRange;
+  if (range == RangeState::far_outside) status |= kFarOutOfRange;
+  const Direction direction = s.direction.direction();
+  const bool known = direction != Direction::unknown;
+  s.place = locate(set.lookup[axis], static_cast<std::uint32_t>(r), turns, set.rows[axis].data(),
+                   known ? direction : Direction::forward);
+  if (known) return;
+  status |= kDirectionUnknown;
+  set_mean(s.mean, s.place.knot[0], s.place.knot[1], s.place.t);  // both directions, side by side
+  s.place.knot = &s.mean;
+}
+
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] const Located& Compensator<Machine, Knots>::follow_unusual(
+    std::size_t axis, const AxisSample& sample, const Tables& set) {
+  AxisState& s = axis_[axis];
+  std::uint32_t status = take_sample(axis, sample);
+  place(axis, set, status);
+  constexpr std::uint32_t kNextIsUnusual = kStale | kOutOfRange | kDirectionUnknown;
+  if ((status & kNextIsUnusual) == 0) s.window = 2 * s.usual_step + 1;
+  s.exception = static_cast<std::uint16_t>(status);
+  guarded_axes_ |= 1U << axis;
+  return s.place;
+}
+
+// Clamp, ramp, round and slew with everything that can be going on: hold, gating to 0 and the soft
+// way back.
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] void Compensator<Machine, Knots>::put_out_unusual(AxisState& s, float excess,
+                                                                    float ramp,
+                                                                    std::uint32_t& status) {
+  const bool off = (status & (kNotHomed | kDropped | kNoTables)) != 0;
+  const bool held = !off && (status & (kStale | kNoAuthority)) != 0;
+  bool hit = false;
+  float x = Limiter<float>{s.limit.value(), 0.0F}.clamp(off ? 0.0F : -excess, hit);
+  if (hit) status |= kClamped;
+  x = s.ramp_from + ramp * (x - s.ramp_from);
+  // A drive may have started with more than the limit; what remains of it is beyond the rounding.
+  const float representable = Limiter<float>{kMaxRounded, 0.0F}.clamp(x, hit);
+  const std::int32_t rounded = held ? s.output : round_half_even(representable);
+
+  s.soft = s.soft || (off && (status & kNoTables) == 0);
+  const std::int32_t rate = s.soft ? s.soft_rate : s.rate;
+  s.output = Limiter<std::int32_t>{0, rate}.slew(rounded, s.output, hit);
+  if (hit && !s.soft) status |= kRateLimited;
+  if (!hit && !off) s.soft = false;
+  const std::int32_t size = s.output < 0 ? -s.output : s.output;
+  if (size > s.largest) s.largest = size;
+}
+
+// Counts what began and remembers the status word. False if the next output of this axis has to
+// take the long way, too.
+template <class Machine, std::size_t Knots>
+bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t status) {
+  AxisState& s = axis_[axis];
+  const std::size_t c = machine_.chain.correcting_index[axis];
+  const bool corrects = c != kNotCorrecting;
+  const EverydayBits last = corrects ? tally_.last(c) : everyday_bits(kValid);
+  const std::uint32_t before = s.status == 0 ? everyday_status(last) : std::uint32_t{s.status};
+  std::uint32_t began = status & ~before;
+  while (began != 0) {  // at most kStatusBits times
+    const auto bit = static_cast<std::size_t>(__builtin_ctz(began));
+    std::uint16_t& count = diagnostics_.began[axis][bit];
+    if (count < UINT16_MAX) ++count;
+    began &= began - 1U;
+  }
+  const EverydayBits bits = everyday_bits(status);
+  const bool everyday = status == everyday_status(bits);
+  if (corrects) tally_.resume(c, bits);
+  s.status = static_cast<std::uint16_t>(everyday ? 0U : status);
+  const bool far =
+      further(s.output, 0, kMostRounded) || exceeds(s.ramp_from, Magnitude(kMaxRounded));
+  return everyday && !s.soft && !far;
+}
+
+// Outputs and reports of all axes in a tick in which something was unusual. `gate`: what applies to
+// every correcting axis.
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] void Compensator<Machine, Knots>::finish_unusual(std::uint32_t gate, float ramp,
+                                                                   Output& out) {
+  const RuntimeChain& chain = machine_.chain;
+  const bool damaged = damaged_.load(std::memory_order_relaxed);
+  const std::uint32_t ramping = last_ramp_tick_ == ticks_ ? std::uint32_t{kRamping} : 0U;
+  guarded_axes_ = 0;
+  for (std::size_t a = 0; a < chain.axes; ++a) {
+    std::uint32_t status = axis_[a].exception;
+    axis_[a].exception = 0;
+    const std::size_t c = chain.correcting_index[a];
+    if (c != kNotCorrecting) {
+      status |= gate;
+      put_out_unusual(axis_[a], excess_[c], ramp, status);
+    }
+    if (damaged) status |= kTableDamaged;
+    if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
+    if (!count_changes(a, status)) guarded_axes_ |= 1U << a;
+    out.offset[a] = axis_[a].output;
+    out.status[a] = static_cast<std::uint16_t>(status | ramping);
+  }
+}
+
+// A tick without tables, or before every axis has reported: all corrections off or held.
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] void Compensator<Machine, Knots>::idle(const Input& in, float ramp, Output& out) {
+  for (std::size_t a = 0; a < machine_.chain.axes; ++a)
+    axis_[a].exception = static_cast<std::uint16_t>(take_sample(a, in.axis[a]));
+  excess_ = {};
+  finish_unusual(active() ? kStale : kNoTables, ramp, out);
+}
+
+}  // namespace volcomp
