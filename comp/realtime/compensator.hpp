@@ -193,13 +193,12 @@ class Compensator {
 
   const Tables* active_ = nullptr;
   const Tables* handed_over_ = nullptr;  // by activate(), for the tick to take
-  const Tables* latest_ = nullptr;       // activated last
-  const Tables* before_latest_ = nullptr;
-  kernel::Excess excess_{};         // of a tick in which something was unusual
-  Ramp fresh_ramp_{};               // not begun
-  std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
+  const Tables* latest_ = nullptr;       // ever active
+  kernel::Excess excess_{};              // of a tick in which something was unusual
+  Ramp fresh_ramp_{};                    // not begun
+  std::uint32_t unknown_axes_ = 0;       // that have never had a valid position
   std::uint32_t last_ramp_tick_ = UINT32_MAX;
-  std::uint32_t handed_over_count_ = 0;
+  std::uint32_t activations_ = 0;
   std::uint32_t ramps_ = 0;  // begun
   bool ticks_wrapped_ = false;
   std::int8_t next_ = 0;  // index of the spare buffer

@@ -61,9 +61,9 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   }
   request_.store(Request::none, std::memory_order_relaxed);
   damaged_.store(false, std::memory_order_relaxed);
-  active_ = usable_ = latest_ = before_latest_ = nullptr;
+  active_ = usable_ = latest_ = nullptr;
   next_ = 0;
-  handed_over_count_ = 0;
+  activations_ = 0;
   staged_ = false;
   diagnostics_ = {};
   report_ = {};
@@ -169,10 +169,7 @@ Status Compensator<Machine, Knots>::activate() {
   staged_ = false;
   damaged_.store(false, std::memory_order_relaxed);
   handed_over_ = &buffer_[static_cast<std::size_t>(next_)];
-  before_latest_ = latest_;
-  latest_ = handed_over_;
   next_ = static_cast<std::int8_t>(1 - next_);
-  ++handed_over_count_;
   request_.store(Request::activate, std::memory_order_release);
   return {};
 }
@@ -180,10 +177,8 @@ Status Compensator<Machine, Knots>::activate() {
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::deactivate() {
   const Request before = request_.exchange(Request::deactivate, std::memory_order_acq_rel);
-  if (before != Request::activate) return;
-  next_ = static_cast<std::int8_t>(1 - next_);  // the tick has not taken them
-  latest_ = before_latest_;
-  --handed_over_count_;
+  if (before == Request::activate)
+    next_ = static_cast<std::int8_t>(1 - next_);  // the tick has not taken them
 }
 
 template <class Machine, std::size_t Knots>
@@ -203,10 +198,8 @@ Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::dia
   };
   Diagnostics<kAxes> d = diagnostics_;
   d.ticks = ticks_wrapped_ ? UINT32_MAX : ticks_;
-  const bool waiting = request_.load(std::memory_order_relaxed) == Request::activate;
-  d.activations = handed_over_count_ - (waiting ? 1U : 0U);
-  const Tables* const taken = waiting ? before_latest_ : latest_;
-  if (taken != nullptr) d.active_crc = taken->image_crc;
+  d.activations = activations_;
+  if (latest_ != nullptr) d.active_crc = latest_->image_crc;
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     d.largest[a] = axis_[a].largest;
     d.began[a][bit_of(kRamping)] = saturated(ramps_);

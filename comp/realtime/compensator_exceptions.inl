@@ -7,8 +7,12 @@ namespace volcomp {
 
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
-  const bool activate = request_.load(std::memory_order_acquire) == Request::activate;
-  active_ = activate ? handed_over_ : nullptr;
+  if (request_.load(std::memory_order_acquire) == Request::activate) {
+    active_ = latest_ = handed_over_;
+    ++activations_;
+  } else {
+    active_ = nullptr;
+  }
   usable_ = unknown_axes_ == 0 ? active_ : nullptr;
   begin_change();
   request_.store(Request::none, std::memory_order_release);
