@@ -83,7 +83,9 @@ step_test() {
 
 step_can() {
   local way
+  need aarch64-linux-gnu-g++ qemu-system-aarch64
   build_preset host
+  build_preset a53 --target volcomp-node
   way=$(bash toolchain/with-vcan --how)
   printf 'way to vcan0: %s\n' "$way"
   VOLCOMP_VM_TIMEOUT=1500 VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/run_all.sh vcan 2>&1 | tee "$logs/ctest-can.txt"

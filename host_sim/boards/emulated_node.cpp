@@ -3,24 +3,32 @@
 #include <algorithm>
 #include <deque>
 #include <fstream>
+#include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "host_sim/links/boot_up.hpp"
+#include "host_sim/links/paced_link.hpp"
+#include "host_sim/links/socket_link.hpp"
 
 namespace volcomp::sim {
 namespace {
 
-constexpr const char* kEmulator = "qemu-system-arm";
 constexpr int kEndPatience_ms = 10'000;
-constexpr std::size_t kLastLines = 24;  // a whole fault report
+constexpr int kCanBootPatience_ms = 60'000;  // in an emulator inside an emulator
+constexpr std::size_t kLastLines = 24;       // a whole fault report
+constexpr const char* kMonitor = "monitor";
+// The controller has room for five frames. Its processor has fetched four within a third of a
+// millisecond of its own time, which is what they take on a bus of 1 Mbit/s.
+constexpr int kCanBurst = 4;
+constexpr std::uint64_t kInstructionsPerBurst = 5000;
 
-std::filesystem::path find_emulator() {
-  std::filesystem::path path = find_program(kEmulator);
+std::filesystem::path find_emulator(const EmulatedBoard& board) {
+  const char* const name = board.has_can_controller ? "qemu-system-aarch64" : "qemu-system-arm";
+  std::filesystem::path path = find_program(name);
   if (path.empty())
-    throw UserError(
-        fmt::format("{} is not installed (Debian: apt install {})", kEmulator, kEmulator));
+    throw UserError(fmt::format("{} is not installed (Debian: apt install qemu-system-arm)", name));
   return path;
 }
 
@@ -33,24 +41,61 @@ std::filesystem::path find_image(const EmulatedBoard& board, const std::filesyst
       image.lexically_normal().string(), board.name, board.name));
 }
 
-// One instruction every 64 ns of virtual time, which does not depend on anything else; the image is
-// told to exchange its frames by the pipes in its folder.
-std::vector<std::string> command(const EmulatedBoard& board, const std::filesystem::path& image) {
-  return {find_emulator().string(),
-          "-M",
-          board.machine,
-          "-nographic",
-          "-monitor",
-          "none",
-          "-serial",
-          "stdio",
-          "-semihosting-config",
-          "enable=on,target=native,arg=volcomp-node,arg=pipe",
-          "-icount",
-          "shift=6,sleep=off",
-          "-kernel",
-          image.string()};
+using Words = std::vector<std::string>;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
 }
+
+// One instruction every 64 ns of virtual time, which does not depend on anything else.
+Words command(const EmulatedBoard& board, const Words& machine, const std::string& arguments,
+              const std::filesystem::path& image) {
+  return Words{find_emulator(board).string()} + machine +
+         Words{"-nographic",
+               "-monitor",
+               "none",
+               "-serial",
+               "stdio",
+               "-icount",
+               "shift=6,sleep=off",
+               "-semihosting-config",
+               "enable=on,target=native,arg=volcomp-node" + arguments,
+               "-kernel",
+               image.string()};
+}
+
+// A Kvaser card with an SJA1000 on the PCI bus, and its bus joined to the interface.
+Words can_machine(const EmulatedBoard& board, const std::string& interface) {
+  return {"-M",      fmt::format("{},highmem=off,gic-version=2", board.machine),
+          "-cpu",    "cortex-a53",
+          "-m",      "32",
+          "-nic",    "none",
+          "-object", "can-bus,id=can",
+          "-device", "kvaser_pci,canbus=can",
+          "-object", fmt::format("can-host-socketcan,id=host,canbus=can,if={}", interface),
+          "-qmp",    fmt::format("unix:{},server=on,wait=off", kMonitor)};
+}
+
+// Looks after the firmware while this process waits for it.
+class WatchedLink final : public FrameLink {
+ public:
+  WatchedLink(std::unique_ptr<FrameLink> link, std::function<void()> watch)
+      : link_(std::move(link)), watch_(std::move(watch)) {}
+
+  [[nodiscard]] bool send(const hal::CanFrame& frame) override { return link_->send(frame); }
+  [[nodiscard]] bool receive(hal::CanFrame& frame) override { return link_->receive(frame); }
+  void wait(std::uint32_t timeout_us) override {
+    watch_();
+    link_->wait(timeout_us);
+  }
+  [[nodiscard]] std::uint64_t now_us() const override { return link_->now_us(); }
+  [[nodiscard]] bool turn_by_turn() const override { return false; }
+
+ private:
+  std::unique_ptr<FrameLink> link_;
+  std::function<void()> watch_;
+};
 
 }  // namespace
 
@@ -67,15 +112,55 @@ std::filesystem::path node_image(const EmulatedBoard& board) {
   return builds / board.name / "firmware" / fmt::format("volcomp-node-{}.elf", board.name);
 }
 
-EmulatedNode::EmulatedNode(const EmulatedBoard& board, const std::filesystem::path& image)
+EmulatedNode::EmulatedNode(const EmulatedBoard& board, const std::filesystem::path& image,
+                           const std::string& interface)
     : board_(board) {
-  const std::vector<std::string> words = command(board, find_image(board, image));
-  make_frame_pipes(folder_.path());
+  const std::filesystem::path found = find_image(board, image);
+  if (!board.has_can_controller) {
+    join_by_pipe(found);
+  } else if (!interface.empty()) {
+    join_by_can(found, interface);
+  } else {
+    throw UserError(fmt::format(
+        "firmware {}: has a CAN controller of its own and needs an interface to join", board.name));
+  }
+}
+
+void EmulatedNode::start(const std::vector<std::string>& words) {
   qemu_ = std::make_unique<ChildProcess>(words, folder_.path(), output());
+}
+
+// The image is told to exchange its frames by the pipes in its folder.
+void EmulatedNode::join_by_pipe(const std::filesystem::path& image) {
+  const Words words = command(board_, {"-M", board_.machine}, ",arg=pipe", image);
+  make_frame_pipes(folder_.path());
+  start(words);
   with_last_words([this] {
-    link_ = std::make_unique<PipeLink>(folder_.path(), [this](bool gone) { watch(gone); });
-    if (!await_boot_up(*link_)) fail("runs, but no node starts in it");
+    pipe_ = std::make_unique<PipeLink>(folder_.path(), [this](bool gone) { watch(gone); });
+    if (!await_boot_up(*pipe_)) fail("runs, but no node starts in it");
   });
+}
+
+// QEMU listens on its monitor before it starts the processor.
+void EmulatedNode::join_by_can(const std::filesystem::path& image, const std::string& interface) {
+  auto socket =
+      std::make_unique<WatchedLink>(std::make_unique<SocketLink>(interface), [this] { watch(); });
+  start(command(board_, can_machine(board_, interface), "", image));
+  with_last_words([&] {
+    if (!await_boot_up(*socket, kCanBootPatience_ms)) fail("runs, but no node starts in it");
+    monitor_ = std::make_unique<QemuMonitor>(folder_.path() / kMonitor);
+    const auto progress = [this] {
+      watch();
+      return monitor_->instructions();
+    };
+    can_ =
+        std::make_unique<PacedLink>(std::move(socket), progress, kCanBurst, kInstructionsPerBurst);
+  });
+}
+
+FrameLink& EmulatedNode::link() {
+  if (pipe_) return *pipe_;
+  return *can_;
 }
 
 // A pipe may break a moment before the process that held it has ended.
@@ -85,9 +170,11 @@ void EmulatedNode::watch(bool gone) {
   if (ended) fail("QEMU " + qemu_->how_it_ended());
 }
 
+// Nothing on a CAN bus ends a node: there it only has to be alive.
 void EmulatedNode::finish() {
   with_last_words([this] {
-    link_->quit();
+    if (!pipe_) return watch();
+    pipe_->quit();
     if (!qemu_->await_end(kEndPatience_ms)) fail("does not end when it is asked to");
     if (!qemu_->ended_well()) fail("QEMU " + qemu_->how_it_ended());
   });

@@ -1,7 +1,9 @@
 #pragma once
-// The compensation node as firmware, really executed: its image on a board that QEMU emulates,
-// joined by a frame pipe. The processor stands still while this process works, so a run repeats
-// itself bit for bit.
+// The compensation node as firmware, really executed: its image on a board that QEMU emulates.
+//
+// Boards without a CAN controller are joined by a frame pipe: the processor stands still while this
+// process works, so a run repeats itself bit for bit. The controller of the others is joined to a
+// SocketCAN interface by QEMU.
 
 #include <array>
 #include <filesystem>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "host_sim/boards/child_process.hpp"
+#include "host_sim/boards/qemu_monitor.hpp"
 #include "host_sim/data/interruption.hpp"
 #include "host_sim/data/temporary_folder.hpp"
 #include "host_sim/data/user_error.hpp"
@@ -22,10 +25,13 @@ struct EmulatedBoard {
   const char* machine;    // QEMU's name of the board
   const char* processor;  // for people
   std::size_t knots;      // per table: VOLCOMP_NODE_KNOTS of the preset
+  bool has_can_controller;
 };
 
-inline constexpr std::array<EmulatedBoard, 2> kEmulatedBoards{
-    {{"m7", "mps2-an500", "Cortex-M7", 128}, {"m4", "mps2-an386", "Cortex-M4F", 64}}};
+inline constexpr std::array<EmulatedBoard, 3> kEmulatedBoards{
+    {{"m7", "mps2-an500", "Cortex-M7", 128, false},
+     {"m4", "mps2-an386", "Cortex-M4F", 64, false},
+     {"a53", "virt", "Cortex-A53", 128, true}}};
 
 // Throws UserError for an unknown name.
 [[nodiscard]] const EmulatedBoard& emulated_board(const std::string& name);
@@ -35,8 +41,10 @@ inline constexpr std::array<EmulatedBoard, 2> kEmulatedBoards{
 
 class EmulatedNode {
  public:
-  // Starts the image; empty: node_image(). Throws UserError naming what is missing.
-  EmulatedNode(const EmulatedBoard& board, const std::filesystem::path& image);
+  // Starts the image; empty: node_image(). `interface`: where the CAN controller of the board is
+  // joined, for boards that have one. Throws UserError naming what is missing.
+  EmulatedNode(const EmulatedBoard& board, const std::filesystem::path& image,
+               const std::string& interface = {});
   EmulatedNode(const EmulatedNode&) = delete;
   EmulatedNode& operator=(const EmulatedNode&) = delete;
   // Ends QEMU.
@@ -44,8 +52,10 @@ class EmulatedNode {
 
   // Throws UserError when the firmware has ended, and Interrupted when this process is asked to
   // end.
-  [[nodiscard]] PipeLink& link() { return *link_; }
-  // Asks the firmware to end. Throws UserError when it does not end well.
+  [[nodiscard]] FrameLink& link();
+  // Boards without a CAN controller only.
+  [[nodiscard]] PipeLink& pipe() { return *pipe_; }
+  // Asks the firmware to end, where there is a way. Throws UserError when it has not ended well.
   void finish();
 
   // Does the work; what goes wrong in it is told together with what the firmware said last.
@@ -63,7 +73,10 @@ class EmulatedNode {
   [[nodiscard]] pid_t process_id() const { return qemu_->id(); }
 
  private:
-  void watch(bool gone);
+  void start(const std::vector<std::string>& command);
+  void join_by_pipe(const std::filesystem::path& image);
+  void join_by_can(const std::filesystem::path& image, const std::string& interface);
+  void watch(bool gone = false);
   [[nodiscard]] std::filesystem::path output() const { return folder_.path() / "output.txt"; }
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -71,7 +84,9 @@ class EmulatedNode {
   Interruption interruption_;
   TemporaryFolder folder_;
   std::unique_ptr<ChildProcess> qemu_;
-  std::unique_ptr<PipeLink> link_;
+  std::unique_ptr<PipeLink> pipe_;
+  std::unique_ptr<QemuMonitor> monitor_;
+  std::unique_ptr<FrameLink> can_;
 };
 
 }  // namespace volcomp::sim

@@ -43,7 +43,7 @@ class FirmwareForReplay {
   std::shared_ptr<PipeLink> start() {
     running_.reset();  // first, since there is one at a time
     running_ = std::make_shared<EmulatedNode>(board_, image_);
-    return {running_, &running_->link()};
+    return {running_, &running_->pipe()};
   }
 
   EmulatedBoard board_;

@@ -12,6 +12,7 @@
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/data/whole_file.hpp"
 #include "host_sim/report/report.hpp"
+#include "host_sim/scenarios/xyfz/one_diagonal.hpp"
 #include "host_sim/scenarios/xyfz/report.hpp"
 
 namespace volcomp::sim {
@@ -25,6 +26,7 @@ struct RunArguments {
   std::string command;
   NodePlace node;
   std::size_t knots = kDefaultKnots;
+  bool one_diagonal = false;
 };
 
 // File and path as the user would type them, without the folder of the program.
@@ -35,7 +37,11 @@ std::string command_line(int argc, char** argv) {
   return text;
 }
 
-XyfzResult run_scenario(const RunArguments& arguments, XyfzOptions options) {
+// Runs run_xyfz or one of its kind with the node where it was asked for.
+template <class Result>
+Result run_scenario(const RunArguments& arguments,
+                    Result (*scenario)(const XyfzOptions&, const Progress&)) {
+  XyfzOptions options = arguments.options;
   std::unique_ptr<ScenarioBus> bus;
   if (!arguments.node.integrated()) {
     bus = std::make_unique<ScenarioBus>(arguments.node);
@@ -43,12 +49,24 @@ XyfzResult run_scenario(const RunArguments& arguments, XyfzOptions options) {
   }
   ProgressBar bar;
   const auto run = [&] {
-    return run_xyfz(options, [&](double done, const std::string& what) { bar.show(done, what); });
+    return scenario(options, [&](double done, const std::string& what) { bar.show(done, what); });
   };
-  XyfzResult result = bus ? bus->watch(run) : run();
+  Result result = bus ? bus->watch(run) : run();
   if (bus) bus->finish();
-  result.options.make_cell = {};  // the bus ends here
   return result;
+}
+
+void write_figures(const RunArguments& arguments, nlohmann::json figures) {
+  if (arguments.json_file.empty()) return;
+  figures["transport"] = describe(arguments.node);
+  write_whole_file(arguments.json_file, figures.dump(2) + "\n");
+}
+
+int run_diagonal_only(const RunArguments& arguments) {
+  const OneDiagonal result = run_scenario(arguments, run_one_diagonal);
+  fmt::print("{}transport: {}\n", one_diagonal_summary(result), describe(arguments.node));
+  write_figures(arguments, one_diagonal_figures(result));
+  return result.ok() ? 0 : 1;
 }
 
 int run_xyfz_command(RunArguments& arguments) {
@@ -59,13 +77,11 @@ int run_xyfz_command(RunArguments& arguments) {
   if (!arguments.report_folder.empty()) {
     options.campaign = std::filesystem::path(arguments.report_folder) / "campaign";
   }
-  const XyfzResult result = run_scenario(arguments, options);
+  if (arguments.one_diagonal) return run_diagonal_only(arguments);
+  XyfzResult result = run_scenario(arguments, run_xyfz);
+  result.options.make_cell = {};  // the bus has ended
   fmt::print("{}transport: {}\n", xyfz_summary(result), describe(arguments.node));
-  if (!arguments.json_file.empty()) {
-    nlohmann::json figures = xyfz_figures(result);
-    figures["transport"] = describe(arguments.node);
-    write_whole_file(arguments.json_file, figures.dump(2) + "\n");
-  }
+  write_figures(arguments, xyfz_figures(result));
   if (!arguments.report_folder.empty()) {
     write_report(xyfz_document(result, arguments.command), arguments.report_folder);
     fmt::print("report: {}\n",
@@ -76,12 +92,11 @@ int run_xyfz_command(RunArguments& arguments) {
 
 // Returns the options that make sense only with a node somewhere.
 std::vector<CLI::Option*> add_node_options(CLI::App& xyfz, NodePlace& node) {
-  CLI::Option* can = xyfz.add_option(
+  xyfz.add_option(
       "--can", node.can,
       fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}", kLinkForms));
-  CLI::Option* firmware =
-      add_firmware_options(xyfz, node.firmware, "Compensate by the node as firmware");
-  firmware->excludes(can);
+  add_firmware_options(xyfz, node.firmware, "Compensate by the node as firmware",
+                       " or, with --can vcan0 to join, a53 (Cortex-A53 with an SJA1000)");
   CLI::Option* cycle = xyfz.add_option("--cycle-hz", node.cycle_hz, "Cycle on the bus")
                            ->check(CLI::Range(50.0, 1000.0))
                            ->capture_default_str();
@@ -116,15 +131,23 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   xyfz->add_option("--knots", a->knots,
                    "Most knots of a table (default: what the node has room for, up to 128)")
       ->check(CLI::Range(std::size_t{2}, kDefaultKnots));
+  CLI::Option* one = xyfz->add_flag(
+      "--one-diagonal", a->one_diagonal,
+      "Only the body diagonal PNP at 11 points, without and with compensation, noise-free");
   xyfz->add_option("--json", a->json_file, "Write the figures to this file");
   xyfz->add_option("--report", a->report_folder,
-                   "Write report.html, report.json and the run files to this folder");
+                   "Write report.html, report.json and the run files to this folder")
+      ->excludes(one);
   const std::vector<CLI::Option*> on_a_bus = add_node_options(*xyfz, a->node);
   xyfz->callback([a, on_a_bus, &code] {
     for (const CLI::Option* option : on_a_bus) {
       if (a->node.integrated() && option->count() > 0)
         throw CLI::RequiresError(option->get_name(), "--can or --firmware");
     }
+    const FirmwareChoice& firmware = a->node.firmware;
+    if (firmware.chosen() && !a->node.can.empty() &&
+        !emulated_board(firmware.board).has_can_controller)
+      throw CLI::ExcludesError("--firmware " + firmware.board, "--can");
     code = run_xyfz_command(*a);
   });
 }

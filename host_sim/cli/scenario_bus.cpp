@@ -8,8 +8,9 @@ std::string describe(const NodePlace& place) {
   if (place.integrated()) return "integrated";
   if (place.firmware.chosen()) {
     const EmulatedBoard& board = emulated_board(place.firmware.board);
-    return fmt::format("firmware on {} ({} in QEMU), {:g} Hz, lock step", board.processor,
-                       board.machine, place.cycle_hz);
+    return fmt::format("firmware on {} ({} in QEMU), {}{:g} Hz, lock step", board.processor,
+                       board.machine, place.can.empty() ? "" : "CAN " + place.can + ", ",
+                       place.cycle_hz);
   }
   const char* const how = place.can == "loopback" ? "node in this process" : "lock step";
   return fmt::format("CAN {}, {:g} Hz, {}", place.can, place.cycle_hz, how);
@@ -32,8 +33,8 @@ ScenarioBus::ScenarioBus(const NodePlace& place) : cycle_hz_(place.cycle_hz) {
 
 void ScenarioBus::join(const NodePlace& place) {
   if (place.firmware.chosen()) {
-    board_ =
-        std::make_unique<EmulatedNode>(emulated_board(place.firmware.board), place.firmware.image);
+    board_ = std::make_unique<EmulatedNode>(emulated_board(place.firmware.board),
+                                            place.firmware.image, place.can);
     link_ = &board_->link();
   } else if (place.can != "loopback") {
     opened_ = open_frame_link(place.can);

@@ -12,7 +12,7 @@ namespace volcomp::sim {
 
 struct NodePlace {
   std::string can;          // loopback or a link; empty: integrated, or firmware
-  FirmwareChoice firmware;  // instead of `can`
+  FirmwareChoice firmware;  // instead of `can`, or joined to it by a CAN controller of its own
   std::string log_file;     // empty: none
   double cycle_hz = kBusCycle_hz;
 

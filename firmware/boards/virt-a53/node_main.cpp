@@ -18,7 +18,7 @@ using volcomp::hal::CanBusState;
 
 constexpr std::uint8_t kNodeId = 32;
 constexpr std::uint32_t kTickPeriod_us = 1000;
-constexpr std::uint32_t kBite_us = 50'000;
+constexpr std::uint32_t kBite_us = 2'000'000;  // a busy computer may hold up its emulator that long
 
 std::array<volcomp::hal::virt::KvaserCard, 1> cards;
 volcomp::hal::virt::KvaserCan can;

@@ -4,7 +4,7 @@
 # shellcheck source=tests/system/vcan/common.sh
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-readonly volcomp=$build/host_sim/volcomp
+readonly volcomp=$build/host_sim/volcomp same_figures=tests/system/vcan/same_figures.py
 # The slower the cycle, the fewer there are; what is compared does not depend on it.
 readonly cycle_hz=50
 campaign=("$volcomp" run xyfz --draws 0 --volume-points 10)
@@ -23,31 +23,10 @@ sed "s/^tick_hz = .*/tick_hz = $cycle_hz.0/" host_sim/machines/xyfz.toml > "$wor
 "${campaign[@]}" --machine "$work/machine.toml" --json "$work/integrated.json" > "$work/integrated_run.txt" 2>&1 ||
   fail 'the campaign without a bus'
 
-# Every figure but those that name the way, the file and the CRC of the file.
-cat > "$work/compare.py" << 'END'
-import json, sys
-
-def figures(node, path=""):
-    if isinstance(node, dict):
-        for key, value in node.items():
-            yield from figures(value, f"{path}/{key}")
-    elif isinstance(node, list):
-        for number, value in enumerate(node):
-            yield from figures(value, f"{path}/{number}")
-    elif isinstance(node, float):
-        yield path, node
-
-tolerance = float(sys.argv[3])
-first, second = (dict(figures(json.load(open(name)))) for name in sys.argv[1:3])
-assert first and first.keys() == second.keys(), "other figures"
-worst = max(first, key=lambda key: abs(first[key] - second[key]))
-print(f"{len(first)} figures, largest difference {abs(first[worst] - second[worst])} at {worst}")
-sys.exit(abs(first[worst] - second[worst]) > tolerance)
-END
-expect 'vcan0 and loopback give the same figures' "$python" "$work/compare.py" "$work/vcan.json" "$work/loopback.json" 0
+expect 'vcan0 and loopback give the same figures' "$python" "$same_figures" "$work/vcan.json" "$work/loopback.json" 0
 # µm and per cent; the wire counts nanometres.
 expect 'vcan0 and the integrated form give the same figures' \
-  "$python" "$work/compare.py" "$work/vcan.json" "$work/integrated.json" 0.001
+  "$python" "$same_figures" "$work/vcan.json" "$work/integrated.json" 0.001
 
 kill -INT "$candump"
 wait "$candump" 2> /dev/null || true

@@ -94,6 +94,7 @@ TEST(EmulatedNode, WhatIsMissingIsNamed) {
   };
   EXPECT_THAT(complaint("m3", ""), HasSubstr("m3: there is no firmware"));
   EXPECT_EQ(complaint("m7", "/no/such.elf"), "/no/such.elf: no such file");
+  EXPECT_THAT(complaint("a53", "/bin/sh"), HasSubstr("a53: has a CAN controller of its own"));
   EXPECT_THAT(node_image(emulated_board("m4")).string(),
               testing::EndsWith("/m4/firmware/volcomp-node-m4.elf"));
 }

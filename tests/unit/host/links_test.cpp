@@ -11,6 +11,7 @@
 #include "host_sim/data/temporary_folder.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/data/whole_file.hpp"
+#include "host_sim/links/paced_link.hpp"
 #include "host_sim/links/pipe_link.hpp"
 #include "host_sim/links/slcan_link.hpp"
 #include "tests/unit/host/linux_node.hpp"
@@ -295,6 +296,49 @@ TEST(SlcanLink, WhatIsNoLineIsNamed) {
   const SlcanNode node;
   EXPECT_EQ(refusal_of("slcan:" + node.device_name() + "@31"),
             node.device_name() + ": there is no rate of 31 baud");
+}
+
+// --- bursts
+
+// The other end: what it has not fetched yet, and how far it has come.
+struct SlowReceiver {
+  int unfetched = 0;
+  int most = 0;
+  std::uint64_t progress = 0;
+
+  // It fetches everything after 100 steps and comes 30 steps further each time it is asked.
+  std::uint64_t ask() {
+    const std::uint64_t before = progress;
+    progress += 30;
+    if (before / 100 != progress / 100) unfetched = 0;
+    return progress;
+  }
+};
+
+class LinkToSlowReceiver final : public FrameLink {
+ public:
+  explicit LinkToSlowReceiver(SlowReceiver& receiver) : receiver_(receiver) {}
+
+  [[nodiscard]] bool send(const hal::CanFrame& /*frame*/) override {
+    receiver_.most = std::max(receiver_.most, ++receiver_.unfetched);
+    return true;
+  }
+  [[nodiscard]] bool receive(hal::CanFrame& /*frame*/) override { return false; }
+  void wait(std::uint32_t /*timeout_us*/) override {}
+  [[nodiscard]] std::uint64_t now_us() const override { return 0; }
+  [[nodiscard]] bool turn_by_turn() const override { return false; }
+
+ private:
+  SlowReceiver& receiver_;
+};
+
+TEST(PacedLink, OtherEndNeverHoldsMoreThanABurst) {
+  SlowReceiver receiver;
+  PacedLink link(
+      std::make_unique<LinkToSlowReceiver>(receiver), [&] { return receiver.ask(); }, 4, 100);
+  for (int i = 0; i < 40; ++i)
+    EXPECT_TRUE(link.send({}));
+  EXPECT_EQ(receiver.most, 4);
 }
 
 }  // namespace
