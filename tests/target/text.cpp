@@ -39,12 +39,12 @@ void put_scientific(double value) {
 
 void put_exact(double value) {
   int exponent = 0;
-  const double mantissa = std::frexp(value, &exponent);  // 0.5…1
-  auto bits = static_cast<std::uint64_t>(std::ldexp(mantissa, 53)) << 11U;
-  put("0x1.");
-  for (bits <<= 1U; bits != 0; bits <<= 4U)
-    put(kDigits[bits >> 60U]);
-  put('p');
+  const double mantissa = std::frexp(value, &exponent);                         // 0.5…1
+  auto fraction = static_cast<std::uint64_t>(std::ldexp(mantissa, 53)) << 12U;  // behind the 1
+  put(fraction == 0 ? "0x1" : "0x1.");
+  for (; fraction != 0; fraction <<= 4U)
+    put(kDigits[fraction >> 60U]);
+  put(exponent > 0 ? "p+" : "p");
   put_signed(exponent - 1);
 }
 

@@ -11,8 +11,8 @@ namespace {
 constexpr RotationModel kModels[] = {RotationModel::rxryrz, RotationModel::exponential,
                                      RotationModel::second_order, RotationModel::linear};
 
-// The oracle itself subtracts the identity, in long double.
-constexpr double kOracle = 4e-19;
+// The oracle itself subtracts the identity.
+constexpr double kOracle = 4.0 * kRealEpsilon;
 
 Mat3 expected_minus_identity(RotationModel model, const Vec3& angles) {
   return (error_rotation(model, angles) - Real33::Identity()).cast<double>();

@@ -3,6 +3,7 @@
 // with comp but its data types: 4×4 products in long double, straight from the definitions.
 
 #include <cstdint>
+#include <limits>
 #include <random>
 
 #include <Eigen/Core>
@@ -41,7 +42,9 @@ class Random {
 
 // --- oracle ---------------------------------------------------------------------------------
 
+// On some targets no more than a double: the oracle is then as coarse as what it judges.
 using Real = long double;
+inline constexpr auto kRealEpsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
 using Real3 = Eigen::Matrix<Real, 3, 1>;
 using Real33 = Eigen::Matrix<Real, 3, 3>;
 using Real44 = Eigen::Matrix<Real, 4, 4>;

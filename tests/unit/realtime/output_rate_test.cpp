@@ -88,7 +88,8 @@ class Storm {
     for (std::size_t a = 0; a < axes_; ++a) {
       const std::int64_t moved = std::int64_t{runner_.out.offset[a]} - last_[a];
       ASSERT_LE(std::abs(moved), settings_.axis[a].rate) << "tick " << n << " axis " << a;
-      ASSERT_LE(std::abs(runner_.out.offset[a]), std::max(settings_.axis[a].limit, 500'000));
+      ASSERT_LE(std::abs(runner_.out.offset[a]),
+                std::max<std::int32_t>(settings_.axis[a].limit, 500'000));
       const unsigned gone = kNotHomed | kDropped;
       if (a < 3 && (runner_.out.status[a] & gone) != 0 &&
           (runner_.out.status[a] & kNoTables) == 0) {
@@ -127,7 +128,7 @@ void weather(const MachineTables& one, const MachineTables& other, std::size_t a
     LoadedRunner runner(one.machine);
     Storm storm(runner, axes, random);
     storm.configure();
-    for (int n = 0; n < kManyPoints / 40; ++n) {
+    for (int n = 0; n < std::max(kManyPoints / 40, 2'500); ++n) {
       storm.event(one, other);
       storm.tick(n);
       if (::testing::Test::HasFatalFailure()) return;
@@ -172,8 +173,9 @@ TEST(OutputRate, AnyStartOffsetGoesStraightToTheTarget) {
 
 // No drive stands a metre from its command: such a read-back is garbage and changes nothing.
 TEST(OutputRate, AbsurdStartOffsetIsRefused) {
-  for (const std::int32_t start : {(1 << 30) + 1, std::numeric_limits<std::int32_t>::max(),
-                                   std::numeric_limits<std::int32_t>::min()}) {
+  for (const std::int32_t start :
+       {std::int32_t{(1 << 30) + 1}, std::numeric_limits<std::int32_t>::max(),
+        std::numeric_limits<std::int32_t>::min()}) {
     LoadedRunner runner(kXyfzMachine);
     ASSERT_TRUE(runner.compensator->start_from({100, 0, 0, 0, 0}).ok());
     const Status refused = runner.compensator->start_from({0, start, 0, 0, 0});

@@ -146,7 +146,7 @@ TEST(Ramp, LongestRampIsMonotoneAndLongerOnesAreRefused) {
   auto settings = open_settings<5>();
   settings.ramp_ticks = kLongest;
   EXPECT_TRUE(runner.compensator->configure(settings).ok());
-  for (const std::uint32_t ticks : {kLongest + 1, 0xFFFFFFFFU}) {
+  for (const std::uint32_t ticks : {kLongest + 1, UINT32_MAX}) {
     settings.ramp_ticks = ticks;
     const Status refused = runner.compensator->configure(settings);
     EXPECT_EQ(refused.reason, Reason::bad_setting);

@@ -108,8 +108,8 @@ TEST(RotaryChain, L300gOffsetsAreTheFormulasOfSeed000) {
     ASSERT_LT(worst_linear, 1.0L) << "point " << n;
     ASSERT_LT(worst_arc, 1.0L) << "point " << n;  // 2^-32 turn: 0.25 nm at the arm
   }
-  RecordProperty("worst_nm", std::to_string(worst_linear));
-  RecordProperty("worst_arc", std::to_string(worst_arc));
+  RecordProperty("worst_pm", static_cast<int>(worst_linear * 1e3L));
+  RecordProperty("worst_arc_units_e3", static_cast<int>(worst_arc * 1e3L));
 }
 
 TEST(RotaryChain, FiveAxisTableTableEqualsTheExactChain) {
@@ -138,7 +138,7 @@ TEST(RotaryChain, FiveAxisTableTableEqualsTheExactChain) {
       }
       ASSERT_LT(worst, 1.0) << "point " << n;
     }
-    RecordProperty(scale > 1.0 ? "worst_nm_large" : "worst_nm", std::to_string(worst));
+    RecordProperty(scale > 1.0 ? "worst_pm_large" : "worst_pm", static_cast<int>(worst * 1e3));
   }
 }
 

@@ -1,5 +1,6 @@
 // Every bad setting is refused with its field and axis, and changes nothing.
 
+#include <algorithm>
 #include <cstring>
 
 #include "tests/unit/realtime/support.hpp"
@@ -39,23 +40,24 @@ TEST(Settings, LimitsAreInclusive) {
 
 TEST(Settings, EachFieldOfEachAxisIsChecked) {
   constexpr std::int32_t kLeast = std::numeric_limits<std::int32_t>::min();
+  using List = std::initializer_list<std::int32_t>;  // int32 is not int on every target
   for (int axis = 0; axis < 3; ++axis) {
     const auto with = [axis](auto&& change) {
       Settings s;
       change(s.axis[static_cast<std::size_t>(axis)]);
       return s;
     };
-    for (const std::int32_t limit : {0, -1, kLeast, 4'194'304})
+    for (const std::int32_t limit : List{0, -1, kLeast, 4'194'304})
       expect_refused(with([=](AxisLimits& l) { l.limit = limit; }), "limit", axis);
-    for (const std::int32_t rate : {0, -1, kLeast, 1'000'000'001})
+    for (const std::int32_t rate : List{0, -1, kLeast, 1'000'000'001})
       expect_refused(with([=](AxisLimits& l) {
                        l.rate = rate;
                        l.soft_rate = rate > 0 ? 1 : rate;
                      }),
                      rate > 0 ? "rate" : "soft_rate", axis);
-    for (const std::int32_t soft : {0, -1, kLeast, 10'001})
+    for (const std::int32_t soft : List{0, -1, kLeast, 10'001})
       expect_refused(with([=](AxisLimits& l) { l.soft_rate = soft; }), "soft_rate", axis);
-    for (const std::int32_t hysteresis : {-1, kLeast, 4'194'304})
+    for (const std::int32_t hysteresis : List{-1, kLeast, 4'194'304})
       expect_refused(with([=](AxisLimits& l) { l.hysteresis = hysteresis; }), "hysteresis", axis);
     for (const std::int64_t step : {std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()})
       expect_refused(with([=](AxisLimits& l) { l.max_step = step; }), "max_step", axis);
@@ -106,7 +108,7 @@ TEST(Settings, ClampIsExact) {
     ASSERT_TRUE(runner.start(tables, settings).ok());
     runner.tick({0, 0, 0, 0, 0});
     const auto want = static_cast<std::int32_t>(x);
-    EXPECT_EQ(runner.out.offset[0], std::max(-2'000, std::min(2'000, want)));
+    EXPECT_EQ(runner.out.offset[0], std::clamp<std::int32_t>(want, -2'000, 2'000));
     EXPECT_EQ((runner.out.status[0] & kClamped) != 0, std::abs(want) > 2'000) << want;
   }
 }

@@ -18,7 +18,9 @@
 
 namespace volcomp::test {
 
-#ifdef NDEBUG
+#ifdef VOLCOMP_GTEST_SUBSET
+inline constexpr int kManyPoints = 10'000;  // an emulated board
+#elif defined(NDEBUG)
 inline constexpr int kManyPoints = 1'000'000;
 #else
 inline constexpr int kManyPoints = 100'000;  // instrumented and unoptimised builds

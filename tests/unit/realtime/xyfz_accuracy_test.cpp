@@ -100,7 +100,8 @@ TEST(XyfzAccuracy, AMillionPointsBelow1nmAndCompiledInEqualsLoaded) {
     }
     EXPECT_LT(worst, 1.0) << "S = " << bound;
     EXPECT_GT(worst, 0.49) << "rounding alone must show";
-    RecordProperty(bound > 0.5e6 ? "worst_nm_S_1mm" : "worst_nm_S_0.2mm", std::to_string(worst));
+    RecordProperty(bound > 0.5e6 ? "worst_pm_S_1mm" : "worst_pm_S_0.2mm",
+                   static_cast<int>(worst * 1e3));
   }
 }
 
@@ -126,7 +127,7 @@ TEST(XyfzAccuracy, ArithmeticErrorIsWithinTheProvenBound) {
     }
   }
   EXPECT_LT(worst, 8.0 * 0x1p-24 * 1e6);
-  RecordProperty("worst_unrounded_nm", std::to_string(worst));
+  RecordProperty("worst_unrounded_pm", static_cast<int>(worst * 1e3));
 }
 
 // The double models of the library agree with the tick as the conventions promise.

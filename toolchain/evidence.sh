@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Measures the images of the Cortex-M boards in QEMU, proves what they promise and compares both with the budgets.
+#
+#   toolchain/evidence.sh              builds, measures, judges; README must show the same figures
+#   toolchain/evidence.sh --write      the same, and renews the figures in README
+#   toolchain/evidence.sh --self-test  proves on small programs that the checks measure right and find each offence
+#
+# Results: build/evidence/evidence.json, build/evidence/evidence.md.
+script_folder=$(dirname "${BASH_SOURCE[0]}")
+# shellcheck source=toolchain/common.sh
+. "$script_folder/common.sh"
+
+case "${1:-}" in
+  -h | --help) usage; exit 0 ;;
+esac
+need python3 c++filt arm-none-eabi-g++ arm-none-eabi-objdump
+if [ "${1:-}" != --self-test ]; then
+  need cmake ninja qemu-system-arm llvm-mca aarch64-linux-gnu-g++
+  for board in m7 m4; do
+    cmake --preset "$board" > /dev/null
+    cmake --build --preset "$board" -j "$(jobs_allowed)" --target volcomp-node volcomp-servo volcomp-ticks volcomp-services
+  done
+  cmake --preset a53 > /dev/null
+  cmake --build --preset a53 -j "$(jobs_allowed)" --target volcomp-node
+fi
+exec python3 toolchain/evidence "$@"

@@ -1,0 +1,93 @@
+"""Measures the firmware of the Cortex-M boards and judges it; called by toolchain/evidence.sh, which builds the images first.
+
+    python3 toolchain/evidence [--self-test | --write]
+
+Exit codes: 0 every budget is kept, every promise holds and README says what was measured; 1 not so; 2 something is missing.
+"""
+import dataclasses
+import json
+import pathlib
+import subprocess
+import sys
+
+import board_evidence
+import elf
+import kernel_estimate
+import self_test
+import sizes
+import table
+from failure import Failure
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+OUT = ROOT / "build/evidence"
+SHOWN_FLAGS = ("-mcpu", "-mfpu", "-mfloat-abi", "-O", "-ffp-contract")
+
+
+def compiler_and_flags(build):
+    command = kernel_estimate.compile_command(build, "comp/realtime/instances.cpp")
+    version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
+    flags = [w for w in command if w.startswith(SHOWN_FLAGS) and not w.startswith("-mcpu=") and not w.startswith("-mfpu=")]
+    return version, " ".join(dict.fromkeys(flags))
+
+
+def measure():
+    parts = {board: board_evidence.BoardEvidence(ROOT, board) for board in table.BOARDS}
+    compiler, flags = compiler_and_flags(ROOT / "build/m7")
+    evidence = {"compiler": compiler, "flags": flags, "tables": "Tables of 81 knots (rotary 73)",
+                "boards": {board: part.measure() for board, part in parts.items()},
+                "a53": dataclasses.asdict(sizes.measure(elf.Image(ROOT / "build/a53/firmware/volcomp-node-a53.elf"))),
+                "kernel_estimate": kernel_estimate.estimate(ROOT / "build/m7")}
+    checks = [check for part in parts.values() for check in part.checks]
+    offences = [offence for part in parts.values() for offence in part.offences]
+    return evidence, checks, offences
+
+
+def judge(checks, offences):
+    for check in checks:
+        print("  " + check.line())
+    for offence in offences:
+        print("  FOUND " + offence)
+    broken = sum(not check.kept() for check in checks)
+    print(f"{len(checks)} budgets, {broken} broken; {len(offences)} offences")
+    return broken == 0 and not offences
+
+
+def readme_agrees(text, write):
+    path = ROOT / "README.md"
+    page = path.read_text()
+    wanted = table.in_page(page, text)
+    if wanted is None:
+        raise Failure(f"README.md has no place for the evidence: {table.BEGIN} … {table.END}")
+    if page == wanted:
+        return True
+    if write:
+        path.write_text(wanted)
+        print("README.md: written")
+        return True
+    print("README.md shows other figures than these: toolchain/evidence.sh --write renews them.")
+    return False
+
+
+def main(arguments):
+    if arguments not in ([], ["--self-test"], ["--write"]):
+        raise Failure(f'unknown argument "{" ".join(arguments)}" (try toolchain/evidence.sh --help).')
+    if arguments == ["--self-test"]:
+        self_test.main()
+        return True
+    evidence, checks, offences = measure()
+    text = table.markdown(evidence)
+    OUT.mkdir(parents=True, exist_ok=True)
+    evidence["budgets"] = [check.line() for check in checks]
+    evidence["offences"] = offences
+    (OUT / "evidence.json").write_text(json.dumps(evidence, indent=1, ensure_ascii=False) + "\n")
+    (OUT / "evidence.md").write_text(text)
+    kept = judge(checks, offences)
+    print(f"{OUT.relative_to(ROOT)}/evidence.json, evidence.md")
+    return readme_agrees(text, arguments == ["--write"]) and kept
+
+
+try:
+    sys.exit(0 if main(sys.argv[1:]) else 1)
+except Failure as failure:
+    print(f"evidence: {failure}", file=sys.stderr)
+    sys.exit(2)

@@ -1,0 +1,51 @@
+"""What the figures may be at most. `must` is checked; `aim` and `stretch` are shown."""
+import dataclasses
+
+KIB = 1024
+
+# variant of the tick: (what it is, must, aim, stretch), instructions of a whole tick
+TICKS = {
+    "xyfz_compiled": ("XYFZ, folded", 400, 310, 260),
+    "xyb_a_compiled": ("X, Y, B against A, compiled in", 800, 640, None),
+    "xyb_a_loaded": ("X, Y, B against A, loaded", 1150, 860, None),
+    "five_axis_compiled": ("five axes, compiled in", 950, 750, None),
+    "five_axis_loaded": ("five axes, loaded", 1350, 1030, None),
+    "xyfz_loaded": ("XYFZ, folded, loaded", None, None, None),
+    "xyz_second_order_compiled": ("X, Y, Z, second order, compiled in", None, None, None),
+}
+SPREAD = 40          # most − least of a variant with a budget
+STACK_OF_TICK = 256  # bytes
+NODE_FLASH = 96 * KIB
+
+
+@dataclasses.dataclass(frozen=True)
+class Check:
+    what: str
+    measured: int
+    must: int
+    aim: int = None
+    stretch: int = None
+
+    def kept(self):
+        return self.measured <= self.must
+
+    def line(self):
+        marks = [f"{name} {value}" for name, value in (("must", self.must), ("aim", self.aim), ("stretch", self.stretch))
+                 if value is not None]
+        reached = "broken" if not self.kept() else "kept"
+        if self.aim is not None and self.kept():
+            reached = "aim reached" if self.measured <= self.aim else "must kept, aim missed"
+        return f"{self.what}: {self.measured} ({', '.join(marks)}): {reached}"
+
+
+def of_ticks(board, ticks, bounds):
+    """`ticks`: least and most by variant; `bounds`: static stack of the tick by variant."""
+    checks = []
+    for variant, (name, must, aim, stretch) in TICKS.items():
+        if must is None:
+            continue
+        least, most = ticks[variant]
+        checks.append(Check(f"{board}, {name}, instructions", most, must, aim, stretch))
+        checks.append(Check(f"{board}, {name}, most − least", most - least, SPREAD))
+        checks.append(Check(f"{board}, {name}, bytes of stack", bounds[variant], STACK_OF_TICK))
+    return checks

@@ -1,0 +1,47 @@
+"""What may not be in an image, and what the tick may use beside the code of this project."""
+import re
+
+# An image that contains one of these can take memory, throw, or run code before main.
+FORBIDDEN = {
+    "heap": r"_sbrk(_r)?|(_*)(malloc|calloc|realloc|free|memalign|aligned_alloc)(_r)?|_Zn[wa].*|_Zd[la].*",
+    "exceptions": r"__cxa_(allocate_exception|throw|rethrow|begin_catch|end_catch|bad_cast|bad_typeid)|_Unwind_.*"
+                  r"|__gxx_personality.*|_ZSt[0-9]+__throw_.*|_ZSt9terminatev",
+    "guards": r"__cxa_guard_.*",
+    "destructors": r"__cxa_atexit|__aeabi_atexit|atexit",
+    "initializers": r"_GLOBAL__(sub_)?I_.*|_Z41__static_initialization_and_destruction_0.*",
+    "printing": r"v?(f|s|sn)?(i)?printf(_r)?|_v?fi?printf_r|puts|fwrite",
+}
+
+# Code of the compiler's library that the tick may use: integers of 64 bits. Run-time ABI for the Arm Architecture
+# (IHI 0043), 4.2.
+INTEGER_HELPERS = re.compile(
+    r"__aeabi_(u?ldivmod|u?idiv(mod)?|lmul|l[ls]sl|llsr|lasr|u?lcmp|[iul]+div0|ldiv0|idiv0)|__udivmoddi4|__divmoddi4"
+    r"|__aeabi_u?l(div)?mod|__clz[sd]i2|__popcount[sd]i2|__muldi3|__ashldi3|__ashrdi3|__lshrdi3")
+MEMORY_HELPERS = re.compile(r"mem(cpy|set|move)|__aeabi_mem(cpy|set|clr|move)[48]?")
+
+SOFT_DOUBLE = re.compile(
+    r"__aeabi_(c?d\w+|\w+2d|i2d|ui2d|f2d|l2d|ul2d|h2d)|__(add|sub|mul|div|neg|extend|trunc|float|fix|fixuns|floatun|cmp|eq|ne|"
+    r"lt|le|gt|ge|unord)\w*df\w*|__(fix|fixuns)df\w+")
+
+
+def forbidden_in(image):
+    """Sentences, one per symbol that must not be there."""
+    rules = {kind: re.compile(pattern) for kind, pattern in FORBIDDEN.items()}
+    sentences = []
+    for symbol in image.symbols:
+        for kind, pattern in rules.items():
+            if symbol.section != 0 and symbol.name and pattern.fullmatch(symbol.name):
+                sentences.append(f"{image.path.name} contains {image.plain(symbol)} ({kind}).")
+    return sorted(set(sentences))
+
+
+def foreign_in_tick(image, names):
+    """Sentences, one per function of the tick's call graph that is neither ours nor an allowed helper."""
+    sentences = []
+    for name in sorted(names):
+        plain = image.plain(image.symbol(name))
+        if plain.startswith("volcomp::") or INTEGER_HELPERS.fullmatch(name) or MEMORY_HELPERS.fullmatch(name):
+            continue
+        what = "double-precision arithmetic in software" if SOFT_DOUBLE.fullmatch(name) else "of a library"
+        sentences.append(f"The tick reaches {plain} ({what}).")
+    return sentences

@@ -1,0 +1,92 @@
+"""The figures as Markdown, for README and for reading."""
+from budgets import NODE_FLASH, SPREAD, STACK_OF_TICK, TICKS
+
+BEGIN, END = "<!-- evidence: made by toolchain/evidence.sh --write -->", "<!-- end of evidence -->"
+BOARDS = {"m7": "Cortex-M7", "m4": "Cortex-M4F"}
+
+
+def number(value):
+    """12 345, as elsewhere in these pages."""
+    return f"{value:,}".replace(",", " ")
+
+
+def rows(head, body):
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
+    return lines + ["| " + " | ".join(line) + " |" for line in body]
+
+
+def limit(value):
+    return "–" if value is None else number(value)
+
+
+def ticks(boards):
+    body = []
+    for variant, (name, must, aim, _) in TICKS.items():
+        spans = [f"{boards[b]['ticks'][variant]['min']} … {boards[b]['ticks'][variant]['max']}" for b in BOARDS]
+        body.append([name, *spans, limit(must), limit(aim)])
+    stacks = ["{} / {}".format(max(t["stack_bound"] for t in boards[b]["ticks"].values()),
+                               max(t["stack_painted"] for t in boards[b]["ticks"].values())) for b in BOARDS]
+    body.append(["most − least of a machine with a limit",
+                 *[str(max(t["max"] - t["min"] for v, t in boards[b]["ticks"].items() if TICKS[v][1])) for b in BOARDS], limit(SPREAD), "–"])
+    body.append(["stack, bytes: proven / seen", *stacks, limit(STACK_OF_TICK), "–"])
+    return rows(["whole tick, instructions, least … most", *BOARDS.values(), "must", "aim"], body)
+
+
+def images(evidence):
+    def of(image, *keys):
+        cells = []
+        for board in BOARDS:
+            value = evidence["boards"][board]["products"][image]
+            for key in keys:
+                value = value[key]
+            cells.append(number(value))
+        return cells
+
+    a53 = evidence["a53"]
+    body = [["node: flash, bytes", *of("node", "flash"), number(a53["flash"]), limit(NODE_FLASH)],
+            ["node: RAM, bytes", *of("node", "ram"), number(a53["ram"]), "–"],
+            ["node: stack, background and all interrupts at once, bytes: proven", *of("node", "stack", "bound"), "–", "–"],
+            ["node: stack, bytes: seen", *of("node", "stack", "painted"), "–", "–"],
+            ["node: stack, bytes: reserved", *of("node", "stack", "reserved"), "–", "–"],
+            ["integrated servo loop: flash, bytes", *of("servo", "flash"), "–", "–"],
+            ["integrated servo loop: RAM, bytes", *of("servo", "ram"), "–", "–"]]
+    return rows(["images", *BOARDS.values(), "Cortex-A53", "must"], body)
+
+
+def services(boards):
+    def of(word, name, value):
+        return [number(value(boards[b]["services"][word][name])) for b in BOARDS]
+
+    def per_kib(key):
+        return lambda image: round(image[key] * 1024 / image["bytes"])
+
+    names = {"upload_expedited": "SDO upload, expedited", "download_expedited": "SDO download, expedited",
+             "download_of_image": "SDO block download, one segment"}
+    body = [[text + ", at most", *of("sdo", name, lambda cost: cost["max"])] for name, text in names.items()]
+    for name, text in {"xyfz": "XYFZ", "five_axis": "five axes"}.items():
+        body.append([f"checking an image, {text}, per KiB", *of("image", name, per_kib("check"))])
+        body.append([f"folding its tables, {text}, per KiB", *of("image", name, per_kib("fold"))])
+    return rows(["background, instructions", *BOARDS.values()], body)
+
+
+def markdown(evidence):
+    boards = evidence["boards"]
+    counted = {f["kind"]: f["count"] for f in boards["m7"]["kinds"] if f["variant"] == "xyfz_compiled" and f["phase"] == "usual"
+               and f["knots"] == max(k["knots"] for k in boards["m7"]["kinds"])}
+    kernel = evidence["kernel_estimate"]
+    seen = (f"{number(counted['any'])} ticks of ordinary operation each; XYFZ saw {number(counted['segment'])} ticks with a segment border, "
+            f"{number(counted['reversal'])} reversals, {number(counted['clamp'])} clamps, {counted['swap']} exchanges of tables with "
+            f"{number(counted['ramp'])} ticks of ramp.")
+    text = [f"{seen} {evidence['tables']}. {evidence['compiler']}, `{evidence['flags']}`; QEMU counts instructions, exactly, not cycles.",
+            "", *ticks(boards), "", *services(boards), "", *images(evidence), "",
+            f"llvm-mca estimates {kernel['cycles']} cycles on a Cortex-M7 for the {kernel['instructions']} instructions of the folded kernel, "
+            "memory that answers at once assumed."]
+    return "\n".join(text) + "\n"
+
+
+def in_page(page, text):
+    """The page with what stands between its two marks replaced; None where the marks are missing."""
+    if BEGIN not in page or END not in page:
+        return None
+    head, rest = page.split(BEGIN, 1)
+    return head + BEGIN + "\n\n" + text + "\n" + END + rest.split(END, 1)[1]
