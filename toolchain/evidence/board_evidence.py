@@ -17,7 +17,6 @@ PRODUCTS = ("node", "servo")  # images that a controller would carry
 # Entries that bring a stack of their own or share that of main, and what the processor puts there first: eight words,
 # eighteen more where the FPU is in use, one to align (Armv7-M, B1.5.7).
 INTERRUPTS = {"tick": "TIMER0_Handler", "link, receive": "UARTRX0_Handler", "link, transmit": "UARTTX0_Handler"}
-TABLES = "firmware/integrated/xyfz.vct"  # what the node is given to store
 EXCEPTION_FRAME = 4 * (8 + 18 + 1)
 FAULT = "report_fault"
 TICK_OF = {
@@ -73,7 +72,8 @@ class BoardEvidence:
     def _painted(self, name, path):
         """Bytes of stack in use when the image did its deepest work."""
         if name == "node":
-            return node_run.deepest_stack(self.root, self.board, path, (self.root / TABLES).read_bytes())
+            tables = self.root / f"build/evidence/tables-{self.board}.vct"
+            return node_run.deepest_stack(self.root, self.board, path, tables.read_bytes())
         found = re.search(r"stack: (\d+) bytes", runs.run(self.root, self.board, path))
         if not found:
             raise Failure(f"{path.name} does not say how much stack it took.")
