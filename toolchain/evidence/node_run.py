@@ -27,6 +27,16 @@ class Node:
                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.to_node, self.from_node = pipes[0].open("wb", buffering=0), pipes[1].open("rb")
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+        self.to_node.close()
+        self.from_node.close()
+        self.folder.cleanup()
+
     def turn(self, *frames):
         """One millisecond of the node: frames (identifier, data) in, frames out."""
         self.clock_us += TURN_US
@@ -69,15 +79,10 @@ class Node:
     def quit(self):
         """What the node printed."""
         self.to_node.write(RECORD.pack(QUIT, 0, b""))
-        self.to_node.close()
         try:
             said = self.process.communicate(timeout=30)[0]
         except subprocess.TimeoutExpired as error:
             raise Failure("The node does not quit.") from error
-        finally:
-            self.process.kill()
-            self.from_node.close()
-            self.folder.cleanup()
         if self.process.returncode != 0:
             raise Failure(f"The node ended with exit code {self.process.returncode}: {said.strip()[-500:]}")
         return said
@@ -87,18 +92,19 @@ def deepest_stack(root, board, image, tables):
     """Bytes of stack the node saw in use: an image is downloaded, checked, folded and stored; a reset loads and folds it again;
     then ticks with SYNC."""
     validate, arm, start, reset = b"\x01", b"\x02", 0x01, 0x81
-    node = Node(root, board, image)
-    node.write(0x2110, 1, tables)
-    for command in (validate, arm):
-        node.write(0x2111, 0, command)
-    node.write(0x1010, 1, b"save")
-    node.turn((0x000, bytes([reset, NODE])))
-    for _ in range(1000):
-        node.turn()
-    node.turn((0x000, bytes([start, NODE])))
-    for counter in range(1, 100):
-        node.turn((0x080, bytes([counter])))
-    found = re.search(r"stack: (\d+) bytes", node.quit())
+    with Node(root, board, image) as node:
+        node.write(0x2110, 1, tables)
+        for command in (validate, arm):
+            node.write(0x2111, 0, command)
+        node.write(0x1010, 1, b"save")
+        node.turn((0x000, bytes([reset, NODE])))
+        for _ in range(1000):
+            node.turn()
+        node.turn((0x000, bytes([start, NODE])))
+        for counter in range(1, 100):
+            node.turn((0x080, bytes([counter])))
+        said = node.quit()
+    found = re.search(r"stack: (\d+) bytes", said)
     if not found:
         raise Failure(f"{image.name} does not say how much stack it took.")
     return int(found.group(1))
