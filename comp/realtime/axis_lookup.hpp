@@ -25,7 +25,7 @@ struct AxisLookup {
   std::int64_t q0 = 0;
   std::uint32_t usual_travel = 0;  // travel, or 0 for a table that is too long for usual ticks
   std::uint32_t scale = 0;         // 2^(32 + fraction) / (pitch << shift)
-  std::uint8_t shift = 0;
+  std::uint32_t shift = 0;
   bool periodic = false;
   float origin_nm = 0.0F;    // q0 of a linear axis
   std::uint32_t phase = 0;   // q0 of a rotary axis, 2^-32 turn

@@ -40,7 +40,7 @@ class Compensator {
   explicit Compensator(const Machine& machine)
       : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {
     unknown_axes_ = machine_.chain.axes;
-    fresh_ramp_.restart(settings_.ramp_ticks);
+    next_.ramp.restart(settings_.ramp_ticks);
     for (std::size_t a = 0; a < kAxes; ++a)
       apply_limits(a);
   }
@@ -84,7 +84,7 @@ class Compensator {
   [[nodiscard]] bool pending() const {
     return request_.load(std::memory_order_acquire) != Request::none;
   }
-  [[nodiscard]] bool active() const { return active_ != nullptr; }
+  [[nodiscard]] bool active() const { return now_.active != nullptr; }
   [[nodiscard]] const FoldReport& fold_report() const { return report_; }
   [[nodiscard]] Diagnostics<kAxes> diagnostics() const;
   [[nodiscard]] const Machine& machine() const { return machine_; }
@@ -106,11 +106,10 @@ class Compensator {
 
   struct AxisState {
     // what a usual tick reads and writes, in its order
-    std::int64_t seen = 0;         // position given last, good or implausible
-    std::uint64_t usual_step = 0;  // largest |Δposition| of a usual sample
-    std::uint64_t window = 0;      // 2·usual_step + 1 while one may come, else 0
-    DirectionTracker direction;
+    std::int64_t seen = 0;    // position given last, good or implausible
+    std::uint64_t reach = 0;  // usual_step while a usual sample may come, else 0: none can
     std::int32_t hysteresis = 0;
+    DirectionTracker direction;
     Magnitude limit;
     float ramp_from = 0.0F;  // 0 unless a ramp is under way
     std::int32_t output = 0;
@@ -118,6 +117,7 @@ class Compensator {
     std::int32_t largest = 0;
 
     // what only the exceptions need
+    std::uint64_t usual_step = 0;        // usual samples are closer to the last one
     std::uint64_t most_step = kAnyStep;  // largest plausible |Δposition|
     std::int64_t position = 0;           // last good one, unless steady: then it is the one seen
     std::int32_t soft_rate = 1;
@@ -131,10 +131,19 @@ class Compensator {
     Knot mean{};        // row in use until a direction is known
   };
 
+  // What a change brings. The background prepares it, the tick takes it over in one piece.
+  struct Change {
+    const Tables* active = nullptr;
+    Ramp ramp{};                     // of the last change
+    const Tables* latest = nullptr;  // ever active
+    std::uint32_t activations = 0;
+  };
+
+  using Places = std::array<Located, kAxes>;
   // What a tick works on: a compiled-in machine keeps it in registers, a loaded one here instead of
   // on the stack of the interrupt.
   struct Work {
-    std::array<Located, kAxes> at;
+    Places at;
     kernel::Carried<kAxes> carried;
   };
   struct Nothing {};
@@ -148,24 +157,26 @@ class Compensator {
   template <bool Turns>
   static bool within_reach(const AxisState& s, std::int64_t position);
   template <bool Turns>
-  Located follow_as(std::size_t axis, const AxisSample& sample, const Tables& set);
-  Located follow(std::size_t axis, const AxisSample& sample, const Tables& set);
+  bool is_usual(std::size_t axis, const AxisSample& sample, const Tables& set,
+                std::uint32_t& place) const;
+  template <bool Turns>
+  bool follow(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
+  bool follow_usual(const Input& in, const Tables& set, Places& at);
   Work& work(Work& local);
   bool find_excess(const Tables& set, Work& work, kernel::Excess& excess);
   void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t usual,
                EverydayBits& everyday, Output& out);
-  void limited(std::size_t correcting, StatusBit how, EverydayBits& everyday, Output& out);
 
   // compensator_exceptions.inl
   void take_request();
   void begin_change();
-  float advance_ramp();
-  bool ready(const Input& in);
+  void end_change();
+  bool all_known(const Input& in);
   std::uint32_t take_sample(std::size_t axis, const AxisSample& sample);
   void place(std::size_t axis, const Tables& set, std::uint32_t& status);
-  const Located& follow_unusual(std::size_t axis, const AxisSample& sample, const Tables& set);
+  bool follow_unusual(const Input& in);
   void put_out_unusual(AxisState& s, float excess, float ramp, std::uint32_t& status);
-  void idle(const Input& in, float ramp, Output& out);
+  std::uint32_t idle(const Input& in);
   void finish_unusual(std::uint32_t gate, float ramp, Output& out);
   bool count_changes(std::size_t axis, std::uint32_t status);
 
@@ -181,27 +192,21 @@ class Compensator {
 
   // what a usual tick needs comes first: short offsets are short instructions
   std::atomic<Request> request_{Request::none};
-  const Tables* usable_ = nullptr;  // the active ones, once every axis has reported
   std::int32_t target_mask_ = -1;   // all ones where the offset is to be added to the position
   std::uint32_t guarded_axes_ = 0;  // bit per axis: its next output takes the long way
   std::uint32_t ticks_ = 0;
-  Ramp ramp_{};
+  Change now_{};
   Float3 error_nm_{};
   std::array<AxisState, kAxes> axis_{};
   EverydayTally tally_{};
   KeptWork work_{};
 
-  const Tables* active_ = nullptr;
-  const Tables* handed_over_ = nullptr;  // by activate(), for the tick to take
-  const Tables* latest_ = nullptr;       // ever active
-  kernel::Excess excess_{};              // of a tick in which something was unusual
-  Ramp fresh_ramp_{};                    // not begun
-  std::uint32_t unknown_axes_ = 0;       // that have never had a valid position
-  std::uint32_t last_ramp_tick_ = UINT32_MAX;
-  std::uint32_t activations_ = 0;
-  std::uint32_t ramps_ = 0;  // begun
+  Change next_{};                   // handed over with a request; its ramp has not begun
+  kernel::Excess excess_{};         // of a tick in which something was unusual
+  std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
+  std::uint32_t ramps_ = 0;         // begun
   bool ticks_wrapped_ = false;
-  std::int8_t next_ = 0;  // index of the spare buffer
+  std::int8_t spare_ = 0;  // index of the buffer that may be written
   bool staged_ = false;
   std::atomic<bool> damaged_{false};
   FoldReport report_{};

@@ -30,7 +30,7 @@ Status Compensator<Machine, Knots>::configure(const Settings& settings) {
     return refuse(Reason::bad_setting, where);
   }
   settings_ = settings;
-  fresh_ramp_.restart(settings.ramp_ticks);
+  next_.ramp.restart(settings.ramp_ticks);
   target_mask_ = settings.source == PositionSource::target ? -1 : 0;
   for (std::size_t a = 0; a < kAxes; ++a)
     apply_limits(a);
@@ -45,7 +45,7 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
   const std::int64_t most = l.max_step == 0 || l.max_step > any ? any : l.max_step;
   s.most_step = static_cast<std::uint64_t>(most);
   s.usual_step = rotary(axis) || s.most_step < kMaxUsualStep ? s.most_step : kMaxUsualStep;
-  if (s.window != 0) s.window = 2 * s.usual_step + 1;
+  if (s.reach != 0) s.reach = s.usual_step;
   s.limit = Magnitude(static_cast<float>(l.limit));
   s.rate = l.rate;
   s.soft_rate = l.soft_rate;
@@ -61,17 +61,14 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   }
   request_.store(Request::none, std::memory_order_relaxed);
   damaged_.store(false, std::memory_order_relaxed);
-  active_ = usable_ = latest_ = nullptr;
-  next_ = 0;
-  activations_ = 0;
+  now_ = {};
+  spare_ = 0;
   staged_ = false;
   diagnostics_ = {};
   report_ = {};
   error_nm_ = {};
-  ramp_ = {};
   tally_ = {};
   ticks_ = 0;
-  last_ramp_tick_ = UINT32_MAX;
   ticks_wrapped_ = false;
   ramps_ = 0;
   guarded_axes_ = 0;
@@ -101,9 +98,9 @@ Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kA
     axis_[a].output = offsets[a];
   }
   unknown_axes_ = machine_.chain.axes;
-  usable_ = nullptr;
-  last_ramp_tick_ = ticks_ - 1U;  // a new beginning
+  now_.ramp = {};  // a new beginning
   begin_change();
+  now_.ramp = next_.ramp;
   return {};
 }
 
@@ -134,7 +131,7 @@ Status Compensator<Machine, Knots>::fold_into_spare(const TablesView& tables,
                                                     const Vec3& tool_point,
                                                     std::uint32_t image_crc) {
   FoldReport report;
-  Tables& spare = buffer_[static_cast<std::size_t>(next_)];
+  Tables& spare = buffer_[static_cast<std::size_t>(spare_)];
   const Status status =
       fold_tables(tables, machine_.chain, tool_point, TableSetView(spare), report);
   if (!status.ok()) return status;
@@ -168,22 +165,28 @@ Status Compensator<Machine, Knots>::activate() {
   if (!staged_) return refuse(Reason::not_staged);
   staged_ = false;
   damaged_.store(false, std::memory_order_relaxed);
-  handed_over_ = &buffer_[static_cast<std::size_t>(next_)];
-  next_ = static_cast<std::int8_t>(1 - next_);
+  request_.exchange(Request::none, std::memory_order_acquire);  // a deactivation is overtaken
+  next_.active = next_.latest = &buffer_[static_cast<std::size_t>(spare_)];
+  next_.activations = now_.activations + 1U;
+  spare_ = static_cast<std::int8_t>(1 - spare_);
   request_.store(Request::activate, std::memory_order_release);
   return {};
 }
 
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::deactivate() {
-  const Request before = request_.exchange(Request::deactivate, std::memory_order_acq_rel);
+  const Request before = request_.exchange(Request::none, std::memory_order_acq_rel);
   if (before == Request::activate)
-    next_ = static_cast<std::int8_t>(1 - next_);  // the tick has not taken them
+    spare_ = static_cast<std::int8_t>(1 - spare_);  // the tick has not taken them
+  next_.active = nullptr;
+  next_.latest = now_.latest;
+  next_.activations = now_.activations;
+  request_.store(Request::deactivate, std::memory_order_release);
 }
 
 template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::scrub() {
-  const Tables* const set = active_;
+  const Tables* const set = now_.active;
   if (set == nullptr || pending()) return {};
   if (checksum(*set) == set->checksum) return {};
   damaged_.store(true, std::memory_order_relaxed);
@@ -198,8 +201,8 @@ Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::dia
   };
   Diagnostics<kAxes> d = diagnostics_;
   d.ticks = ticks_wrapped_ ? UINT32_MAX : ticks_;
-  d.activations = activations_;
-  if (latest_ != nullptr) d.active_crc = latest_->image_crc;
+  d.activations = now_.activations;
+  if (now_.latest != nullptr) d.active_crc = now_.latest->image_crc;
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     d.largest[a] = axis_[a].largest;
     d.began[a][bit_of(kRamping)] = saturated(ramps_);

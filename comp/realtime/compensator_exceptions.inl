@@ -7,46 +7,35 @@ namespace volcomp {
 
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
-  if (request_.load(std::memory_order_acquire) == Request::activate) {
-    active_ = latest_ = handed_over_;
-    ++activations_;
-  } else {
-    active_ = nullptr;
-  }
-  usable_ = unknown_axes_ == 0 ? active_ : nullptr;
+  std::atomic_thread_fence(std::memory_order_acquire);
   begin_change();
+  now_ = next_;
   request_.store(Request::none, std::memory_order_release);
 }
 
-// Whatever changes, the output goes from where it is to where it should be along the ramp.
+// Whatever changes, the output goes from where it is to where it should be along the ramp. One that
+// is under way goes over into the next.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::begin_change() {
   for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
     AxisState& s = axis_[machine_.chain.correcting[c]];
     s.ramp_from = static_cast<float>(s.output);
   });
-  ramp_ = fresh_ramp_;
+  if (now_.ramp.at_rest()) ++ramps_;
 }
 
-// Ramp factor of this tick. At the end nothing of the start is left: from + 1 · (x − from) is
-// exactly x where `from` is 0.
+// At the end of the ramp nothing of its start is left: from + 1 · (x − from) is exactly x where
+// `from` is 0.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE float Compensator<Machine, Knots>::advance_ramp() {
-  if (!ramp_.begun() && last_ramp_tick_ != ticks_ - 1U) ++ramps_;
-  last_ramp_tick_ = ticks_;
-  const float factor = ramp_.advance();
-  if (!ramp_.running()) {
-    for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
-      axis_[machine_.chain.correcting[c]].ramp_from = 0.0F;
-    });
-  }
-  return factor;
+VOLCOMP_INLINE void Compensator<Machine, Knots>::end_change() {
+  for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
+    axis_[machine_.chain.correcting[c]].ramp_from = 0.0F;
+  });
 }
 
-// Whether there are tables, and every axis has reported at last.
+// Whether every axis has reported at last.
 template <class Machine, std::size_t Knots>
-[[gnu::noinline]] bool Compensator<Machine, Knots>::ready(const Input& in) {
-  if (active_ == nullptr) return false;
+bool Compensator<Machine, Knots>::all_known(const Input& in) {
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     AxisState& s = axis_[a];
     if (s.known || !in.axis[a].valid) continue;
@@ -55,7 +44,6 @@ template <class Machine, std::size_t Knots>
     s.seen = rotary(a) ? clamp_turning(position) : clamp_position(position);
     --unknown_axes_;
   }
-  if (unknown_axes_ == 0) usable_ = active_;
   return unknown_axes_ == 0;
 }
 
@@ -77,7 +65,7 @@ template <class Machine, std::size_t Knots>
   if (s.steady && !s.known) --unknown_axes_;
   s.known = s.known || s.steady;
   if (sample.valid) s.seen = position;
-  s.window = 0;
+  s.reach = 0;
   if (s.steady) {
     s.stale_ticks = 0;
     s.position = position;
@@ -112,17 +100,20 @@ template <class Machine, std::size_t Knots>
   s.place.knot = &s.mean;
 }
 
+// Follows all axes, whatever they show. False until every axis has reported.
 template <class Machine, std::size_t Knots>
-[[gnu::noinline]] const Located& Compensator<Machine, Knots>::follow_unusual(
-    std::size_t axis, const AxisSample& sample, const Tables& set) {
-  AxisState& s = axis_[axis];
-  std::uint32_t status = take_sample(axis, sample);
-  place(axis, set, status);
-  constexpr std::uint32_t kNextIsUnusual = kStale | kOutOfRange | kDirectionUnknown;
-  if ((status & kNextIsUnusual) == 0) s.window = 2 * s.usual_step + 1;
-  s.exception = static_cast<std::uint16_t>(status);
-  guarded_axes_ |= 1U << axis;
-  return s.place;
+[[gnu::noinline]] bool Compensator<Machine, Knots>::follow_unusual(const Input& in) {
+  if (unknown_axes_ != 0 && !all_known(in)) return false;
+  for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
+    AxisState& s = axis_[a];
+    std::uint32_t status = take_sample(a, in.axis[a]);
+    place(a, *now_.active, status);
+    constexpr std::uint32_t kNextIsUnusual = kStale | kOutOfRange | kDirectionUnknown;
+    if ((status & kNextIsUnusual) == 0) s.reach = s.usual_step;
+    s.exception = static_cast<std::uint16_t>(status);
+    guarded_axes_ |= 1U << a;
+  }
+  return true;
 }
 
 // Clamp, ramp, round and slew with everything that can be going on: hold, gating to 0 and the soft
@@ -182,7 +173,7 @@ template <class Machine, std::size_t Knots>
                                                                    Output& out) {
   const RuntimeChain& chain = machine_.chain;
   const bool damaged = damaged_.load(std::memory_order_relaxed);
-  const std::uint32_t ramping = last_ramp_tick_ == ticks_ ? std::uint32_t{kRamping} : 0U;
+  const std::uint32_t ramping = now_.ramp.at_rest() ? 0U : std::uint32_t{kRamping};
   guarded_axes_ = 0;
   for (std::size_t a = 0; a < chain.axes; ++a) {
     std::uint32_t status = axis_[a].exception;
@@ -200,13 +191,14 @@ template <class Machine, std::size_t Knots>
   }
 }
 
-// A tick without tables, or before every axis has reported: all corrections off or held.
+// A tick without tables, or before every axis has reported. Returns what applies to all correcting
+// axes: off or held.
 template <class Machine, std::size_t Knots>
-[[gnu::noinline]] void Compensator<Machine, Knots>::idle(const Input& in, float ramp, Output& out) {
+[[gnu::noinline]] std::uint32_t Compensator<Machine, Knots>::idle(const Input& in) {
   for (std::size_t a = 0; a < machine_.chain.axes; ++a)
     axis_[a].exception = static_cast<std::uint16_t>(take_sample(a, in.axis[a]));
   excess_ = {};
-  finish_unusual(active() ? kStale : kNoTables, ramp, out);
+  return active() ? kStale : kNoTables;
 }
 
 }  // namespace volcomp

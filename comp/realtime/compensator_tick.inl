@@ -19,42 +19,60 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::for_each_correcting(const Visit
 }
 
 // Whether the axis can have come here since the last tick: from inside its table, if it is linear.
+// −reach ≤ moved < reach, which nothing is while `reach` is 0.
 template <class Machine, std::size_t Knots>
 template <bool Turns>
 VOLCOMP_INLINE bool Compensator<Machine, Knots>::within_reach(const AxisState& s,
                                                               std::int64_t position) {
   const auto moved = static_cast<std::uint64_t>(position) - static_cast<std::uint64_t>(s.seen);
-  if (Turns) return moved + s.usual_step < s.window;
-  return static_cast<std::uint32_t>(moved + s.usual_step) < static_cast<std::uint32_t>(s.window);
+  if (Turns) return moved + s.reach < 2 * s.reach;
+  const auto reach = static_cast<std::uint32_t>(s.reach);
+  return static_cast<std::uint32_t>(moved) + reach < 2 * reach;
 }
 
 // The usual sample is valid, referenced, no further from the last one than the axis can have moved,
-// and inside the table. Target mode adds the offset the drive will have applied.
+// and inside the table: `place` is the distance from its first knot. Target mode adds the offset
+// the drive will have applied.
 template <class Machine, std::size_t Knots>
 template <bool Turns>
-VOLCOMP_INLINE Located Compensator<Machine, Knots>::follow_as(std::size_t axis,
-                                                              const AxisSample& sample,
-                                                              const Tables& set) {
-  AxisState& s = axis_[axis];
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::is_usual(std::size_t axis,
+                                                          const AxisSample& sample,
+                                                          const Tables& set,
+                                                          std::uint32_t& place) const {
+  const AxisState& s = axis_[axis];
   const AxisLookup& lookup = set.lookup[axis];
-  if (VOLCOMP_RARELY(!sample.valid || !sample.homed)) return follow_unusual(axis, sample, set);
-  if (VOLCOMP_RARELY(!within_reach<Turns>(s, sample.position)))
-    return follow_unusual(axis, sample, set);
+  if (VOLCOMP_RARELY(!sample.good())) return false;
+  if (VOLCOMP_RARELY(!within_reach<Turns>(s, sample.position))) return false;
   const std::int64_t r = distance(lookup, sample.position, s.output & target_mask_, Turns);
-  if (VOLCOMP_RARELY(outside(lookup, r, Turns, lookup.usual_travel)))
-    return follow_unusual(axis, sample, set);
-  s.seen = sample.position;
-  const std::int64_t low = Turns ? sample.position >> 8 : sample.position;
-  const Direction d = s.direction.follow(static_cast<std::uint32_t>(low), s.hysteresis);
-  return locate(lookup, static_cast<std::uint32_t>(r), Turns, set.rows[axis].data(), d);
+  place = static_cast<std::uint32_t>(r);
+  return !VOLCOMP_RARELY(outside(lookup, r, Turns, lookup.usual_travel));
 }
 
-// The kind of an axis is asked for once.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE Located Compensator<Machine, Knots>::follow(std::size_t axis,
-                                                           const AxisSample& sample,
-                                                           const Tables& set) {
-  return rotary(axis) ? follow_as<true>(axis, sample, set) : follow_as<false>(axis, sample, set);
+template <bool Turns>
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow(std::size_t axis, const AxisSample& sample,
+                                                        const Tables& set, Located& at) {
+  std::uint32_t place = 0;
+  if (VOLCOMP_RARELY(!is_usual<Turns>(axis, sample, set, place))) return false;
+  AxisState& s = axis_[axis];
+  s.seen = sample.position;
+  const auto low = static_cast<std::uint32_t>(Turns ? sample.position >> 8 : sample.position);
+  const Direction d = s.direction.follow(low, s.hysteresis);
+  at = locate(set.lookup[axis], place, Turns, set.rows[axis].data(), d);
+  return true;
+}
+
+// False at the first axis that is not as usual. All are then followed once more by
+// follow_unusual(): for those that came before it nothing changes, they stand where they stood.
+template <class Machine, std::size_t Knots>
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_usual(const Input& in, const Tables& set,
+                                                              Places& at) {
+  bool usual = true;
+  for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
+    usual = usual && (rotary(a) ? follow<true>(a, in.axis[a], set, at[a])
+                                : follow<false>(a, in.axis[a], set, at[a]));
+  });
+  return usual;
 }
 
 // Where this tick works.
@@ -98,13 +116,18 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out(std::size_t correcting,
   AxisState& s = axis_[a];
   out.status[a] = static_cast<std::uint16_t>(usual);
   if (VOLCOMP_RARELY(exceeds(excess, s.limit))) {
-    excess = excess < 0.0F ? -s.limit.value() : s.limit.value();
-    limited(correcting, kClamped, everyday, out);
+    excess = s.limit.signed_like(excess);
+    // Nothing else has been reported yet: two bits change.
+    out.status[a] = static_cast<std::uint16_t>(usual ^ (kValid | kClamped));
+    everyday ^= everyday_of(correcting, everyday_bits(kValid | kClamped));
   }
   std::int32_t output = round_half_even(s.ramp_from - ramp * (excess + s.ramp_from));
   if (VOLCOMP_RARELY(further(output, s.output, s.rate))) {
     output = output < s.output ? s.output - s.rate : s.output + s.rate;
-    limited(correcting, kRateLimited, everyday, out);
+    out.status[a] =
+        static_cast<std::uint16_t>((out.status[a] & ~std::uint32_t{kValid}) + kRateLimited);
+    everyday &= ~everyday_of(correcting, everyday_bits(kValid));
+    everyday |= everyday_of(correcting, everyday_bits(kRateLimited));
   }
   s.output = output;
   if (VOLCOMP_RARELY(further(output, 0, s.largest))) s.largest = output < 0 ? -output : output;
@@ -112,30 +135,29 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out(std::size_t correcting,
 }
 
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::limited(std::size_t correcting, StatusBit how,
-                                                         EverydayBits& everyday, Output& out) {
-  std::uint16_t& status = out.status[machine_.chain.correcting[correcting]];
-  status = static_cast<std::uint16_t>((status & ~std::uint32_t{kValid}) | how);
-  everyday &= ~everyday_of(correcting, everyday_bits(kValid));
-  everyday |= everyday_of(correcting, everyday_bits(how));
-}
-
-template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
   if (VOLCOMP_RARELY(++ticks_ == 0)) ticks_wrapped_ = true;
-  if (VOLCOMP_RARELY(request_.load(std::memory_order_relaxed) != Request::none)) take_request();
   std::uint32_t usual = kValid;
   float ramp = 1.0F;
-  if (VOLCOMP_RARELY(ramp_.running())) {
+  if (VOLCOMP_RARELY(request_.load(std::memory_order_relaxed) != Request::none)) {
+    take_request();
+    ramp = now_.ramp.begin();
     usual |= kRamping;
-    ramp = advance_ramp();
+    if (!now_.ramp.running()) end_change();
+  } else if (VOLCOMP_RARELY(!now_.ramp.at_rest())) {
+    ramp = now_.ramp.advance();
+    if (!now_.ramp.at_rest()) usual |= kRamping;
+    if (!now_.ramp.running()) end_change();
   }
-  if (VOLCOMP_RARELY(usable_ == nullptr) && !ready(in)) return idle(in, ramp, out);
+  if (VOLCOMP_RARELY(now_.active == nullptr)) return finish_unusual(idle(in), ramp, out);
 
-  const Tables& set = *usable_;
+  const Tables& set = *now_.active;
   Work local;
   Work& w = work(local);
-  for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA { w.at[a] = follow(a, in.axis[a], set); });
+  if (VOLCOMP_RARELY(!follow_usual(in, set, w.at))) {
+    if (!follow_unusual(in)) return finish_unusual(idle(in), ramp, out);
+    for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA { w.at[a] = axis_[a].place; });
+  }
   kernel::Excess excess;
   const bool possible = find_excess(set, w, excess);
   if (VOLCOMP_RARELY(guarded_axes_ != 0 || !possible)) {

@@ -8,7 +8,8 @@
 
 namespace volcomp {
 
-enum class Direction : std::uint8_t { forward = 0, backward = 1, unknown = 2 };
+// A word: a usual tick writes it together with the edge.
+enum class Direction : std::uint32_t { forward = 0, backward = 1, unknown = 2 };
 
 class DirectionTracker {
  public:

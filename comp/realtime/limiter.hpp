@@ -60,6 +60,13 @@ class Magnitude {
     std::memcpy(&most, &bits, sizeof most);
     return most;
   }
+  // The same magnitude with the sign of `x`.
+  VOLCOMP_INLINE float signed_like(float x) const {
+    const std::uint32_t bits = (bits_of(x) & 0x80000000U) | twice_ >> 1U;
+    float most = 0.0F;
+    std::memcpy(&most, &bits, sizeof most);
+    return most;
+  }
   // NaN exceeds all.
   VOLCOMP_INLINE friend bool exceeds(float x, Magnitude most) {
     return bits_of(x) << 1U > most.twice_;
@@ -91,24 +98,33 @@ inline constexpr float kMaxRounded = 4194303.0F;
 class Ramp {
  public:
   void restart(std::uint32_t ticks) {
-    ticks_ = remaining_ = ticks;
+    ticks_ = ticks;
+    next_ = ticks == 0 ? 0 : 1;
     per_tick_ = ticks == 0 ? 0.0F : 1.0F / static_cast<float>(ticks);
     first_ = ticks <= 1 ? 1.0F : smooth(per_tick_);
   }
 
-  [[nodiscard]] bool running() const { return remaining_ != 0; }
-  [[nodiscard]] bool begun() const { return remaining_ != ticks_; }
+  // Has steps to take.
+  [[nodiscard]] bool running() const { return next_ != 0 && next_ <= ticks_; }
+  // From the second tick after its last step on. A ramp that begins before that continues this one.
+  [[nodiscard]] bool at_rest() const { return next_ == 0; }
 
-  // Factor of one more tick. That of the first is known beforehand: its tick, the one of an
-  // exchange of tables, has enough to do.
+  // Factor of the first tick. It is known beforehand: this tick, the one of an exchange of tables,
+  // has enough to do.
+  VOLCOMP_INLINE float begin() {
+    next_ = 2;
+    return first_;
+  }
+
+  // Factor of one more tick.
   VOLCOMP_INLINE float advance() {
-    if (remaining_ == 0) return 1.0F;
-    const bool first = !begun();
-    --remaining_;
-    if (first) return first_;
-    if (remaining_ == 0) return 1.0F;
-    const auto passed = static_cast<std::int32_t>(ticks_ - remaining_);
-    return smooth(static_cast<float>(passed) * per_tick_);
+    const std::uint32_t step = next_;
+    if (step >= ticks_) {
+      next_ = step == ticks_ && step != 0 ? step + 1U : 0;
+      return 1.0F;
+    }
+    next_ = step + 1U;
+    return smooth(static_cast<float>(static_cast<std::int32_t>(step)) * per_tick_);
   }
 
  private:
@@ -116,7 +132,7 @@ class Ramp {
     return u * u * u * (10.0F + u * (6.0F * u - 15.0F));
   }
 
-  std::uint32_t remaining_ = 0;
+  std::uint32_t next_ = 0;  // step, 1…ticks; ticks + 1 in the tick after the last; 0 at rest
   std::uint32_t ticks_ = 0;
   float per_tick_ = 0.0F;
   float first_ = 1.0F;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "comp/status.hpp"
 
@@ -14,7 +15,16 @@ struct AxisSample {
   std::int64_t position = 0;
   bool valid = false;  // false: frame lost, encoder fault, not a number
   bool homed = false;  // referenced and enabled
+
+  // Both, by one comparison.
+  [[nodiscard]] bool good() const {
+    std::uint16_t both = 0;
+    std::memcpy(&both, reinterpret_cast<const unsigned char*>(this) + offsetof(AxisSample, valid),
+                sizeof both);
+    return both == 0x0101U;
+  }
 };
+static_assert(offsetof(AxisSample, homed) == offsetof(AxisSample, valid) + 1);
 
 // Status word per axis.
 enum StatusBit : std::uint16_t {
