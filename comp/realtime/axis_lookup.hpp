@@ -50,12 +50,14 @@ struct Located {
 enum class RangeState : std::uint8_t { inside, outside, far_outside };
 
 // Distance from the first knot in the units of the lookup: nm, or 2^-32 turn, to which 2^-40 turn
-// is reduced so that it wraps like the axis does; `offset` is in these units. Positions were
-// clamped before: no overflow.
+// is reduced so that it wraps like the axis does; `offset` is in these units. Positions at the ends
+// of the integers wrap, too: to the other side, still far outside.
 VOLCOMP_INLINE std::int64_t distance(const AxisLookup& axis, std::int64_t position,
                                      std::int32_t offset, bool rotary) {
-  if (rotary) return ((position - axis.q0) >> 8) + offset;
-  return position + offset - axis.q0;
+  const auto r = static_cast<std::uint64_t>(position) - static_cast<std::uint64_t>(axis.q0);
+  const std::int64_t more = offset;
+  if (rotary) return (static_cast<std::int64_t>(r) >> 8) + more;
+  return static_cast<std::int64_t>(r + static_cast<std::uint64_t>(more));
 }
 
 VOLCOMP_INLINE bool outside(const AxisLookup& axis, std::int64_t distance, bool rotary,
