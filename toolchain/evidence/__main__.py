@@ -21,13 +21,13 @@ from failure import Failure
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 OUT = ROOT / "build/evidence"
-SHOWN_FLAGS = ("-mcpu", "-mfpu", "-mfloat-abi", "-O", "-ffp-contract")
+SHOWN_FLAGS = ("-mfloat-abi", "-O", "-ffp-contract", "-fno-tree", "-fno-schedule", "-frename")
 
 
 def compiler_and_flags(build):
     command = kernel_estimate.compile_command(build, "comp/realtime/instances.cpp")
     version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
-    flags = [w for w in command if w.startswith(SHOWN_FLAGS) and not w.startswith("-mcpu=") and not w.startswith("-mfpu=")]
+    flags = [w for w in command if w.startswith(SHOWN_FLAGS)]
     return version, " ".join(dict.fromkeys(flags))
 
 
