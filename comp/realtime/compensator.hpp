@@ -161,6 +161,7 @@ class Compensator {
                 std::uint32_t& place) const;
   template <bool Turns>
   bool follow(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
+  bool follow_one(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
   bool follow_usual(const Input& in, const Tables& set, Places& at);
   Work& work(Work& local);
   bool find_excess(const Tables& set, Work& work, kernel::Excess& excess);

@@ -104,10 +104,12 @@ template <class Machine, std::size_t Knots>
 template <class Machine, std::size_t Knots>
 [[gnu::noinline]] bool Compensator<Machine, Knots>::follow_unusual(const Input& in) {
   if (unknown_axes_ != 0 && !all_known(in)) return false;
+  const Tables& set = *now_.active;
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     AxisState& s = axis_[a];
+    if (follow_one(a, in.axis[a], set, s.place)) continue;
     std::uint32_t status = take_sample(a, in.axis[a]);
-    place(a, *now_.active, status);
+    place(a, set, status);
     constexpr std::uint32_t kNextIsUnusual = kStale | kOutOfRange | kDirectionUnknown;
     if ((status & kNextIsUnusual) == 0) s.reach = s.usual_step;
     s.exception = static_cast<std::uint16_t>(status);

@@ -62,6 +62,13 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow(std::size_t axis, const 
   return true;
 }
 
+template <class Machine, std::size_t Knots>
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_one(std::size_t axis,
+                                                            const AxisSample& sample,
+                                                            const Tables& set, Located& at) {
+  return rotary(axis) ? follow<true>(axis, sample, set, at) : follow<false>(axis, sample, set, at);
+}
+
 // False at the first axis that is not as usual. All are then followed once more by
 // follow_unusual(): for those that came before it nothing changes, they stand where they stood.
 template <class Machine, std::size_t Knots>
@@ -69,8 +76,7 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_usual(const Input& in, c
                                                               Places& at) {
   bool usual = true;
   for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
-    usual = usual && (rotary(a) ? follow<true>(a, in.axis[a], set, at[a])
-                                : follow<false>(a, in.axis[a], set, at[a]));
+    usual = usual && follow_one(a, in.axis[a], set, at[a]);
   });
   return usual;
 }

@@ -16,7 +16,7 @@ from failure import Failure
 PRODUCTS = ("node", "servo")  # images that a controller would carry
 # Entries that bring a stack of their own or share that of main, and what the processor puts there first: eight words,
 # eighteen more where the FPU is in use, one to align (Armv7-M, B1.5.7).
-INTERRUPTS = {"tick": "TIMER0_Handler", "link, receive": "UARTRX0_Handler", "link, transmit": "UARTTX0_Handler"}
+INTERRUPTS = {"first timer": "TIMER0_Handler", "second timer": "TIMER1_Handler", "link, receive": "UARTRX0_Handler", "link, transmit": "UARTTX0_Handler"}
 EXCEPTION_FRAME = 4 * (8 + 18 + 1)
 FAULT = "report_fault"
 TICK_OF = {
