@@ -90,7 +90,8 @@ case $case in
     expect_end 2 'not a record'
     ;;
   slcan)
-    coproc NODE { exec "$run_firmware" "$board" "$image" slcan 2>&1; }
+    # In real time: else the node says in a moment what a busy computer reads in minutes, and has to drop frames.
+    coproc NODE { exec "$run_firmware" --real-time "$board" "$image" slcan 2>&1; }
     image_pid=$NODE_PID
     printf 'V\rS8\rO\r' >&"${NODE[1]}"
     expect_line 'V[0-9][0-9][0-9][0-9]'
