@@ -16,13 +16,15 @@ constexpr std::uint32_t kEnable = 1U << 0U;
 constexpr std::uint32_t kProcessorClock = 1U << 2U;
 
 constexpr std::size_t kReadings = 8;  // more than five
+constexpr std::size_t kAllReadings = 16;
+static_assert(kAllReadings == 2 * kReadings);
 
 // Readings as far apart as the loop is long; and, where that is a multiple of five instructions,
 // one more. In one of the two they hit every remainder of the count by five, since five is prime.
-void take_readings(std::array<std::uint32_t, 2 * kReadings>& reading) {
+void take_readings(std::array<std::uint32_t, kAllReadings>& reading) {
   for (std::size_t i = 0; i < kReadings; ++i)
     reading[i] = InstructionCounter::ticks();
-  for (std::size_t i = kReadings; i < 2 * kReadings; ++i) {
+  for (std::size_t i = kReadings; i < kAllReadings; ++i) {
     reading[i] = InstructionCounter::ticks();
     __asm volatile("nop");
   }
@@ -36,7 +38,7 @@ void InstructionCounter::start() {
   device_register(kReload) = kMask;
   device_register(kCurrent) = 0;  // any write sets it to 0
   device_register(kControl) = kProcessorClock | kEnable;
-  std::array<std::uint32_t, 2 * kReadings> readings{};
+  std::array<std::uint32_t, kAllReadings> readings{};
   take_readings(readings);
   std::uint32_t possible = (1U << kPhases) - 1U;
   for (const std::uint32_t reading : readings) {

@@ -73,7 +73,7 @@ class EmulatedNode {
   [[nodiscard]] pid_t process_id() const { return qemu_->id(); }
 
  private:
-  void start(const std::vector<std::string>& command);
+  void start(const std::vector<std::string>& words);
   void join_by_pipe(const std::filesystem::path& image);
   void join_by_can(const std::filesystem::path& image, const std::string& interface);
   void watch(bool gone = false);
