@@ -5,7 +5,7 @@
 namespace volcomp::hal::mps2 {
 
 // NOLINTNEXTLINE(readability-convert-member-functions-to-static)
-void SlcanPort::start() { uart::enable_interrupts(); }
+void SlcanPort::start() { uart::start_interrupts(); }
 
 bool SlcanPort::send(const CanFrame& frame) {
   // An answer to the host must find room, too: it waits for it.

@@ -26,7 +26,7 @@ constexpr std::uint32_t kSmallestDivider = 16;
 
 void start() {
   device_register(kBaudDivider) = kSmallestDivider;
-  device_register(kControl) = kTransmit | kReceive;
+  device_register(kControl) = kTransmit;
 }
 
 bool ready_to_send() { return (device_register(kState) & kTransmit) == 0; }
@@ -50,7 +50,7 @@ bool take_receive_overrun() {
   return true;
 }
 
-void enable_interrupts() {
+void start_interrupts() {
   device_register(kControl) = kTransmit | kReceive | kTransmitInterrupt | kReceiveInterrupt;
   nvic::enable(kUart0ReceiveIrq, nvic::kLinkPriority);
   nvic::enable(kUart0TransmitIrq, nvic::kLinkPriority);

@@ -5,8 +5,8 @@
 
 namespace volcomp::hal::mps2::uart {
 
-// Transmitter and receiver on, no interrupt, at the fastest rate: the emulator models no bit times.
-// May be called again at any time, also by a fault handler that cannot know what ran before it.
+// Transmitter on, no interrupt, at the fastest rate: the emulator models no bit times. May be
+// called again at any time, also by a fault handler that cannot know what ran before it.
 void start();
 
 // Waits while the one-byte transmitter is full.
@@ -19,9 +19,11 @@ bool receive(std::uint8_t& byte);
 // Bytes were lost because nobody took them; asking forgets it.
 bool take_receive_overrun();
 
-// From then on each received byte raises UARTRX0 until receive() has taken it, and each byte that
-// has left, or a request, raises UARTTX0 until it is acknowledged.
-void enable_interrupts();
+// Turns the receiver on together with the interrupts: a byte that came in between would raise none,
+// and while nobody takes it there comes no other. From then on each received byte raises UARTRX0
+// until receive() has taken it, and each byte that has left, or a request, raises UARTTX0 until it
+// is acknowledged.
+void start_interrupts();
 void request_transmit_interrupt();
 void acknowledge_transmit();
 
