@@ -12,13 +12,6 @@ namespace {
 constexpr std::size_t kAxisHeader = 45;  // q0, pitch, knots, periodic, direction
 constexpr std::size_t kCrc = 4;
 
-hal::CanFrame frame(unsigned id, std::uint8_t size) {
-  hal::CanFrame f;
-  f.id = static_cast<std::uint16_t>(id);
-  f.size = size;
-  return f;
-}
-
 }  // namespace
 
 Bytes image_of(const MachineTables& tables) {
@@ -50,10 +43,43 @@ MachineTables bench_tables(std::uint64_t seed) {
   return tables;
 }
 
-NodeBench::NodeBench(Storage* storage) : node(std::make_unique<Node>(kId, storage)) {
-  client_.set_block_threshold(64);
-  power_on();
+hal::CanFrame bench_frame(unsigned id, std::uint8_t size) {
+  hal::CanFrame f;
+  f.id = static_cast<std::uint16_t>(id);
+  f.size = size;
+  return f;
 }
+
+// --- commissioning
+
+void BenchDevice::configure(std::uint32_t period_us) {
+  EXPECT_EQ(set<std::uint32_t>(0x1006, 0, period_us), canopen::AbortCode::none);
+  EXPECT_EQ(set<std::uint32_t>(0x2200, 1, 20), canopen::AbortCode::none);
+  for (std::uint8_t a = 1; a <= kBenchDrives; ++a)
+    EXPECT_EQ(set<std::uint8_t>(0x2010, a, a), canopen::AbortCode::none);
+}
+
+void BenchDevice::load(const MachineTables& tables) {
+  EXPECT_EQ(write({0x2110, 1}, image_of(tables)), canopen::AbortCode::none);
+  EXPECT_EQ(command(TableCommand::activate), canopen::AbortCode::none);
+}
+
+bool BenchDevice::emergency(canopen::ErrorCode code, std::uint8_t source) const {
+  return std::any_of(emergencies.begin(), emergencies.end(), [&](const BenchEmergency& e) {
+    return e.code == static_cast<std::uint16_t>(code) && e.source == source;
+  });
+}
+
+void BenchDevice::hear(const hal::CanFrame& f, std::uint64_t now_us) {
+  if (f.id == canopen::kSdoResponse + kBenchId) client_.response(f.data, now_us);
+  if (f.id != canopen::kEmergency + kBenchId) return;
+  const auto code = static_cast<std::uint16_t>(canopen::load_le(f.data.data(), 2));
+  emergencies.push_back({code, f.data[2], f.data[3]});
+}
+
+// --- node
+
+NodeBench::NodeBench(Storage* storage) : node(std::make_unique<Node>(kId, storage)) { power_on(); }
 
 void NodeBench::power_on() {
   node->power_on(now_us);
@@ -78,15 +104,8 @@ void NodeBench::drain() {
   hal::CanFrame f;
   while (node->offer(f, now_us)) {
     node->taken(now_us);
-    if (f.id == canopen::kSdoResponse + kId) {
-      client_.response(f.data, now_us);
-      continue;
-    }
-    sent.push_back(f);
-    if (f.id == canopen::kEmergency + kId) {
-      const auto code = static_cast<std::uint16_t>(canopen::load_le(f.data.data(), 2));
-      emergencies.push_back({code, f.data[2], f.data[3]});
-    }
+    hear(f, now_us);
+    if (f.id != canopen::kSdoResponse + kId) sent.push_back(f);
     for (std::size_t a = 0; a < kDrives; ++a) {
       if (f.id == 0x301U + a)
         drive[a].next = static_cast<std::int32_t>(canopen::load_le(f.data.data(), 4));
@@ -135,19 +154,11 @@ std::string NodeBench::text(std::uint16_t index, std::uint8_t sub) {
 
 void NodeBench::configure() {
   EXPECT_EQ(set<std::uint8_t>(0x1019, 0, 240), canopen::AbortCode::none);
-  EXPECT_EQ(set<std::uint32_t>(0x1006, 0, kPeriod_us), canopen::AbortCode::none);
-  EXPECT_EQ(set<std::uint32_t>(0x2200, 1, 20), canopen::AbortCode::none);
-  for (std::uint8_t a = 1; a <= kDrives; ++a)
-    EXPECT_EQ(set<std::uint8_t>(0x2010, a, a), canopen::AbortCode::none);
-}
-
-void NodeBench::load(const MachineTables& tables) {
-  EXPECT_EQ(write({0x2110, 1}, image_of(tables)), canopen::AbortCode::none);
-  EXPECT_EQ(command(TableCommand::activate), canopen::AbortCode::none);
+  BenchDevice::configure(kPeriod_us);
 }
 
 void NodeBench::nmt(canopen::NmtCommand command) {
-  hal::CanFrame f = frame(canopen::kNmt, 2);
+  hal::CanFrame f = bench_frame(canopen::kNmt, 2);
   f.data[0] = static_cast<std::uint8_t>(command);
   f.data[1] = kId;
   give(f);
@@ -159,7 +170,7 @@ void NodeBench::bring_up(const MachineTables& tables) {
   nmt(canopen::NmtCommand::start);
   cycles(60);
   ASSERT_EQ(state(), NodeState::compensating);
-  forget_emergencies();
+  emergencies.clear();
 }
 
 // --- cycle
@@ -171,27 +182,27 @@ void NodeBench::sync() {
   }
   sent.clear();
   counter_ = static_cast<std::uint8_t>(counter_ % 240 + 1);
-  hal::CanFrame f = frame(canopen::kSync, 1);
+  hal::CanFrame f = bench_frame(canopen::kSync, 1);
   f.data[0] = counter_;
   give(f);
 }
 
 void NodeBench::drive_data(std::size_t axis) {
   const BenchDrive& d = drive[axis];
-  hal::CanFrame f = frame(0x181U + static_cast<unsigned>(axis), 8);
+  hal::CanFrame f = bench_frame(0x181U + static_cast<unsigned>(axis), 8);
   canopen::store_le(f.data.data(), 4, static_cast<std::uint32_t>(d.target + d.held));
   canopen::store_le(&f.data[4], 2, d.status);
   give(f);
 }
 
 void NodeBench::offset_report(std::size_t axis) {
-  hal::CanFrame f = frame(0x481U + static_cast<unsigned>(axis), 4);
+  hal::CanFrame f = bench_frame(0x481U + static_cast<unsigned>(axis), 4);
   canopen::store_le(f.data.data(), 4, static_cast<std::uint32_t>(drive[axis].held));
   give(f);
 }
 
 void NodeBench::controller_data(std::size_t axis) {
-  hal::CanFrame f = frame(0x201U + static_cast<unsigned>(axis), 6);
+  hal::CanFrame f = bench_frame(0x201U + static_cast<unsigned>(axis), 6);
   canopen::store_le(f.data.data(), 2, 0x0F);
   canopen::store_le(&f.data[2], 4, static_cast<std::uint32_t>(drive[axis].target));
   give(f);
@@ -215,12 +226,6 @@ void NodeBench::cycles(int count) {
 
 std::array<std::int32_t, NodeBench::kDrives> NodeBench::offsets() const {
   return {drive[0].held, drive[1].held, drive[2].held};
-}
-
-bool NodeBench::emergency(canopen::ErrorCode code, std::uint8_t source) const {
-  return std::any_of(emergencies.begin(), emergencies.end(), [&](const BenchEmergency& e) {
-    return e.code == static_cast<std::uint16_t>(code) && e.source == source;
-  });
 }
 
 }  // namespace volcomp::node

@@ -39,11 +39,50 @@ struct BenchDrive {
   bool silent = false;            // neither the drive nor the controller speaks of this axis
 };
 
-class NodeBench {
+constexpr std::uint8_t kBenchId = 32;
+constexpr std::size_t kBenchDrives = 3;
+
+// The device of a bench, commissioned over SDO.
+class BenchDevice {
  public:
-  static constexpr std::uint8_t kId = 32;
+  // The abort code, when the answer is there.
+  virtual canopen::AbortCode write(canopen::ObjectId object, const Bytes& value) = 0;
+  template <class T>
+  canopen::AbortCode set(std::uint16_t index, std::uint8_t sub, T value) {
+    Bytes bytes(sizeof(T));
+    canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
+    return write({index, sub}, bytes);
+  }
+  canopen::AbortCode command(TableCommand command) {
+    return set(0x2111, 0, static_cast<std::uint8_t>(command));
+  }
+  // Downloads and activates.
+  void load(const MachineTables& tables);
+
+  // Since they were cleared.
+  [[nodiscard]] bool emergency(canopen::ErrorCode code, std::uint8_t source) const;
+
+  std::vector<BenchEmergency> emergencies;
+
+ protected:
+  BenchDevice() { client_.set_block_threshold(64); }
+  ~BenchDevice() = default;
+
+  // Cycle period, ramp, drives 1, 2, 3 for the axes.
+  void configure(std::uint32_t period_us);
+  // Notes emergencies, hands answers to the client.
+  void hear(const hal::CanFrame& frame, std::uint64_t now_us);
+
+  canopen::SdoClient client_;
+};
+
+[[nodiscard]] hal::CanFrame bench_frame(unsigned id, std::uint8_t size);
+
+class NodeBench final : public BenchDevice {
+ public:
+  static constexpr std::uint8_t kId = kBenchId;
   static constexpr std::uint32_t kPeriod_us = 2000;
-  static constexpr std::size_t kDrives = 3;
+  static constexpr std::size_t kDrives = kBenchDrives;
 
   explicit NodeBench(Storage* storage = nullptr);
 
@@ -52,26 +91,14 @@ class NodeBench {
   // Time passes in steps of 100 µs.
   void wait(std::uint64_t us);
 
-  // Over SDO; the abort code.
-  canopen::AbortCode write(canopen::ObjectId object, const Bytes& value);
-  template <class T>
-  canopen::AbortCode set(std::uint16_t index, std::uint8_t sub, T value) {
-    Bytes bytes(sizeof(T));
-    canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
-    return write({index, sub}, bytes);
-  }
+  canopen::AbortCode write(canopen::ObjectId object, const Bytes& value) override;
   canopen::AbortCode read(canopen::ObjectId object, Bytes& value);
   // Of an object that must be readable.
   std::uint64_t number(std::uint16_t index, std::uint8_t sub);
   std::string text(std::uint16_t index, std::uint8_t sub);
-  canopen::AbortCode command(TableCommand command) {
-    return set(0x2111, 0, static_cast<std::uint8_t>(command));
-  }
 
-  // Drives 1, 2, 3 for the axes, cycle period, SYNC counter, short ramp.
+  // SYNC counter, cycle period, short ramp, drives.
   void configure();
-  // Downloads and activates.
-  void load(const MachineTables& tables);
   void nmt(canopen::NmtCommand command);
   // configure(), load(), start, until every offset has settled.
   void bring_up(const MachineTables& tables = bench_tables());
@@ -90,13 +117,9 @@ class NodeBench {
     return node->objects().status[axis];
   }
   [[nodiscard]] std::array<std::int32_t, kDrives> offsets() const;
-  // Since the last call of forget_emergencies().
-  [[nodiscard]] bool emergency(canopen::ErrorCode code, std::uint8_t source) const;
-  void forget_emergencies() { emergencies.clear(); }
 
   std::unique_ptr<Node> node;
   std::array<BenchDrive, kDrives> drive;
-  std::vector<BenchEmergency> emergencies;
   std::vector<hal::CanFrame> sent;  // since the last SYNC, without SDO
   std::uint64_t now_us = 0;
   std::int32_t largest_step = 0;  // of an offset a drive took in
@@ -105,7 +128,6 @@ class NodeBench {
   void drain();
   canopen::AbortCode finish();
 
-  canopen::SdoClient client_;
   std::uint8_t counter_ = 0;
 };
 

@@ -10,163 +10,14 @@
 // may.
 
 #include <algorithm>
-#include <cstdlib>
 
-#include "firmware/canopen/bytes.hpp"
-#include "firmware/canopen/cob_id.hpp"
-#include "tests/unit/node/single_step.hpp"
-#include "tests/unit/node/task_bench.hpp"
+#include "tests/unit/node/preempted_bench.hpp"
 
 namespace volcomp::node {
 namespace {
 
 using canopen::AbortCode;
 using canopen::NmtCommand;
-using test::SingleStep;
-using Frames = TaskBench::Frames;
-
-constexpr std::uint64_t kFirstSteps = 1500;
-
-std::uint64_t most_steps() {
-  return std::getenv("VOLCOMP_TEST_ALL_STEPS") == nullptr ? kFirstSteps : UINT64_MAX;
-}
-
-// A frame the background had finished, and when it began with it.
-struct Served {
-  hal::CanFrame frame;
-  std::uint64_t us = 0;
-};
-
-struct Turn {
-  std::uint64_t us = 0;
-  bool resetting = false;      // the node was in the middle of it
-  std::vector<Served> served;  // since the turn before
-  Frames in;
-  Frames out;
-};
-
-// A task bench that writes down everything, and whose background can be interrupted anywhere.
-class PreemptedBench {
- public:
-  explicit PreemptedBench(Storage* storage = nullptr) : bench(storage) {
-    bench.on_interrupt = [this](const Frames& in, const Frames& out) { note(in, out); };
-    bench.background = [this] {
-      while (step()) {
-      }
-    };
-    bench.section.on_leave = [this] { leave(); };
-    bench.section.on_enter = [this] { enter(); };
-  }
-
-  // From here on the interrupt comes as often as it can.
-  void preempt(bool on) {
-    preempted_ = on;
-    bench.turn_us = on ? 10 : TaskBench::kTurn_us;
-  }
-
-  TaskBench bench;
-  std::vector<Turn> turns;
-  std::uint64_t interruptions = 0;
-  std::function<void()> on_long_work;  // when the interrupt is let in
-
- private:
-  void note(const Frames& in, const Frames& out) {
-    const bool resetting = bench.task->node().device().state() == canopen::NmtState::boot_up;
-    turns.push_back({bench.clock.us, resetting, std::move(served_), in, out});
-    served_ = {};
-    for (const hal::CanFrame& f : in) {
-      if (bench.task->node().work(f) == canopen::Device::Work::lengthy) waiting_.push_back({f});
-    }
-  }
-
-  void interrupt() {
-    ++interruptions;
-    bench.interrupt();
-  }
-
-  bool step() {
-    serving_ = !waiting_.empty();
-    if (!preempted_) return bench.task->background_step();
-    bool more = false;
-    SingleStep::through([&] { more = bench.task->background_step(); },
-                        [&](std::uint64_t /*done*/) {
-                          if (!bench.section.inside) interrupt();
-                          return ++steps_ < most_steps_;
-                        });
-    return more;
-  }
-
-  // The background keeps the interrupt out: before it reads the clock and begins with a frame, or
-  // at the end of long work.
-  void enter() {
-    if (preempted_) SingleStep::pause();
-    if (serving_ && !bench.task->guardian().long_work()) waiting_.front().us = bench.clock.us;
-  }
-
-  // The background lets the interrupt in: with a frame that is finished, or in the middle of it.
-  void leave() {
-    if (serving_ && !bench.task->guardian().long_work()) {
-      serving_ = false;
-      served_.push_back(waiting_.front());
-      waiting_.pop_front();
-    }
-    if (!preempted_) return;
-    if (on_long_work && bench.task->guardian().long_work()) on_long_work();
-    interrupt();
-    steps_ = 0;
-    SingleStep::resume();
-  }
-
-  bool preempted_ = false;
-  bool serving_ = false;
-  std::uint64_t most_steps_ = most_steps();
-  std::uint64_t steps_ = 0;  // since the interrupt was let in
-  std::deque<Served> waiting_;
-  std::vector<Served> served_;
-};
-
-// --- the node in one context
-
-class SingleNode {
- public:
-  explicit SingleNode(Storage* storage = nullptr)
-      : node_(std::make_unique<Node>(NodeBench::kId, storage)) {
-    node_->power_on(0);
-  }
-
-  // What it says in such a turn.
-  Frames turn(const Turn& turn) {
-    for (const Served& s : turn.served)
-      node_->receive(s.frame, s.us);
-    for (const hal::CanFrame& f : turn.in) {
-      if (node_->work(f) != canopen::Device::Work::lengthy) node_->receive(f, turn.us);
-    }
-    node_->poll(turn.us);
-    Frames out;
-    hal::CanFrame frame;
-    while (out.size() < 32 && node_->offer(frame, turn.us)) {
-      out.push_back(frame);
-      node_->taken(turn.us);
-    }
-    return out;
-  }
-
- private:
-  std::unique_ptr<Node> node_;
-};
-
-// A node that is being reset is not on the bus: it says nothing, and what it did not hear the other
-// one is not told either.
-void expect_same(const std::vector<Turn>& turns, SingleNode& single) {
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    if (turns[i].resetting) {
-      ASSERT_TRUE(turns[i].served.empty());
-      ASSERT_TRUE(turns[i].out.empty()) << "turn " << i;
-      continue;
-    }
-    ASSERT_EQ(turns[i].out, single.turn(turns[i])) << "turn " << i;
-  }
-}
 
 // --- tables
 
@@ -187,8 +38,7 @@ TEST(NodePreemption, TablesChangeWhileTheMachineIsCorrected) {
   EXPECT_NE(bench.bus.drive[0].held, before);
   EXPECT_LE(bench.bus.largest_step, 20'000);
   EXPECT_EQ(bench.section.misuses, 0);
-  SingleNode single;
-  expect_same(preempted.turns, single);
+  expect_same_in_one_context(preempted.turns);
 }
 
 TEST(NodePreemption, TablesAreRefusedWhileTheMachineIsCorrected) {
@@ -204,59 +54,44 @@ TEST(NodePreemption, TablesAreRefusedWhileTheMachineIsCorrected) {
   bench.turns(100);
 
   EXPECT_EQ(bench.state(), NodeState::compensating);
-  SingleNode single;
-  expect_same(preempted.turns, single);
+  expect_same_in_one_context(preempted.turns);
 }
 
 // The compensator begins to tick, with the tables it has, in the middle of the command that gives
-// it others.
-TEST(NodePreemption, TablesChangeWhileTheCompensatorStarts) {
-  PreemptedBench preempted;
+// it others. Returns what became of the command.
+AbortCode activate_while_it_starts(PreemptedBench& preempted, const MachineTables& others) {
   TaskBench& bench = preempted.bench;
   bench.bring_up(bench_tables(0));
-  EXPECT_EQ(bench.write({0x2110, 1}, image_of(bench_tables(1))), AbortCode::none);
+  EXPECT_EQ(bench.write({0x2110, 1}, image_of(others)), AbortCode::none);
   bench.bus.nmt(NmtCommand::enter_pre_operational);
   bench.turns(10);
   bench.bus.nmt(NmtCommand::start);
   bench.turns(2);
-  ASSERT_EQ(bench.state(), NodeState::waiting);
+  EXPECT_EQ(bench.state(), NodeState::waiting);
   bench.bus.with_sync = false;
   preempted.on_long_work = [&] { bench.bus.with_sync = true; };
   preempted.preempt(true);
-  EXPECT_EQ(bench.command(TableCommand::activate), AbortCode::none);
-  EXPECT_EQ(bench.state(), NodeState::compensating);
+  const AbortCode answer = bench.command(TableCommand::activate);
   preempted.preempt(false);
   bench.turns(200);
   EXPECT_EQ(bench.state(), NodeState::compensating);
   EXPECT_LE(bench.bus.largest_step, 20'000);
-  SingleNode single;
-  expect_same(preempted.turns, single);
+  expect_same_in_one_context(preempted.turns);
+  return answer;
+}
+
+TEST(NodePreemption, TablesChangeWhileTheCompensatorStarts) {
+  PreemptedBench preempted;
+  EXPECT_EQ(activate_while_it_starts(preempted, bench_tables(1)), AbortCode::none);
 }
 
 // Tables of another machine would be taken while nothing is corrected; in the middle of the command
 // that is over.
 TEST(NodePreemption, TheMachineChangesOnlyUntilTheCompensatorStarts) {
   PreemptedBench preempted;
-  TaskBench& bench = preempted.bench;
-  bench.bring_up(bench_tables(0));
   MachineTables other = bench_tables(1);
   other.machine.body[3].joint.offset[0] += 10.0;
-  EXPECT_EQ(bench.write({0x2110, 1}, image_of(other)), AbortCode::none);
-  bench.bus.nmt(NmtCommand::enter_pre_operational);
-  bench.turns(10);
-  bench.bus.nmt(NmtCommand::start);
-  bench.turns(2);
-  ASSERT_EQ(bench.state(), NodeState::waiting);
-  bench.bus.with_sync = false;
-  preempted.on_long_work = [&] { bench.bus.with_sync = true; };
-  preempted.preempt(true);
-  EXPECT_EQ(bench.command(TableCommand::activate), AbortCode::general);
-  preempted.preempt(false);
-  bench.turns(100);
-  EXPECT_EQ(bench.state(), NodeState::compensating);
-  EXPECT_LE(bench.bus.largest_step, 20'000);
-  SingleNode single;
-  expect_same(preempted.turns, single);
+  EXPECT_EQ(activate_while_it_starts(preempted, other), AbortCode::general);
 }
 
 TEST(NodePreemption, CorrectionsAreTakenBack) {
@@ -268,8 +103,7 @@ TEST(NodePreemption, CorrectionsAreTakenBack) {
   preempted.preempt(false);
   bench.turns(200);
   EXPECT_TRUE(bench.offsets_are_zero());
-  SingleNode single;
-  expect_same(preempted.turns, single);
+  expect_same_in_one_context(preempted.turns);
 }
 
 // Every ten seconds.
@@ -284,8 +118,7 @@ TEST(NodePreemption, TablesAreScrubbedWhileTheMachineIsCorrected) {
   EXPECT_GT(preempted.interruptions, kFirstSteps);
   preempted.preempt(false);
   bench.turns(10);
-  SingleNode single;
-  expect_same(preempted.turns, single);
+  expect_same_in_one_context(preempted.turns);
 }
 
 // --- reset
@@ -352,8 +185,7 @@ TEST(NodePreemption, ResetInTheMiddleOfCorrections) {
   EXPECT_LE(bench.bus.largest_step, 20'000);
 
   FixedStorage another;
-  SingleNode single(&another);
-  expect_same(preempted.turns, single);
+  expect_same_in_one_context(preempted.turns, &another);
 }
 
 }  // namespace

@@ -6,17 +6,6 @@
 #include "firmware/canopen/bytes.hpp"
 
 namespace volcomp::node {
-namespace {
-
-hal::CanFrame frame(unsigned id, std::uint8_t size) {
-  hal::CanFrame f;
-  f.id = static_cast<std::uint16_t>(id);
-  f.size = size;
-  return f;
-}
-
-}  // namespace
-
 bool BenchPort::send(const hal::CanFrame& frame) {
   if (room == 0) return false;
   --room;
@@ -50,7 +39,7 @@ std::vector<hal::CanFrame> BenchBus::turn() {
   sync_turn_ = !sync_turn_;
   if (!sync_turn_ || !with_sync) return frames;
   counter_ = static_cast<std::uint8_t>(counter_ % 240 + 1);
-  frames.push_back(frame(canopen::kSync, 1));
+  frames.push_back(bench_frame(canopen::kSync, 1));
   frames.back().data[0] = counter_;
   for (std::size_t a = 0; a < drive.size(); ++a) {
     BenchDrive& d = drive[a];
@@ -58,12 +47,12 @@ std::vector<hal::CanFrame> BenchBus::turn() {
     d.held = d.next;
     if (d.silent) continue;
     const auto id = static_cast<unsigned>(a) + 1U;
-    hal::CanFrame actual = frame(0x180U + id, 8);
+    hal::CanFrame actual = bench_frame(0x180U + id, 8);
     canopen::store_le(actual.data.data(), 4, static_cast<std::uint32_t>(d.target + d.held));
     canopen::store_le(&actual.data[4], 2, d.status);
-    hal::CanFrame held = frame(0x480U + id, 4);
+    hal::CanFrame held = bench_frame(0x480U + id, 4);
     canopen::store_le(held.data.data(), 4, static_cast<std::uint32_t>(d.held));
-    hal::CanFrame target = frame(0x200U + id, 6);
+    hal::CanFrame target = bench_frame(0x200U + id, 6);
     canopen::store_le(target.data.data(), 2, 0x0F);
     canopen::store_le(&target.data[2], 4, static_cast<std::uint32_t>(d.target));
     frames.insert(frames.end(), {actual, held, target});
@@ -72,7 +61,7 @@ std::vector<hal::CanFrame> BenchBus::turn() {
 }
 
 void BenchBus::nmt(canopen::NmtCommand command) {
-  hal::CanFrame f = frame(canopen::kNmt, 2);
+  hal::CanFrame f = bench_frame(canopen::kNmt, 2);
   f.data[0] = static_cast<std::uint8_t>(command);
   f.data[1] = NodeBench::kId;
   put(f);
@@ -89,7 +78,6 @@ void BenchBus::hear(const hal::CanFrame& f) {
 TaskBench::TaskBench(Storage* storage, const GuardianSettings& guardian, ResetCause cause)
     : task(std::make_unique<BenchTask>(Board{port, clock, section, watchdog}, kId, storage,
                                        guardian)) {
-  client_.set_block_threshold(64);
   task->power_on(cause);
 }
 
@@ -103,10 +91,7 @@ void TaskBench::interrupt() {
   if (on_interrupt) on_interrupt(in, sent);
   for (const hal::CanFrame& f : sent) {
     bus.hear(f);
-    if (f.id == canopen::kSdoResponse + kId) client_.response(f.data, clock.us);
-    if (f.id != canopen::kEmergency + kId) continue;
-    const auto code = static_cast<std::uint16_t>(canopen::load_le(f.data.data(), 2));
-    emergencies.push_back({code, f.data[2], f.data[3]});
+    hear(f, clock.us);
   }
 }
 
@@ -144,27 +129,15 @@ canopen::AbortCode TaskBench::write(canopen::ObjectId object, const Bytes& value
   return finish();
 }
 
-void TaskBench::configure() {
-  EXPECT_EQ(set<std::uint32_t>(0x1006, 0, 2 * kTurn_us), canopen::AbortCode::none);
-  EXPECT_EQ(set<std::uint32_t>(0x2200, 1, 20), canopen::AbortCode::none);
-  for (std::uint8_t a = 1; a <= NodeBench::kDrives; ++a)
-    EXPECT_EQ(set<std::uint8_t>(0x2010, a, a), canopen::AbortCode::none);
-}
+void TaskBench::configure() { BenchDevice::configure(2 * kTurn_us); }
 
 void TaskBench::bring_up(const MachineTables& tables) {
   configure();
-  EXPECT_EQ(write({0x2110, 1}, image_of(tables)), canopen::AbortCode::none);
-  EXPECT_EQ(command(TableCommand::activate), canopen::AbortCode::none);
+  load(tables);
   bus.nmt(canopen::NmtCommand::start);
   turns(150);
   ASSERT_EQ(state(), NodeState::compensating);
   emergencies.clear();
-}
-
-bool TaskBench::emergency(canopen::ErrorCode code, std::uint8_t source) const {
-  return std::any_of(emergencies.begin(), emergencies.end(), [&](const BenchEmergency& e) {
-    return e.code == static_cast<std::uint16_t>(code) && e.source == source;
-  });
 }
 
 bool TaskBench::offsets_are_zero() const {

@@ -72,7 +72,7 @@ class BenchBus {
 
 using BenchTask = NodeTask<BenchPort, BenchClock, BenchSection, BenchWatchdog>;
 
-class TaskBench {
+class TaskBench final : public BenchDevice {
  public:
   static constexpr std::uint8_t kId = NodeBench::kId;
   static constexpr std::uint64_t kTurn_us = 1000;
@@ -88,17 +88,8 @@ class TaskBench {
   // The interrupt alone, as it may come at any moment. `on_interrupt` is told what came and left.
   void interrupt();
 
-  // Over SDO, as many turns as it takes; the abort code.
-  canopen::AbortCode write(canopen::ObjectId object, const Bytes& value);
-  template <class T>
-  canopen::AbortCode set(std::uint16_t index, std::uint8_t sub, T value) {
-    Bytes bytes(sizeof(T));
-    canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
-    return write({index, sub}, bytes);
-  }
-  canopen::AbortCode command(TableCommand command) {
-    return set(0x2111, 0, static_cast<std::uint8_t>(command));
-  }
+  // As many turns as it takes.
+  canopen::AbortCode write(canopen::ObjectId object, const Bytes& value) override;
   // Drives, period, ramp; tables; NMT start; until every offset has settled.
   void configure();
   void bring_up(const MachineTables& tables = bench_tables());
@@ -106,7 +97,6 @@ class TaskBench {
   [[nodiscard]] NodeState state() const {
     return static_cast<NodeState>(task->node().objects().state);
   }
-  [[nodiscard]] bool emergency(canopen::ErrorCode code, std::uint8_t source) const;
   [[nodiscard]] bool offsets_are_zero() const;
 
   BenchClock clock;
@@ -116,7 +106,6 @@ class TaskBench {
   BenchBus bus;
   std::uint64_t turn_us = kTurn_us;
   bool background_hangs = false;
-  std::vector<BenchEmergency> emergencies;
   Frames sent;  // in the last interrupt
   std::function<void(const Frames& in, const Frames& out)> on_interrupt;
   std::function<void()> background;  // instead of the steps that are due
@@ -124,8 +113,6 @@ class TaskBench {
 
  private:
   canopen::AbortCode finish();
-
-  canopen::SdoClient client_;
 };
 
 }  // namespace volcomp::node
