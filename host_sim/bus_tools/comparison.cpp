@@ -10,7 +10,9 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr std::uint64_t kPatience_us = 1'000'000;  // for frames that are not process data
+// For frames that are not process data. An emulated node on a busy computer takes many seconds to
+// answer; an answer that never came is found at the next one, too.
+constexpr std::uint64_t kPatience_us = 60'000'000;
 // Milliseconds of a node behind a pipe, for process data and for all the rest.
 constexpr int kCyclicPatience = 3;
 constexpr int kServicePatience = 10'000;
