@@ -67,18 +67,23 @@ class Test {
 
 // `condition` has begun the report when it is false. The switch keeps an `else` of the test from
 // binding to the one here.
-#define VOLCOMP_UNLESS(condition, otherwise) \
-  switch (0)                                 \
-  case 0:                                    \
-  default:                                   \
-    if (condition)                           \
-      ;                                      \
-    else                                     \
-      otherwise
+#define VOLCOMP_EXPECT(condition) \
+  switch (0)                      \
+  case 0:                         \
+  default:                        \
+    if (condition)                \
+      ;                           \
+    else                          \
+      ::volcomp::target::Remark()
 
-#define VOLCOMP_EXPECT(condition) VOLCOMP_UNLESS(condition, ::volcomp::target::Remark())
 #define VOLCOMP_ASSERT(condition) \
-  VOLCOMP_UNLESS(condition, return ::volcomp::target::EndOfTest{} = ::volcomp::target::Remark())
+  switch (0)                      \
+  case 0:                         \
+  default:                        \
+    if (condition)                \
+      ;                           \
+    else                          \
+      return ::volcomp::target::EndOfTest{} = ::volcomp::target::Remark()
 
 #define VOLCOMP_HERE \
   ::volcomp::target::Place { __FILE__, __LINE__ }
