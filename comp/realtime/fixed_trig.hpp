@@ -1,6 +1,8 @@
 #pragma once
 // Sine and cosine of a 32-bit angle (2^-32 turn) without libm, the same bits on every target.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "comp/realtime/inline.hpp"
@@ -12,23 +14,56 @@ struct SineCosine {
   float cosine;
 };
 
-// Absolute error ≤ 2e-7. Quadrant by rounding to the nearest quarter turn, then minimax polynomials
-// (degree 7 and 8) on ±45°. Wraps exactly. Interrupt-safe.
+namespace detail {
+
+inline constexpr unsigned kCircleBits = 7;
+using Circle = std::array<SineCosine, 1U << kCircleBits>;
+
+// Of 0…π/2 by its series: the first term left out is < 2e-16.
+constexpr double sine_by_series(double x) {
+  double sum = x;
+  double term = x;
+  for (double k = 2.0; k < 22.0; k += 2.0) {
+    term *= -x * x / (k * (k + 1.0));
+    sum += term;
+  }
+  return sum;
+}
+
+// The points of the circle, each quadrant from the same numbers: its symmetries hold bit for bit.
+constexpr Circle make_circle() {
+  constexpr double kQuarter = 1.5707963267948966;
+  constexpr std::size_t n = 1U << (kCircleBits - 2U);
+  Circle circle{};
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto part = static_cast<double>(k) / static_cast<double>(n);
+    const auto s = static_cast<float>(sine_by_series(kQuarter * part));
+    const auto c = k == 0 ? 1.0F : static_cast<float>(sine_by_series(kQuarter * (1.0 - part)));
+    circle[k] = {s, c};
+    circle[k + n] = {c, -s};
+    circle[k + 2 * n] = {-s, -c};
+    circle[k + 3 * n] = {-c, s};
+  }
+  return circle;
+}
+
+inline constexpr Circle kCircle = make_circle();
+
+}  // namespace detail
+
+// Absolute error ≤ 2e-7. From the nearest point of the circle by what is left, at most 1/256 turn:
+// two terms of either series. Wraps exactly. Interrupt-safe.
 VOLCOMP_INLINE SineCosine sine_cosine(std::uint32_t angle) {
-  constexpr std::uint32_t kEighth = 0x20000000U;
+  constexpr unsigned kRestBits = 32U - detail::kCircleBits;
   constexpr float kRadPerUnit = 1.4629180792671596e-9F;  // 2π / 2^32
-  const std::uint32_t quadrant = (angle + kEighth) >> 30U;
-  const auto rest = static_cast<std::int32_t>(angle - (quadrant << 30U));
+  const std::uint32_t nearest = (angle + (1U << (kRestBits - 1U))) >> kRestBits;
+  const auto rest = static_cast<std::int32_t>(angle - (nearest << kRestBits));
+  const SineCosine& at = detail::kCircle[nearest];
   const float x = static_cast<float>(rest) * kRadPerUnit;
   const float z = x * x;
-  const float s = x + x * z * (-1.6666654611e-1F + z * (8.3321608736e-3F + z * -1.9515295891e-4F));
-  const float c =
-      1.0F - 0.5F * z +
-      z * z * (4.166664568298827e-2F + z * (-1.388731625493765e-3F + z * 2.443315711809948e-5F));
-  const bool swap = (quadrant & 1U) != 0;
-  const float a = swap ? c : s;
-  const float b = swap ? s : c;
-  return {(quadrant & 2U) != 0 ? -a : a, ((quadrant + 1U) & 2U) != 0 ? -b : b};
+  const float s = x - x * z * (1.0F / 6.0F);
+  const float c = 1.0F - 0.5F * z;
+  return {at.sine * c + at.cosine * s, at.cosine * c - at.sine * s};
 }
 
 }  // namespace volcomp
