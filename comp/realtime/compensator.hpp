@@ -13,7 +13,6 @@
 // tables stay active.
 
 #include <atomic>
-#include <type_traits>
 
 #include "comp/realtime/direction.hpp"
 #include "comp/realtime/everyday_tally.hpp"
@@ -25,6 +24,17 @@ namespace volcomp {
 
 // Knots per axis table; one more costs a five-axis compensator 960 bytes.
 inline constexpr std::size_t kDefaultKnots = 128;
+
+namespace detail {
+
+// Compensator::tick_unusual in the place of tick(). With internal linkage: GCC calls what the
+// linker may replace, and instances of templates are such, but jumps to this one; nothing of the
+// usual tick is then left on the stack.
+template <class Unit>
+static void tick_unusual(Unit& unit, const typename Unit::Input& in, float ramp,
+                         typename Unit::Output& out);
+
+}  // namespace detail
 
 template <class Machine, std::size_t Knots = kDefaultKnots>
 class Compensator {
@@ -39,10 +49,8 @@ class Compensator {
   // A machine with more axes than fit is treated as none: every stage() is then refused.
   explicit Compensator(const Machine& machine)
       : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {
-    unknown_axes_ = machine_.chain.axes;
     next_.ramp.restart(settings_.ramp_ticks);
-    for (std::size_t a = 0; a < kAxes; ++a)
-      apply_limits(a);
+    take_machine();
   }
 
   // --- background
@@ -127,7 +135,6 @@ class Compensator {
     bool known = false;                   // has ever had a valid position
     bool steady = false;                  // known, and the last sample was good
     bool soft = false;  // dropped, not homed or coming back: soft_rate instead of rate
-    Located place{};    // in the table, for a sample that is no usual one
     Knot mean{};        // row in use until a direction is known
   };
 
@@ -140,14 +147,21 @@ class Compensator {
   };
 
   using Places = std::array<Located, kAxes>;
-  // What a tick works on: a compiled-in machine keeps it in registers, a loaded one here instead of
-  // on the stack of the interrupt.
+  // What a tick works on. A compiled-in machine keeps it in registers as long as all is as usual.
   struct Work {
     Places at;
-    kernel::Carried<kAxes> carried;
+    kernel::Columns column;
+    kernel::Excess excess;
   };
-  struct Nothing {};
-  using KeptWork = std::conditional_t<Machine::kCompiledIn, Nothing, Work>;
+
+  // The state of a correcting axis; that of a loaded machine has been looked up once.
+  AxisState& corrected(std::size_t correcting) {
+    if constexpr (Machine::kCompiledIn) {
+      return axis_[machine_.chain.correcting[correcting]];
+    } else {
+      return *corrected_[correcting];
+    }
+  }
 
   // compensator_tick.inl
   template <class Visit>
@@ -162,11 +176,12 @@ class Compensator {
   template <bool Turns>
   bool follow(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
   bool follow_one(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
-  bool follow_usual(const Input& in, const Tables& set, Places& at);
-  Work& work(Work& local);
-  bool find_excess(const Tables& set, Work& work, kernel::Excess& excess);
+  bool follow_usual(const Input& in, const Tables& set, std::uint32_t status, Places& at,
+                    Output& out);
+  bool find_excess(const Tables& set, Work& work);
+  bool find_kept_excess(const Tables& set);
   void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t usual,
-               EverydayBits& everyday, Output& out);
+               EverydayBits& changed, Output& out);
 
   // compensator_exceptions.inl
   void take_request();
@@ -174,14 +189,19 @@ class Compensator {
   void end_change();
   bool all_known(const Input& in);
   std::uint32_t take_sample(std::size_t axis, const AxisSample& sample);
-  void place(std::size_t axis, const Tables& set, std::uint32_t& status);
+  void place(std::size_t axis, const Tables& set, Located& at, std::uint32_t& status);
   bool follow_unusual(const Input& in);
   void put_out_unusual(AxisState& s, float excess, float ramp, std::uint32_t& status);
   std::uint32_t idle(const Input& in);
   void finish_unusual(std::uint32_t gate, float ramp, Output& out);
+  void tick_unusual(const Input& in, float ramp, Output& out);
+  template <class Unit>
+  friend void detail::tick_unusual(Unit& unit, const typename Unit::Input& in, float ramp,
+                                   typename Unit::Output& out);
   bool count_changes(std::size_t axis, std::uint32_t status);
 
   // compensator_background.inl
+  void take_machine();
   void apply_limits(std::size_t axis);
   Status open_spare(const Provenance& provenance);
   Status fold_into_spare(const TablesView& tables, const Vec3& tool_point, std::uint32_t image_crc);
@@ -198,14 +218,14 @@ class Compensator {
   std::uint32_t ticks_ = 0;
   Change now_{};
   Float3 error_nm_{};
+  std::array<AxisState*, kMaxCorrecting> corrected_{};
+  Work work_{};
   std::array<AxisState, kAxes> axis_{};
   EverydayTally tally_{};
-  KeptWork work_{};
 
   Change next_{};                   // handed over with a request; its ramp has not begun
-  kernel::Excess excess_{};         // of a tick in which something was unusual
   std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
-  std::uint32_t ramps_ = 0;         // begun
+  std::uint32_t ramps_ = 0;         // begun and come to rest: odd while one is under way
   bool ticks_wrapped_ = false;
   std::int8_t spare_ = 0;  // index of the buffer that may be written
   bool staged_ = false;

@@ -52,6 +52,17 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
   s.hysteresis = l.hysteresis;
 }
 
+// What depends on the machine alone. Where fewer than three axes correct, the others stand for the
+// first axis.
+template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::take_machine() {
+  unknown_axes_ = machine_.chain.axes;
+  for (std::size_t c = 0; c < kMaxCorrecting; ++c)
+    corrected_[c] = &axis_[machine_.chain.correcting[c]];
+  for (std::size_t a = 0; a < kAxes; ++a)
+    apply_limits(a);
+}
+
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::restart(const Machine& machine) {
   if (machine.chain.axes <= kAxes) {
@@ -72,11 +83,8 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   ticks_wrapped_ = false;
   ramps_ = 0;
   guarded_axes_ = 0;
-  unknown_axes_ = machine_.chain.axes;
-  for (std::size_t a = 0; a < kAxes; ++a) {
-    axis_[a] = {};
-    apply_limits(a);
-  }
+  axis_ = {};
+  take_machine();
 }
 
 template <class Machine, std::size_t Knots>
@@ -98,7 +106,7 @@ Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kA
     axis_[a].output = offsets[a];
   }
   unknown_axes_ = machine_.chain.axes;
-  now_.ramp = {};  // a new beginning
+  if (!now_.ramp.at_rest()) ++ramps_;  // a new beginning
   begin_change();
   now_.ramp = next_.ramp;
   return {};
@@ -205,7 +213,7 @@ Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::dia
   if (now_.latest != nullptr) d.active_crc = now_.latest->image_crc;
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     d.largest[a] = axis_[a].largest;
-    d.began[a][bit_of(kRamping)] = saturated(ramps_);
+    d.began[a][bit_of(kRamping)] = saturated((ramps_ >> 1U) + (ramps_ & 1U));
   }
   for (std::size_t c = 0; c < machine_.chain.correcting_count; ++c) {
     auto& began = d.began[machine_.chain.correcting[c]];

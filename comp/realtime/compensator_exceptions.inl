@@ -14,23 +14,23 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
 }
 
 // Whatever changes, the output goes from where it is to where it should be along the ramp. One that
-// is under way goes over into the next.
+// is under way goes over into the next. Where fewer axes correct, the first axis has its turn more
+// than once: that is sooner done than asked.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::begin_change() {
-  for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
-    AxisState& s = axis_[machine_.chain.correcting[c]];
-    s.ramp_from = static_cast<float>(s.output);
-  });
-  if (now_.ramp.at_rest()) ++ramps_;
+  VOLCOMP_UNROLL
+  for (std::size_t c = 0; c < kMaxCorrecting; ++c)
+    corrected(c).ramp_from = static_cast<float>(corrected(c).output);
+  ramps_ |= 1U;
 }
 
 // At the end of the ramp nothing of its start is left: from + 1 · (x − from) is exactly x where
 // `from` is 0.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::end_change() {
-  for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
-    axis_[machine_.chain.correcting[c]].ramp_from = 0.0F;
-  });
+  VOLCOMP_UNROLL
+  for (std::size_t c = 0; c < kMaxCorrecting; ++c)
+    corrected(c).ramp_from = 0.0F;
 }
 
 // Whether every axis has reported at last.
@@ -83,7 +83,7 @@ template <class Machine, std::size_t Knots>
 // Where the axis stands in its table, held at the ends.
 template <class Machine, std::size_t Knots>
 [[gnu::noinline]] void Compensator<Machine, Knots>::place(std::size_t axis, const Tables& set,
-                                                          std::uint32_t& status) {
+                                                          Located& at, std::uint32_t& status) {
   AxisState& s = axis_[axis];
   const bool turns = rotary(axis);
   std::int64_t r = distance(set.lookup[axis], s.position, s.output & target_mask_, turns);
@@ -92,12 +92,12 @@ template <class Machine, std::size_t Knots>
   if (range == RangeState::far_outside) status |= kFarOutOfRange;
   const Direction direction = s.direction.direction();
   const bool known = direction != Direction::unknown;
-  s.place = locate(set.lookup[axis], static_cast<std::uint32_t>(r), turns, set.rows[axis].data(),
-                   known ? direction : Direction::forward);
+  locate(set.lookup[axis], static_cast<std::uint32_t>(r), turns, set.rows[axis].data(),
+         known ? direction : Direction::forward, at);
   if (known) return;
   status |= kDirectionUnknown;
-  set_mean(s.mean, s.place.knot[0], s.place.knot[1], s.place.t);  // both directions, side by side
-  s.place.knot = &s.mean;
+  set_mean(s.mean, at.knot[0], at.knot[1], at.t);  // both directions, side by side
+  at.knot = &s.mean;
 }
 
 // Follows all axes, whatever they show. False until every axis has reported.
@@ -107,9 +107,9 @@ template <class Machine, std::size_t Knots>
   const Tables& set = *now_.active;
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     AxisState& s = axis_[a];
-    if (follow_one(a, in.axis[a], set, s.place)) continue;
+    if (follow_one(a, in.axis[a], set, work_.at[a])) continue;
     std::uint32_t status = take_sample(a, in.axis[a]);
-    place(a, set, status);
+    place(a, set, work_.at[a], status);
     constexpr std::uint32_t kNextIsUnusual = kStale | kOutOfRange | kDirectionUnknown;
     if ((status & kNextIsUnusual) == 0) s.reach = s.usual_step;
     s.exception = static_cast<std::uint16_t>(status);
@@ -183,7 +183,7 @@ template <class Machine, std::size_t Knots>
     const std::size_t c = chain.correcting_index[a];
     if (c != kNotCorrecting) {
       status |= gate;
-      put_out_unusual(axis_[a], excess_[c], ramp, status);
+      put_out_unusual(axis_[a], work_.excess[c], ramp, status);
     }
     if (damaged) status |= kTableDamaged;
     if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
@@ -199,8 +199,27 @@ template <class Machine, std::size_t Knots>
 [[gnu::noinline]] std::uint32_t Compensator<Machine, Knots>::idle(const Input& in) {
   for (std::size_t a = 0; a < machine_.chain.axes; ++a)
     axis_[a].exception = static_cast<std::uint16_t>(take_sample(a, in.axis[a]));
-  excess_ = {};
+  work_.excess = {};
   return active() ? kStale : kNoTables;
+}
+
+// A tick from its beginning on, for whatever can happen.
+template <class Machine, std::size_t Knots>
+VOLCOMP_INLINE void Compensator<Machine, Knots>::tick_unusual(const Input& in, float ramp,
+                                                              Output& out) {
+  std::uint32_t gate = 0;
+  if (!active() || !follow_unusual(in)) {
+    gate = idle(in);
+  } else if (!find_kept_excess(*now_.active)) {
+    gate = kNoAuthority;
+  }
+  finish_unusual(gate, ramp, out);
+}
+
+template <class Unit>
+[[gnu::noinline]] static void detail::tick_unusual(Unit& unit, const typename Unit::Input& in,
+                                                   float ramp, typename Unit::Output& out) {
+  unit.tick_unusual(in, ramp, out);
 }
 
 }  // namespace volcomp

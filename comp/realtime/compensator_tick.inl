@@ -58,7 +58,7 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow(std::size_t axis, const 
   s.seen = sample.position;
   const auto low = static_cast<std::uint32_t>(Turns ? sample.position >> 8 : sample.position);
   const Direction d = s.direction.follow(low, s.hysteresis);
-  at = locate(set.lookup[axis], place, Turns, set.rows[axis].data(), d);
+  locate(set.lookup[axis], place, Turns, set.rows[axis].data(), d, at);
   return true;
 }
 
@@ -71,73 +71,69 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_one(std::size_t axis,
 
 // False at the first axis that is not as usual. All are then followed once more by
 // follow_unusual(): for those that came before it nothing changes, they stand where they stood.
+// Reports on the way what holds unless a correction changes it.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_usual(const Input& in, const Tables& set,
-                                                              Places& at) {
+                                                              std::uint32_t status, Places& at,
+                                                              Output& out) {
   bool usual = true;
   for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
     usual = usual && follow_one(a, in.axis[a], set, at[a]);
+    const bool corrects = machine_.chain.correcting_index[a] != kNotCorrecting;
+    if (Machine::kCompiledIn && corrects)
+      return;  // a loaded machine overwrites sooner than it asks
+    out.status[a] = static_cast<std::uint16_t>(status);
+    out.offset[a] = axis_[a].output;
   });
   return usual;
 }
 
-// Where this tick works.
-template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE auto Compensator<Machine, Knots>::work(Work& local) -> Work& {
-  if constexpr (Machine::kCompiledIn) {
-    return local;
-  } else {
-    return work_;
-  }
-}
-
 // What the correcting axes have to take away, nm or 2^-32 turn. False without authority.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE bool Compensator<Machine, Knots>::find_excess(const Tables& set, Work& work,
-                                                             kernel::Excess& excess) {
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::find_excess(const Tables& set, Work& work) {
   const RuntimeChain& chain = machine_.chain;
   if (chain.folded) {
     error_nm_ = kernel::folded_error(machine_, set, work.at);
-    excess = chain.inverse.form == InverseForm::aligned
-                 ? kernel::aligned_excess(chain.inverse, error_nm_)
-                 : kernel::constant_excess(set, error_nm_);
+    work.excess = chain.inverse.form == InverseForm::aligned
+                      ? kernel::aligned_excess(chain.inverse, error_nm_)
+                      : kernel::constant_excess(set, error_nm_);
     return true;
   }
-  const Float3 e = kernel::recursive_error(machine_, set, work.at, work.carried);
-  error_nm_ = e;
-  const bool possible = kernel::varying_excess(machine_, work.carried.column, e, excess);
-  constexpr float kTurnsPerRad = 683565275.6F;  // 2^32 / 2π
-  for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
-    if (rotary(chain.correcting[c])) excess[c] *= kTurnsPerRad;
-  });
-  return possible;
+  error_nm_ = kernel::recursive_error(machine_, set, work.at, work.column);
+  return kernel::varying_excess(machine_, work.column, error_nm_, work.excess);
 }
 
-// Clamp, ramp, round, slew: the offset that takes `excess` away.
+// The same in memory: for a loaded machine, whose indices are not known beforehand, and for a tick
+// that is not as usual.
+template <class Machine, std::size_t Knots>
+[[gnu::noinline]] bool Compensator<Machine, Knots>::find_kept_excess(const Tables& set) {
+  return find_excess(set, work_);
+}
+
+// Clamp, ramp, round, slew: the offset that takes `excess` away. `changed`: everyday bits that are
+// not as in kAllValid.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out(std::size_t correcting, float excess,
                                                          float ramp, std::uint32_t usual,
-                                                         EverydayBits& everyday, Output& out) {
+                                                         EverydayBits& changed, Output& out) {
   const std::size_t a = machine_.chain.correcting[correcting];
-  AxisState& s = axis_[a];
-  out.status[a] = static_cast<std::uint16_t>(usual);
-  if (VOLCOMP_RARELY(exceeds(excess, s.limit))) {
+  AxisState& s = corrected(correcting);
+  std::uint32_t status = usual;
+  if (exceeds(excess, s.limit)) {
     excess = s.limit.signed_like(excess);
-    // Nothing else has been reported yet: two bits change.
-    out.status[a] = static_cast<std::uint16_t>(usual ^ (kValid | kClamped));
-    everyday ^= everyday_of(correcting, everyday_bits(kValid | kClamped));
+    status ^= kValid | kClamped;
+    changed |= everyday_of(correcting, everyday_bits(kValid | kClamped));
   }
   std::int32_t output = round_half_even(s.ramp_from - ramp * (excess + s.ramp_from));
-  if (VOLCOMP_RARELY(further(output, s.output, s.rate))) {
+  if (further(output, s.output, s.rate)) {
     output = output < s.output ? s.output - s.rate : s.output + s.rate;
-    out.status[a] =
-        static_cast<std::uint16_t>((out.status[a] & ~std::uint32_t{kValid}) + kRateLimited);
-    everyday &= ~everyday_of(correcting, everyday_bits(kValid));
-    everyday |= everyday_of(correcting, everyday_bits(kRateLimited));
+    status = (status & ~std::uint32_t{kValid}) + kRateLimited;
+    changed |= everyday_of(correcting, everyday_bits(kValid | kRateLimited));
   }
   s.output = output;
   if (VOLCOMP_RARELY(further(output, 0, s.largest))) s.largest = output < 0 ? -output : output;
   out.offset[a] = output;
+  out.status[a] = static_cast<std::uint16_t>(status);
 }
 
 template <class Machine, std::size_t Knots>
@@ -152,34 +148,27 @@ void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
     if (!now_.ramp.running()) end_change();
   } else if (VOLCOMP_RARELY(!now_.ramp.at_rest())) {
     ramp = now_.ramp.advance();
-    if (!now_.ramp.at_rest()) usual |= kRamping;
     if (!now_.ramp.running()) end_change();
+    if (now_.ramp.at_rest()) {
+      ++ramps_;
+    } else {
+      usual |= kRamping;
+    }
   }
-  if (VOLCOMP_RARELY(now_.active == nullptr)) return finish_unusual(idle(in), ramp, out);
-
-  const Tables& set = *now_.active;
-  Work local;
-  Work& w = work(local);
-  if (VOLCOMP_RARELY(!follow_usual(in, set, w.at))) {
-    if (!follow_unusual(in)) return finish_unusual(idle(in), ramp, out);
-    for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA { w.at[a] = axis_[a].place; });
-  }
-  kernel::Excess excess;
-  const bool possible = find_excess(set, w, excess);
-  if (VOLCOMP_RARELY(guarded_axes_ != 0 || !possible)) {
-    excess_ = excess;
-    return finish_unusual(possible ? 0U : std::uint32_t{kNoAuthority}, ramp, out);
-  }
-  EverydayBits everyday = all_valid(machine_.chain.correcting_count);
+  const Tables* const set = now_.active;
+  // Filled step by step, and all of it before it is read.
+  Work local;  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  Work& w = Machine::kCompiledIn ? local : work_;
+  if (VOLCOMP_RARELY(set == nullptr || guarded_axes_ != 0) ||
+      !follow_usual(in, *set, usual, w.at, out))
+    return detail::tick_unusual(*this, in, ramp, out);
+  const bool possible = Machine::kCompiledIn ? find_excess(*set, w) : find_kept_excess(*set);
+  if (VOLCOMP_RARELY(!possible)) return detail::tick_unusual(*this, in, ramp, out);
+  EverydayBits changed = 0;
   for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
-    put_out(c, excess[c], ramp, usual, everyday, out);
+    put_out(c, w.excess[c], ramp, usual, changed, out);
   });
-  tally_.enter(everyday);
-  for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
-    if (machine_.chain.correcting_index[a] != kNotCorrecting) return;
-    out.offset[a] = axis_[a].output;
-    out.status[a] = static_cast<std::uint16_t>(usual);
-  });
+  tally_.enter(kAllValid ^ changed);
 }
 
 }  // namespace volcomp

@@ -23,8 +23,8 @@ using Circle = std::array<SineCosine, 1U << kCircleBits>;
 constexpr double sine_by_series(double x) {
   double sum = x;
   double term = x;
-  for (double k = 2.0; k < 22.0; k += 2.0) {
-    term *= -x * x / (k * (k + 1.0));
+  for (int k = 2; k < 22; k += 2) {
+    term *= -x * x / static_cast<double>(k * (k + 1));
     sum += term;
   }
   return sum;

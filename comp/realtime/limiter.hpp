@@ -105,7 +105,7 @@ class Ramp {
   }
 
   // Has steps to take.
-  [[nodiscard]] bool running() const { return next_ != 0 && next_ <= ticks_; }
+  [[nodiscard]] bool running() const { return next_ - 1U < ticks_; }
   // From the second tick after its last step on. A ramp that begins before that continues this one.
   [[nodiscard]] bool at_rest() const { return next_ == 0; }
 
@@ -116,15 +116,14 @@ class Ramp {
     return first_;
   }
 
-  // Factor of one more tick.
+  // Factor of one more tick. Not at rest.
   VOLCOMP_INLINE float advance() {
     const std::uint32_t step = next_;
-    if (step >= ticks_) {
-      next_ = step == ticks_ && step != 0 ? step + 1U : 0;
-      return 1.0F;
-    }
     next_ = step + 1U;
-    return smooth(static_cast<float>(static_cast<std::int32_t>(step)) * per_tick_);
+    if (step < ticks_)
+      return smooth(static_cast<float>(static_cast<std::int32_t>(step)) * per_tick_);
+    if (step > ticks_) next_ = 0;
+    return 1.0F;
   }
 
  private:

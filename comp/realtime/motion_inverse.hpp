@@ -1,20 +1,13 @@
 #pragma once
-// From the error of a tick to the excess of the correcting axes, J⁺ E in nm (linear) or rad
+// From the error of a tick to the excess of the correcting axes, J⁺ E in nm (linear) or 2^-32 turn
 // (rotary); the motion offset is its negative (conventions, section 4).
 
-#include "comp/realtime/error_kernel.hpp"
+#include "comp/realtime/folded_error.hpp"
+#include "comp/realtime/recursive_error.hpp"
 
 namespace volcomp::kernel {
 
 using Excess = std::array<float, kMaxCorrecting>;
-
-VOLCOMP_INLINE float dot(const Float3& a, const Float3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-VOLCOMP_INLINE Float3 cross(const Float3& a, const Float3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // Three correcting axes that lie along X, Y and Z.
 VOLCOMP_INLINE Excess aligned_excess(const InversePlan& plan, const Float3& e) {
@@ -39,7 +32,7 @@ VOLCOMP_INLINE Excess constant_excess(const Set& set, const Float3& e) {
 // root.
 inline constexpr float kMinAuthoritySquared = 0.01F;
 
-// Three correcting axes: Cramer's rule. False without authority; `out` is then 0.
+// Three correcting axes: Cramer's rule. False without authority.
 VOLCOMP_INLINE bool solve_three(const std::array<Float3, 3>& column, const Float3& e, Excess& out) {
   const Float3 yz = cross(column[1], column[2]);
   const float det = dot(column[0], yz);
@@ -83,9 +76,29 @@ VOLCOMP_INLINE bool solve_one_varying(const InversePlan& plan, const Float3& b, 
   VOLCOMP_UNROLL
   for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
     const std::size_t a = plan.component[c];
-    out[c] = c == plan.varying ? k * e[w] : plan.gain[c] * (k * (e[a] * b[w] - e[w] * b[a]));
+    out[c] = c == plan.varying ? k * e[w] * plan.units[c]
+                               : plan.gain[c] * (k * (e[a] * b[w] - e[w] * b[a]));
   }
   return true;
+}
+
+// In nm or rad, by the number of correcting axes.
+template <class Machine>
+VOLCOMP_INLINE bool solve(const Machine& machine, const Columns& columns, const Float3& e,
+                          Excess& out) {
+  const auto column = [&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
+    return columns[machine.chain.inverse.column[c]];
+  };
+  switch (machine.chain.correcting_count) {
+    case 3:
+      return solve_three({column(0), column(1), column(2)}, e, out);
+    case 2:
+      return solve_two(column(0), column(1), e, out);
+    case 1:
+      return solve_one(column(0), e, out);
+    default:
+      return false;
+  }
 }
 
 // By the columns of the recursion. False without authority; `out` is then 0.
@@ -97,19 +110,14 @@ VOLCOMP_INLINE bool varying_excess(const Machine& machine, const Columns& column
     out = aligned_excess(plan, e);
     return true;
   }
-  out = {};
-  if (plan.form == InverseForm::one_varying) return solve_one_varying(plan, columns[0], e, out);
-  const auto column = [&](std::size_t c) VOLCOMP_INLINE_LAMBDA { return columns[plan.column[c]]; };
-  switch (machine.chain.correcting_count) {
-    case 3:
-      return solve_three({column(0), column(1), column(2)}, e, out);
-    case 2:
-      return solve_two(column(0), column(1), e, out);
-    case 1:
-      return solve_one(column(0), e, out);
-    default:
-      return false;
+  const bool one = plan.form == InverseForm::one_varying;
+  if (one ? solve_one_varying(plan, columns[0], e, out) : solve(machine, columns, e, out)) {
+    for (std::size_t c = 0; c < kMaxCorrecting && !one; ++c)
+      out[c] *= plan.units[c];
+    return true;
   }
+  out = {};
+  return false;
 }
 
 }  // namespace volcomp::kernel

@@ -13,10 +13,15 @@ namespace volcomp {
 inline constexpr std::uint8_t kNotCorrecting = 0xFF;
 inline constexpr std::uint8_t kNotCarried = 0xFF;
 
+// What a joint does to a point: one jump of a loaded machine.
+enum class Motion : std::uint8_t { along_x, along_y, along_z, about_x, about_y, about_z, none };
+
 struct RuntimeStep {
   JointKind kind = JointKind::fixed;
   Axis axis = Axis::x;
+  Motion motion = Motion::none;
   bool work = false;
+  bool plain = false;  // no orientation, and no column to carry or to turn
   bool has_offset = false;
   bool has_orientation = false;
   bool has_error = false;  // fixed body with a constant error
@@ -25,7 +30,8 @@ struct RuntimeStep {
   std::uint8_t correcting = kNotCorrecting;  // index among the correcting axes
   std::uint8_t column = kNotCarried;         // where the walk carries its Jacobian column
   std::uint8_t columns_before = 0;           // carried ones of its branch nearer to the tip
-  float sign = 1.0F;
+  float sign = 1.0F;                         // of the NC coordinate
+  float sense = 1.0F;  // of the motion as the walk meets it: −sign towards the work tip
   std::array<float, 3> offset_nm{};
   std::array<float, 9> orientation{};
   std::array<float, 6> error{};  // nm, rad
@@ -46,6 +52,7 @@ struct InversePlan {
   InverseForm form = InverseForm::general;
   std::array<std::uint8_t, kMaxCorrecting> component{};  // of the aligned ones
   std::array<float, kMaxCorrecting> gain{};
+  std::array<float, kMaxCorrecting> units{};          // output units per nm or rad of each
   std::array<std::uint8_t, kMaxCorrecting> column{};  // where the walk carries the others
   std::uint8_t varying = 0;                           // the one of one_varying
   std::uint8_t varying_component = 0;                 // what the aligned ones leave to it
@@ -78,14 +85,23 @@ struct RuntimeChain {
 
 namespace detail {
 
+constexpr Motion motion_of(const Joint& joint) {
+  if (!joint.moves()) return Motion::none;
+  const bool turns = joint.kind == JointKind::rotary;
+  const Motion first = turns ? Motion::about_x : Motion::along_x;
+  return static_cast<Motion>(static_cast<std::size_t>(first) + index(joint.axis));
+}
+
 constexpr RuntimeStep runtime_step(const Body& body, std::uint8_t index, bool work) {
   RuntimeStep step;
   step.kind = body.joint.kind;
   step.axis = body.joint.axis;
+  step.motion = motion_of(body.joint);
   step.work = work;
   step.body = index;
   step.nc_axis = body.joint.moves() ? body.joint.nc_axis : std::uint8_t{0};  // fixed: unused
   step.sign = static_cast<float>(body.joint.sign);
+  step.sense = work ? -step.sign : step.sign;
   for (std::size_t i = 0; i < 3; ++i) {
     step.offset_nm[i] = static_cast<float>(body.joint.offset[i] * 1e6);
     step.has_offset = step.has_offset || body.joint.offset[i] < 0.0 || body.joint.offset[i] > 0.0;
@@ -116,7 +132,10 @@ constexpr bool is_aligned(const RuntimeChain& chain, std::size_t i) {
 }
 
 constexpr InversePlan plan_inverse(const RuntimeChain& chain) {
+  constexpr float kTurnsPerRad = 683565275.6F;  // 2^32 / 2π
   InversePlan plan;
+  for (std::size_t c = 0; c < chain.correcting_count; ++c)
+    plan.units[c] = chain.kind[chain.correcting[c]] == JointKind::rotary ? kTurnsPerRad : 1.0F;
   if (chain.folded) plan.form = InverseForm::constant;
   if (chain.correcting_count != kMaxCorrecting || (chain.folded && chain.has_orientation))
     return plan;
@@ -135,7 +154,7 @@ constexpr InversePlan plan_inverse(const RuntimeChain& chain) {
     taken[index(step.axis)] = true;
     ++aligned;
     plan.component[step.correcting] = static_cast<std::uint8_t>(step.axis);
-    plan.gain[step.correcting] = (step.work ? -1.0F : 1.0F) * step.sign;
+    plan.gain[step.correcting] = step.sense;
   }
   const bool all_met = aligned + varying == kMaxCorrecting;
   if (all_met && varying == 0) plan.form = InverseForm::aligned;
@@ -151,12 +170,15 @@ constexpr void number_columns(RuntimeChain& chain) {
     column = kNotCarried;
   const auto visit = [&](RuntimeStep& step, std::uint8_t first) {
     step.columns_before = static_cast<std::uint8_t>(next - first);
+    const bool turns_columns = step.kind == JointKind::rotary && step.columns_before != 0;
+    step.plain = !step.has_orientation && !turns_columns;
     const bool carried = step.corrects() && (chain.inverse.form == InverseForm::general ||
                                              (chain.inverse.form == InverseForm::one_varying &&
                                               step.correcting == chain.inverse.varying));
     if (!carried) return;
     chain.inverse.column[step.correcting] = next;
     step.column = next++;
+    step.plain = false;
   };
   for (std::size_t i = 0; i < chain.tool_steps; ++i)
     visit(chain.step[i], 0);

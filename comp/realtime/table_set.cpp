@@ -20,10 +20,10 @@ Float3 to_float(const Vec3& v) {
 AxisLookup make_lookup(const TableGrid& table, bool rotary) {
   AxisLookup l;
   l.q0 = table.q0;
-  l.periodic = table.periodic;
   l.origin_nm = rotary ? 0.0F : static_cast<float>(table.q0);
   l.phase = rotary ? static_cast<std::uint32_t>(table.q0 >> 8) : 0U;
   if (table.periodic) {
+    l.counted = 0;
     l.travel = l.usual_travel = 0xFFFFFFFFU;
     l.scale = table.knots << kFractionBits;
     return l;

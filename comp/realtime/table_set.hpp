@@ -5,12 +5,11 @@
 #include <array>
 
 #include "comp/realtime/axis_lookup.hpp"
+#include "comp/realtime/float3.hpp"
 #include "comp/realtime/runtime_chain.hpp"
 #include "comp/tables/tables_view.hpp"
 
 namespace volcomp {
-
-using Float3 = std::array<float, 3>;
 
 template <std::size_t Axes, std::size_t Knots>
 struct TableSet {

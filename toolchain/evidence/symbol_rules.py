@@ -19,6 +19,9 @@ INTEGER_HELPERS = re.compile(
     r"|__aeabi_u?l(div)?mod|__clz[sd]i2|__popcount[sd]i2|__muldi3|__ashldi3|__ashrdi3|__lshrdi3")
 MEMORY_HELPERS = re.compile(r"mem(cpy|set|move)|__aeabi_mem(cpy|set|clr|move)[48]?")
 
+# By the symbol: the plain name of a function template begins with its return type.
+OUR_CODE = re.compile(r"_ZZ?NK?7volcomp")
+
 SOFT_DOUBLE = re.compile(
     r"__aeabi_(c?d\w+|\w+2d|i2d|ui2d|f2d|l2d|ul2d|h2d)|__(add|sub|mul|div|neg|extend|trunc|float|fix|fixuns|floatun|cmp|eq|ne|"
     r"lt|le|gt|ge|unord)\w*df\w*|__(fix|fixuns)df\w+")
@@ -40,7 +43,7 @@ def foreign_in_tick(image, names):
     sentences = []
     for name in sorted(names):
         plain = image.plain(image.symbol(name))
-        if plain.startswith("volcomp::") or INTEGER_HELPERS.fullmatch(name) or MEMORY_HELPERS.fullmatch(name):
+        if OUR_CODE.match(name) or INTEGER_HELPERS.fullmatch(name) or MEMORY_HELPERS.fullmatch(name):
             continue
         what = "double-precision arithmetic in software" if SOFT_DOUBLE.fullmatch(name) else "of a library"
         sentences.append(f"The tick reaches {plain} ({what}).")
