@@ -49,6 +49,21 @@ enum class Reason : std::uint8_t {
   too_few_points,
   not_staged,
   hand_over_pending,
+  length_mismatch,
+  coincident,
+  collinear,
+  rank_deficient,
+  inside_base_circle,
+  out_of_standard,
+  out_of_reach,
+  no_z_authority,
+  zero_normal,
+  implausible_radius,
+  residuals_too_large,
+  parent_not_identified,
+  wrong_flank,
+  outlier,
+  incomplete,
 };
 
 // What a Status points at. A negative number or an empty name means "does not apply".
@@ -82,5 +97,8 @@ constexpr Status refuse(Reason reason, Where where = {}) { return {reason, where
 
 // One plain sentence for a person, without the place.
 [[nodiscard]] const char* sentence(Reason reason);
+
+// The same for what a machine or its tables can be refused for; nullptr for other reasons.
+[[nodiscard]] const char* loading_sentence(Reason reason);
 
 }  // namespace volcomp

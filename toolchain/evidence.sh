@@ -29,7 +29,7 @@ if [ "${1:-}" != --self-test ]; then
   need cmake ninja qemu-system-arm llvm-mca aarch64-linux-gnu-g++
   for board in m7 m4; do
     cmake --preset "$board" > /dev/null
-    cmake --build --preset "$board" -j "$(jobs_allowed)" --target volcomp-node volcomp-servo volcomp-ticks volcomp-services
+    cmake --build --preset "$board" -j "$(jobs_allowed)" --target volcomp-node volcomp-servo volcomp-ticks volcomp-services volcomp-touches
   done
   cmake --preset host > /dev/null
   cmake --build --preset host -j "$(jobs_allowed)" --target volcomp

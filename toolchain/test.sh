@@ -19,7 +19,7 @@
 #   evidence    sizes, stack and instructions of the images, measured, proven and compared with README
 #   tidy        clang-tidy
 #   cppcheck    cppcheck over comp, hal and firmware
-#   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 30) seconds
+#   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 15) seconds
 #   bench       the benchmarks are built, not run
 #
 # VOLCOMP_JOBS limits the processes (default: the number of processors). The last line says how many

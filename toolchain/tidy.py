@@ -6,13 +6,16 @@
 A header that no source of these folders includes is checked through a source that includes only it. A file
 that was clean is checked again only after it, a header of ours that it includes, its flags, .clang-tidy or
 clang-tidy itself has changed; delete BUILD_FOLDER/tidy to check everything again. The path-sensitive analyzer
-looks at the code of the target only: programs of the host meet the sanitizers in every test.
+looks at the code of the target only: programs of the host meet the sanitizers in every test. Their sources are
+checked several at a time, for most of the time goes into the headers of others; those that do not compile
+together are checked apart. The price: an unused using-declaration is not seen there.
 """
 import concurrent.futures
 import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -22,6 +25,7 @@ import time
 FOLDERS = ("comp", "hal", "firmware", "host_sim")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIG = ROOT / ".clang-tidy"
+AT_A_TIME = 8
 
 
 class Failure(Exception):
@@ -76,6 +80,39 @@ def wrap_headers(headers, entries, folder):
     return wrapped
 
 
+class Task:
+    """One run of clang-tidy over `source`, which is or includes those it is about."""
+
+    def __init__(self, source, about, entry, files):
+        self.source = source
+        self.about = about
+        self.entry = entry
+        self.files = files  # a change of one of them is a reason to check again
+
+    def name(self):
+        first, more = self.about[0].relative_to(ROOT), len(self.about) - 1
+        return f"{first} and {more} more" if more else str(first)
+
+
+def tasks_of_sources(entries, includes, everything, folder):
+    """Each source alone, but those of host_sim with the same flags a few at a time."""
+    alike = {}
+    for source, entry in sorted(entries.items()):
+        flags = re.sub(r" -(o|c) \S+", "", entry["command"])
+        alike.setdefault(flags if ROOT / "host_sim" in source.parents else source, []).append(source)
+    groups = [sources[at:at + AT_A_TIME] for sources in alike.values() for at in range(0, len(sources), AT_A_TIME)]
+    for group in groups:
+        entry = entries[group[0]]
+        files = set(group).union(*(includes.get(source, everything) for source in group))
+        if len(group) == 1:
+            yield Task(group[0], group, entry, files)
+            continue
+        wrapper = folder / ("_".join(group[0].relative_to(ROOT).parts) + "_and_more.cpp")
+        wrapper.write_text("".join(f'#include "{source.relative_to(ROOT)}"  // NOLINT\n' for source in group))
+        command = entry["command"].replace(entry["file"], str(wrapper))
+        yield Task(wrapper, group, dict(entry, file=str(wrapper), command=command), files)
+
+
 def fingerprint(version, entry, files):
     digest = hashlib.sha256(version + CONFIG.read_bytes() + entry["command"].encode())
     for path in sorted(files):
@@ -83,56 +120,68 @@ def fingerprint(version, entry, files):
     return digest.hexdigest()
 
 
-def run_tidy(source, shown, database):
-    start = time.monotonic()
-    analyzed = ROOT / "host_sim" not in shown.parents
+def run_tidy(source, analyzed, database):
+    """Findings, or nothing."""
     run = subprocess.run(
         ["clang-tidy", f"-p={database}", f"--config-file={CONFIG}", "--quiet",
+         "--header-filter=" + "/(" + "|".join(FOLDERS) + r")/[^:]*\.[ch]pp$",
          *([] if analyzed else ["--checks=-clang-analyzer-*"]),
          "--extra-arg=-Wno-unknown-warning-option", str(source)],
         capture_output=True, text=True, check=False)
     findings = run.stdout if run.returncode == 0 or run.stdout.strip() else run.stderr
-    return run.returncode == 0 and not findings.strip(), findings, time.monotonic() - start
+    return "" if run.returncode == 0 and not findings.strip() else findings
+
+
+def check(task, database):
+    start = time.monotonic()
+    analyzed = ROOT / "host_sim" not in task.about[0].parents
+    findings = run_tidy(task.source, analyzed, database)
+    # Together they may just not compile: names of one file alone.
+    if findings and len(task.about) > 1:
+        findings = "".join(run_tidy(source, analyzed, database) for source in task.about)
+    return findings, time.monotonic() - start
+
+
+def all_tasks(build, temporary):
+    entries, includes = read_entries(build), read_includes(build)
+    seen = set().union(*(includes.get(source, set()) for source in entries))
+    everything = {path for folder in FOLDERS for path in (ROOT / folder).rglob("*.hpp")
+                  if "node_modules" not in path.parts}
+    # Which other headers such a header includes is not known, so it depends on all of them.
+    wrapped = wrap_headers(sorted(everything - seen), entries, temporary)
+    tasks = list(tasks_of_sources(entries, includes, everything, temporary))
+    tasks += [Task(wrapper, [header], entry, everything) for wrapper, (header, entry) in wrapped.items()]
+    database = list(entries.values()) + [task.entry for task in tasks if task.source not in entries]
+    (temporary / "compile_commands.json").write_text(json.dumps(database))
+    return tasks
 
 
 def check_all(build, temporary):
-    entries, includes = read_entries(build), read_includes(build)
-    seen = set().union(*(includes.get(source, set()) for source in entries))
-    headers = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob("*.hpp")
-                     if path not in seen and "node_modules" not in path.parts)
-    wrapped = wrap_headers(headers, entries, temporary)
-    # Which other headers such a header includes is not known, so it depends on all of them.
-    everything = {path for folder in FOLDERS for path in (ROOT / folder).rglob("*.hpp")}
-    tasks = [(source, source, entry, includes.get(source, everything) | {source}) for source, entry in entries.items()]
-    tasks += [(wrapper, header, entry, everything) for wrapper, (header, entry) in wrapped.items()]
-    database = [entry for _, _, entry, _ in tasks]
-    (temporary / "compile_commands.json").write_text(json.dumps(database))
-
+    tasks = all_tasks(build, temporary)
     version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
     memory = build / "tidy"
     memory.mkdir(exist_ok=True)
     waiting = []
-    for source, shown, entry, files in tasks:
-        stable = dict(entry, command=entry["command"].replace(str(temporary), ""))
-        stamp = memory / fingerprint(version, stable, files)
+    for task in tasks:
+        stable = dict(task.entry, command=task.entry["command"].replace(str(temporary), ""))
+        stamp = memory / fingerprint(version, stable, task.files)
         if not stamp.exists():
-            waiting.append((source, shown, stamp))
-    print(f"clang-tidy: {len(tasks)} files, {len(tasks) - len(waiting)} of them unchanged and clean", flush=True)
+            waiting.append((task, stamp))
+    print(f"clang-tidy: {len(tasks)} runs, {len(tasks) - len(waiting)} of them unchanged and clean", flush=True)
 
     jobs = int(os.environ.get("VOLCOMP_JOBS") or os.cpu_count() or 1)
     bad = []
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        running = {pool.submit(run_tidy, source, shown, temporary): (shown, stamp) for source, shown, stamp in waiting}
-        for number, task in enumerate(concurrent.futures.as_completed(running), 1):
-            shown, stamp = running[task]
-            clean, findings, seconds = task.result()
-            name = shown.relative_to(ROOT)
-            print(f"  [{number}/{len(waiting)}] {name} {seconds:.0f} s", flush=True)
-            if clean:
-                stamp.touch()
-            else:
-                bad.append(str(name))
+        running = {pool.submit(check, task, temporary): (task, stamp) for task, stamp in waiting}
+        for number, finished in enumerate(concurrent.futures.as_completed(running), 1):
+            task, stamp = running[finished]
+            findings, seconds = finished.result()
+            print(f"  [{number}/{len(waiting)}] {task.name()} {seconds:.0f} s", flush=True)
+            if findings:
+                bad.append(task.name())
                 print(findings, flush=True)
+            else:
+                stamp.touch()
     if bad:
         raise Failure(f"findings in {', '.join(sorted(bad))}.")
 

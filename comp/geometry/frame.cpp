@@ -1,8 +1,12 @@
 #include "comp/geometry/frame.hpp"
 
-#include <cmath>
+#include <Eigen/Geometry>
+
+#include "comp/geometry/fine_trig.hpp"
 
 namespace volcomp {
+
+Frame Frame::operator*(const Frame& inner) const { return {product(R, inner.R), apply(inner.t)}; }
 
 Mat3 cross_matrix(const Vec3& a) {
   Mat3 m;
@@ -14,17 +18,27 @@ Mat3 cross_matrix(const Vec3& a) {
 
 Vec3 unit_vector(Axis axis) { return Vec3::Unit(static_cast<Eigen::Index>(axis)); }
 
+bool is_rotation(const Mat3& R) {
+  constexpr double kOrthonormal = 1e-9;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 defect = added(turned_back(R, R.col(k)), -1.0, Vec3::Unit(k));
+    if (!(length(defect) <= kOrthonormal)) return false;
+  }
+  const Vec3 x = R.col(0);
+  const Vec3 y = R.col(1);
+  return x.cross(y).dot(R.col(2)) > 0.0;
+}
+
 Mat3 axis_rotation(Axis axis, double angle) {
   const auto i = static_cast<Eigen::Index>(axis);
   const Eigen::Index j = (i + 1) % 3;
   const Eigen::Index k = (i + 2) % 3;
-  const double s = std::sin(angle);
-  const double c = std::cos(angle);
+  const FineSineCosine t = fine_sine_cosine(units_within_a_turn(angle));
   Mat3 m = Mat3::Identity();
-  m(j, j) = c;
-  m(j, k) = -s;
-  m(k, j) = s;
-  m(k, k) = c;
+  m(j, j) = t.cosine;
+  m(j, k) = -t.sine;
+  m(k, j) = t.sine;
+  m(k, k) = t.cosine;
   return m;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "comp/geometry/double3.hpp"
 #include "comp/geometry/error_motion.hpp"
 
 namespace volcomp {
@@ -12,15 +13,20 @@ struct Frame {
   Mat3 R = Mat3::Identity();
   Vec3 t = Vec3::Zero();
 
-  [[nodiscard]] Vec3 apply(const Vec3& p) const { return R * p + t; }
-  [[nodiscard]] Vec3 apply_inverse(const Vec3& p) const { return R.transpose() * (p - t); }
-  [[nodiscard]] Frame operator*(const Frame& inner) const { return {R * inner.R, apply(inner.t)}; }
+  [[nodiscard]] Vec3 apply(const Vec3& p) const { return added(turned(R, p), 1.0, t); }
+  [[nodiscard]] Vec3 apply_inverse(const Vec3& p) const {
+    return turned_back(R, added(p, -1.0, t));
+  }
+  [[nodiscard]] Frame operator*(const Frame& inner) const;
 };
 
 // The matrix of a cross product: cross_matrix(a) b = a × b.
 [[nodiscard]] Mat3 cross_matrix(const Vec3& a);
 
 [[nodiscard]] Vec3 unit_vector(Axis axis);
+
+// Orthonormal to 1e-9, right-handed.
+[[nodiscard]] bool is_rotation(const Mat3& R);
 
 // Right-hand rotation by `angle` (rad) about a coordinate axis.
 [[nodiscard]] Mat3 axis_rotation(Axis axis, double angle);

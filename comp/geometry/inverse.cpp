@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 
 namespace volcomp {
 
@@ -17,7 +16,7 @@ Vec3 jacobian_column(const MachineChain& chain, const Pose& q, const Vec3& tool_
       const Joint& joint = chain.joint(body);
       frame = frame * joint_offset(joint) * joint_motion(joint, q[joint.nc_axis]);
       if (body != wanted) continue;
-      const Vec3 direction = frame.R * unit_vector(joint.axis);
+      const Vec3 direction = frame.R.col(static_cast<Eigen::Index>(joint.axis));
       const Vec3 column =
           joint.kind == JointKind::prismatic ? direction : direction.cross(tip - frame.t);
       return branch_sign(joint.branch) * joint.sign * column;
@@ -26,45 +25,62 @@ Vec3 jacobian_column(const MachineChain& chain, const Pose& q, const Vec3& tool_
   return Vec3::Zero();  // the axis moves tool and work together
 }
 
+namespace {
+
+// Unit columns of the correcting axes and what completes them to three; only those in use matter.
+struct Columns {
+  std::array<Vec3, 3> unit;
+  std::array<double, 3> scale{};
+};
+
+// |det| of three unit columns, the sine of the angle between two, 1 for one. Completes them: with
+// the normal of the plane of two, least squares are the exact solution's first two coordinates.
+double complete(Columns& columns, std::size_t n) {
+  if (n < 2) return n == 0 ? 0.0 : 1.0;
+  const Vec3 normal = columns.unit[0].cross(columns.unit[1]);
+  if (n == 3) return std::abs(normal.dot(columns.unit[2]));
+  const double sine = length(normal);
+  columns.unit[2] = sine > 0.0 ? Vec3(normal / sine) : normal;
+  return sine;
+}
+
+// Cramer's rule.
+std::array<double, 3> coordinates(const Columns& columns, std::size_t n, const Vec3& v) {
+  const auto& [a, b, c] = columns.unit;
+  if (n == 1) return {v.dot(a), 0.0, 0.0};
+  const Vec3 bc = b.cross(c);
+  const double determinant = a.dot(bc);
+  return {v.dot(bc) / determinant, v.dot(c.cross(a)) / determinant,
+          v.dot(a.cross(b)) / determinant};
+}
+
+}  // namespace
+
 Status motion_offset(const MachineChain& chain, const Pose& q, const Vec3& tool_point,
                      const Vec3& error_base, MotionOffset& out) {
   const MachineDescription& d = chain.description();
   const std::size_t n = d.correcting_count;
-  Mat3 J = Mat3::Zero();
-  Vec3 scale = Vec3::Ones();
+  Columns columns;
   Where where;
   where.field = "correcting";
   where.has_value = true;
   for (std::size_t c = 0; c < n; ++c) {
-    const auto i = static_cast<Eigen::Index>(c);
-    J.col(i) = jacobian_column(chain, q, tool_point, d.correcting[c]);
-    scale(i) = J.col(i).norm();
-    if (!(scale(i) > 0.0)) return refuse(Reason::no_authority, where);
-    J.col(i) /= scale(i);
+    columns.unit[c] = jacobian_column(chain, q, tool_point, d.correcting[c]);
+    columns.scale[c] = length(columns.unit[c]);
+    if (!(columns.scale[c] > 0.0)) return refuse(Reason::no_authority, where);
+    columns.unit[c] /= columns.scale[c];
   }
-  // Gram determinant of the unit columns: det² for three axes, sin² of the angle for two, 1 for
-  // one.
-  Mat3 gram = Mat3::Identity();
-  for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t b = 0; b < n; ++b) {
-      const auto i = static_cast<Eigen::Index>(a);
-      const auto j = static_cast<Eigen::Index>(b);
-      gram(i, j) = J.col(i).dot(J.col(j));
-    }
-  }
-  const double authority = n == 0 ? 0.0 : std::sqrt(std::abs(gram.determinant()));
+  const double authority = complete(columns, n);
   where.value = authority;
   if (!(authority >= kMinAuthority)) return refuse(Reason::no_authority, where);
 
-  // J⁺ = (JᵀJ)⁻¹Jᵀ; for three axes J⁻¹ itself, which does not square the condition.
-  const Vec3 solution =
-      n == 3 ? Vec3(J.inverse() * error_base) : Vec3(gram.llt().solve(J.transpose() * error_base));
+  const std::array<double, 3> solution = coordinates(columns, n, error_base);
   MotionOffset result;
   result.authority = authority;
-  result.remainder = error_base - J * solution;
+  result.remainder = error_base;
   for (std::size_t c = 0; c < n; ++c) {
-    const auto i = static_cast<Eigen::Index>(c);
-    result.offset[d.correcting[c]] = -solution(i) / scale(i);
+    result.remainder -= solution[c] * columns.unit[c];
+    result.offset[d.correcting[c]] = -solution[c] / columns.scale[c];
   }
   out = result;
   return {};

@@ -14,10 +14,7 @@ Status check_joint(const Body& body, const Where& where) {
   }
   const Frame offset = joint_offset(joint);
   if (!offset.t.allFinite() || !offset.R.allFinite()) return refuse(Reason::not_finite, where);
-  const Mat3 defect = offset.R.transpose() * offset.R - Mat3::Identity();
-  if (defect.cwiseAbs().maxCoeff() > 1e-9 || offset.R.determinant() < 0.0) {
-    return refuse(Reason::not_a_rotation, where);
-  }
+  if (!is_rotation(offset.R)) return refuse(Reason::not_a_rotation, where);
   for (const double value : body.constant_error) {
     if (!std::isfinite(value)) return refuse(Reason::not_finite, where);
   }

@@ -92,4 +92,15 @@ VOLCOMP_INLINE void locate(const AxisLookup& axis, std::uint32_t distance, bool 
   }
 }
 
+// As locate(); while the direction is unknown `mean` becomes the row between both.
+inline void locate_any(const AxisLookup& axis, std::uint32_t distance, bool rotary,
+                       const std::array<Knot, 2>* rows, Direction direction, Knot& mean,
+                       Located& at) {
+  const bool known = direction != Direction::unknown;
+  locate(axis, distance, rotary, rows, known ? direction : Direction::forward, at);
+  if (known) return;
+  set_mean(mean, at.knot[0], at.knot[1], at.t);  // both directions lie side by side
+  at.knot = &mean;
+}
+
 }  // namespace volcomp

@@ -19,6 +19,7 @@
 #include "comp/realtime/limiter.hpp"
 #include "comp/realtime/motion_inverse.hpp"
 #include "comp/realtime/tick_types.hpp"
+#include "comp/realtime/touch.hpp"
 
 namespace volcomp {
 
@@ -53,18 +54,18 @@ class Compensator {
     take_machine();
   }
 
-  // --- background
+  // --- background; cold: for size where the tick is compiled for speed
 
   // Before the first tick or while stopped. Refuses bad_setting with the field named.
-  Status configure(const Settings& settings);
+  [[gnu::cold]] Status configure(const Settings& settings);
 
   // As if constructed anew for this machine; the settings stay, tables and diagnostics go. Only
   // while no tick can come.
-  void restart(const Machine& machine);
+  [[gnu::cold]] void restart(const Machine& machine);
 
   // Offsets the drives hold at start-up (read back): the first tick continues from them instead of
   // jumping to 0. Refuses bad_setting beyond ±2^30 units (1.07 m): no drive stands there.
-  Status start_from(const std::array<std::int32_t, kAxes>& offsets);
+  [[gnu::cold]] Status start_from(const std::array<std::int32_t, kAxes>& offsets);
 
   // Folds tables for a functional point into the spare buffer. Used for new tables and for a tool
   // change alike. On refusal the active tables go on. `image_crc` is what diagnostics will report.
@@ -87,17 +88,26 @@ class Compensator {
   // Recomputes the checksum of the active tables; call it from time to time. A bit that changed in
   // memory means: crc_mismatch, corrections ramp to 0, every axis shows kTableDamaged until new
   // tables are activated.
-  Status scrub();
+  [[gnu::cold]] Status scrub();
 
   [[nodiscard]] bool pending() const {
     return request_.load(std::memory_order_acquire) != Request::none;
   }
   [[nodiscard]] bool active() const { return now_.active != nullptr; }
   [[nodiscard]] const FoldReport& fold_report() const { return report_; }
-  [[nodiscard]] Diagnostics<kAxes> diagnostics() const;
+  [[nodiscard, gnu::cold]] Diagnostics<kAxes> diagnostics() const;
   [[nodiscard]] const Machine& machine() const { return machine_; }
 
+  // The error of the active tables at a latched pose (comp/realtime/touch.hpp): positions of
+  // encoders, so no offset is added to them. The tick may come meanwhile. Not pending().
+  [[nodiscard]] PoseError error_at(const std::array<LatchedAxis, kMaxAxes>& latched) const;
+
   // --- interrupt
+
+  // The direction in which an axis arrived where it is.
+  [[nodiscard]] Direction direction(std::size_t axis) const {
+    return axis_[axis].direction.direction();
+  }
 
   void tick(const Input& in, Output& out);
 
@@ -178,8 +188,8 @@ class Compensator {
   bool follow_one(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
   bool follow_usual(const Input& in, const Tables& set, std::uint32_t status, Places& at,
                     Output& out);
-  bool find_excess(const Tables& set, Work& work);
-  bool find_kept_excess(const Tables& set);
+  bool find_excess(const Tables& set, Work& work, Float3& error_nm) const;
+  bool find_kept_excess(const Tables& set, Work& work, Float3& error_nm) const;
   void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t usual,
                EverydayBits& changed, Output& out);
 
@@ -204,7 +214,8 @@ class Compensator {
   void take_machine();
   void apply_limits(std::size_t axis);
   Status open_spare(const Provenance& provenance);
-  Status fold_into_spare(const TablesView& tables, const Vec3& tool_point, std::uint32_t image_crc);
+  [[gnu::cold]] Status fold_into_spare(const TablesView& tables, const Vec3& tool_point,
+                                       std::uint32_t image_crc);
   Status reject(const Status& status);
   static std::uint32_t checksum(const Tables& set);
   [[nodiscard]] bool rotary(std::size_t axis) const {
@@ -241,4 +252,5 @@ class Compensator {
 
 #include "comp/realtime/compensator_background.inl"
 #include "comp/realtime/compensator_exceptions.inl"
+#include "comp/realtime/compensator_latch.inl"
 #include "comp/realtime/compensator_tick.inl"

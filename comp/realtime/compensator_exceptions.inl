@@ -91,13 +91,9 @@ template <class Machine, std::size_t Knots>
   if (range != RangeState::inside) status |= kOutOfRange;
   if (range == RangeState::far_outside) status |= kFarOutOfRange;
   const Direction direction = s.direction.direction();
-  const bool known = direction != Direction::unknown;
-  locate(set.lookup[axis], static_cast<std::uint32_t>(r), turns, set.rows[axis].data(),
-         known ? direction : Direction::forward, at);
-  if (known) return;
-  status |= kDirectionUnknown;
-  set_mean(s.mean, at.knot[0], at.knot[1], at.t);  // both directions, side by side
-  at.knot = &s.mean;
+  if (direction == Direction::unknown) status |= kDirectionUnknown;
+  locate_any(set.lookup[axis], static_cast<std::uint32_t>(r), turns, set.rows[axis].data(),
+             direction, s.mean, at);
 }
 
 // Follows all axes, whatever they show. False until every axis has reported.
@@ -210,7 +206,7 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::tick_unusual(const Input& in, f
   std::uint32_t gate = 0;
   if (!active() || !follow_unusual(in)) {
     gate = idle(in);
-  } else if (!find_kept_excess(*now_.active)) {
+  } else if (!find_kept_excess(*now_.active, work_, error_nm_)) {
     gate = kNoAuthority;
   }
   finish_unusual(gate, ramp, out);

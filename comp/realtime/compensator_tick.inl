@@ -88,26 +88,29 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_usual(const Input& in, c
   return usual;
 }
 
-// What the correcting axes have to take away, nm or 2^-32 turn. False without authority.
+// The error in base, and what the correcting axes have to take away of it, nm or 2^-32 turn. False
+// without authority.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE bool Compensator<Machine, Knots>::find_excess(const Tables& set, Work& work) {
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::find_excess(const Tables& set, Work& work,
+                                                             Float3& error_nm) const {
   const RuntimeChain& chain = machine_.chain;
   if (chain.folded) {
-    error_nm_ = kernel::folded_error(machine_, set, work.at);
+    error_nm = kernel::folded_error(machine_, set, work.at);
     work.excess = chain.inverse.form == InverseForm::aligned
-                      ? kernel::aligned_excess(chain.inverse, error_nm_)
-                      : kernel::constant_excess(set, error_nm_);
+                      ? kernel::aligned_excess(chain.inverse, error_nm)
+                      : kernel::constant_excess(set, error_nm);
     return true;
   }
-  error_nm_ = kernel::recursive_error(machine_, set, work.at, work.column);
-  return kernel::varying_excess(machine_, work.column, error_nm_, work.excess);
+  error_nm = kernel::recursive_error(machine_, set, work.at, work.column);
+  return kernel::varying_excess(machine_, work.column, error_nm, work.excess);
 }
 
-// The same in memory: for a loaded machine, whose indices are not known beforehand, and for a tick
-// that is not as usual.
+// The same as one function in memory: for a loaded machine, whose indices are not known beforehand,
+// for a tick that is not as usual, and for touches.
 template <class Machine, std::size_t Knots>
-[[gnu::noinline]] bool Compensator<Machine, Knots>::find_kept_excess(const Tables& set) {
-  return find_excess(set, work_);
+[[gnu::noinline]] bool Compensator<Machine, Knots>::find_kept_excess(const Tables& set, Work& work,
+                                                                     Float3& error_nm) const {
+  return find_excess(set, work, error_nm);
 }
 
 // Clamp, ramp, round, slew: the offset that takes `excess` away. `changed`: everyday bits that are
@@ -162,7 +165,8 @@ void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
   if (VOLCOMP_RARELY(set == nullptr || guarded_axes_ != 0) ||
       !follow_usual(in, *set, usual, w.at, out))
     return detail::tick_unusual(*this, in, ramp, out);
-  const bool possible = Machine::kCompiledIn ? find_excess(*set, w) : find_kept_excess(*set);
+  const bool possible = Machine::kCompiledIn ? find_excess(*set, w, error_nm_)
+                                             : find_kept_excess(*set, work_, error_nm_);
   if (VOLCOMP_RARELY(!possible)) return detail::tick_unusual(*this, in, ramp, out);
   EverydayBits changed = 0;
   for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {

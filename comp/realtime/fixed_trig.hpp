@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "comp/realtime/inline.hpp"
+#include "comp/units.hpp"
 
 namespace volcomp {
 
@@ -32,7 +33,7 @@ constexpr double sine_by_series(double x) {
 
 // The points of the circle, each quadrant from the same numbers: its symmetries hold bit for bit.
 constexpr Circle make_circle() {
-  constexpr double kQuarter = 1.5707963267948966;
+  constexpr double kQuarter = kPi / 2.0;
   constexpr std::size_t n = 1U << (kCircleBits - 2U);
   Circle circle{};
   for (std::size_t k = 0; k < n; ++k) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 
 #include "comp/geometry/inverse.hpp"
 #include "comp/units.hpp"
@@ -69,16 +69,48 @@ ErrorMotion channels_of(const AxisTableView& table, std::size_t travel, std::siz
   return e;
 }
 
-// Rows of one axis: `value(travel, knot)` in nm and rad, differences to the next knot, periodic or
-// ending flat.
-template <class ValueAt>
-void write_rows(const TableGrid& table, Rows rows, const ValueAt& value) {
+// What the error of a frame does to the tool point: σ(R δ + R ε × lever) and σ R ε. `lever`: as
+// long as the tool point is to be moved.
+ErrorMotion at_tool_point(const AxisPlace& place, const Vec3& lever, const ErrorMotion& e) {
+  const Vec3 turn = turned(place.R, rotation(e));
+  ErrorMotion moved;
+  moved.head<3>() = place.sigma * added(turned(place.R, translation(e)), 1.0, turn.cross(lever));
+  moved.tail<3>() = place.sigma * turn;
+  return moved;
+}
+
+// Of one knot in nm and rad. Folded (form A of seed 001, embedded, section 1, for any linear
+// chain): a = σ(R δ + R ε × c) + direction·q, w = σ R ε.
+class RowSource {
+ public:
+  RowSource(const TablesView& tables, std::size_t axis, const AxisPlace* folded)
+      : table_(tables.axis[axis]), direction_(tables.directions[axis]), folded_(folded) {}
+
+  [[nodiscard]] ErrorMotion value(std::size_t travel, std::size_t knot) const {
+    ErrorMotion e = channels_of(table_, travel, knot);
+    if (folded_ == nullptr) return e;
+    const TableGrid& grid = table_.grid();
+    const auto q_nm = static_cast<double>(grid.q0 + grid.pitch * static_cast<std::int64_t>(knot));
+    ErrorMotion row = at_tool_point(*folded_, kNmPerMm * folded_->lever, e);
+    row.head<3>() = added(translation(row), q_nm, direction_);
+    return row;
+  }
+
+ private:
+  const AxisTableView& table_;
+  const Vec3& direction_;
+  const AxisPlace* folded_;
+};
+
+// Rows of one axis and the differences to the next knot, periodic or ending flat.
+void write_rows(const TableGrid& table, Rows rows, const RowSource& source) {
   for (std::size_t travel = 0; travel < 2; ++travel) {
-    ErrorMotion here = value(travel, 0);
+    ErrorMotion here = source.value(travel, 0);
     const ErrorMotion first = here;
     for (std::size_t i = 0; i < table.knots; ++i) {
       const bool last = i + 1 == table.knots;
-      const ErrorMotion next = !last ? value(travel, i + 1) : (table.periodic ? first : here);
+      const ErrorMotion next =
+          !last ? source.value(travel, i + 1) : (table.periodic ? first : here);
       for (std::size_t c = 0; c < 6; ++c) {
         const auto channel = static_cast<Eigen::Index>(c);
         rows[i][travel].v[c] = static_cast<float>(here(channel));
@@ -137,24 +169,12 @@ class Bounds {
   double contraction_ = 0.0;
 };
 
-// Form A of seed 001 (embedded, section 1), for any linear chain: a = σ(R δ + R ε × c) +
-// direction·q, w = σ R ε.
 void fold_linear_axis(const TablesView& tables, std::size_t axis, const Vec3& tool_point,
                       const TableSetView& set) {
   const MachineChain& chain = tables.chain;
-  const TableGrid& table = tables.axis[axis].grid();
   const AxisPlace place = place_of(chain, chain.body_of_axis(axis), tool_point);
-  write_rows(table, set.rows[axis], [&](std::size_t travel, std::size_t knot) {
-    const ErrorMotion e = channels_of(tables.axis[axis], travel, knot);
-    const Vec3 turn = place.sigma * (place.R * rotation(e));
-    const auto q_nm = static_cast<double>(table.q0 + table.pitch * static_cast<std::int64_t>(knot));
-    ErrorMotion folded;
-    folded.head<3>() = place.sigma * (place.R * translation(e)) +
-                       turn.cross(kNmPerMm * place.lever) + tables.directions[axis] * q_nm;
-    folded.tail<3>() = turn;
-    return folded;
-  });
-  set.travel_axis[axis] = to_float(place.R * unit_vector(chain.axis(axis).axis));
+  write_rows(tables.axis[axis].grid(), set.rows[axis], RowSource(tables, axis, &place));
+  set.travel_axis[axis] = to_float(place.R.col(static_cast<Eigen::Index>(chain.axis(axis).axis)));
 }
 
 // Constant errors of fixed bodies join the folded walk (work tip → tool tip): their displacement
@@ -174,10 +194,10 @@ void fold_constant_errors(const TablesView& tables, const RuntimeChain& runtime,
       continue;
     }
     const AxisPlace place = place_of(chain, step.body, tool_point);
-    const ErrorMotion e = chain.error_of(step.body, zero_errors());
-    const Vec3 own = place.sigma * (place.R * rotation(e));
-    shift += place.sigma * (place.R * translation(e)) + own.cross(place.lever);
-    turn += own;
+    const ErrorMotion own =
+        at_tool_point(place, place.lever, chain.error_of(step.body, zero_errors()));
+    shift += translation(own);
+    turn += rotation(own);
   }
   if (first_axis < 0) return;
   const auto a = static_cast<std::size_t>(first_axis);
@@ -191,10 +211,7 @@ void fold_constant_errors(const TablesView& tables, const RuntimeChain& runtime,
 }
 
 void copy_axis(const TablesView& tables, std::size_t axis, const TableSetView& set) {
-  const AxisTableView& table = tables.axis[axis];
-  write_rows(table.grid(), set.rows[axis], [&](std::size_t travel, std::size_t knot) {
-    return channels_of(table, travel, knot);
-  });
+  write_rows(tables.axis[axis].grid(), set.rows[axis], RowSource(tables, axis, nullptr));
   set.direction[axis] = to_float(tables.directions[axis]);
 }
 

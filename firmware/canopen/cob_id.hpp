@@ -10,8 +10,11 @@ inline constexpr std::uint8_t kMaxNodeId = 127;
 enum CobId : std::uint16_t {
   kNmt = 0x000,
   kSync = 0x080,
-  kEmergency = 0x080,    // + node id
-  kTpdo1 = 0x180,        // TPDO k of a node: + 100h (k − 1) + node id
+  kEmergency = 0x080,  // + node id
+  kTpdo1 = 0x180,      // TPDO k of a node: + 100h (k − 1) + node id
+  kTpdo2 = 0x280,
+  kTpdo3 = 0x380,
+  kTpdo4 = 0x480,
   kRpdo1 = 0x200,        // RPDO k of a node: + 100h (k − 1) + node id
   kSdoResponse = 0x580,  // server → client
   kSdoRequest = 0x600,   // client → server

@@ -1,5 +1,7 @@
 #include "firmware/canopen/device.hpp"
 
+#include <algorithm>
+
 #include "firmware/canopen/bytes.hpp"
 
 namespace volcomp::canopen {
@@ -152,20 +154,27 @@ void Device::run_cycle(std::uint64_t now_us) {
 
 void Device::take_process_data(const hal::CanFrame& frame, std::uint64_t now_us) {
   const Span<Pdo> pdos = pdos_.receive();
-  for (std::size_t i = 0; i < pdos.size(); ++i) {
-    const Pdo& pdo = pdos[i];
-    if (!pdo.valid() || pdo.id() != frame.id) continue;
-    const auto source = static_cast<std::uint8_t>(i + 1);
-    if (frame.size < pdo.bytes()) {
-      emergency_.raise(ErrorCode::rpdo_length, source, {frame.size, pdo.bytes()});
-      continue;
-    }
-    emergency_.clear(ErrorCode::rpdo_length, source);
-    if (!pdo.synchronous()) {
-      apply(pdo, frame, now_us);
-    } else if (values_.sync_window_us == 0 || now_us - last_sync_us_ <= values_.sync_window_us) {
-      latest_[i] = {frame, true};
-    }
+  const auto wanted = [id = frame.id](const Pdo& pdo) { return pdo.answers_to(id); };
+  Pdo* pdo = std::find_if(pdos.begin(), pdos.end(), wanted);
+  while (pdo != pdos.end()) {
+    take_process_data(static_cast<std::size_t>(pdo - pdos.begin()), frame, now_us);
+    pdo = std::find_if(pdo + 1, pdos.end(), wanted);
+  }
+}
+
+void Device::take_process_data(std::size_t receive_pdo, const hal::CanFrame& frame,
+                               std::uint64_t now_us) {
+  const Pdo& pdo = pdos_.receive()[receive_pdo];
+  const auto source = static_cast<std::uint8_t>(receive_pdo + 1);
+  if (frame.size < pdo.bytes()) {
+    emergency_.raise(ErrorCode::rpdo_length, source, {frame.size, pdo.bytes()});
+    return;
+  }
+  emergency_.clear(ErrorCode::rpdo_length, source);
+  if (!pdo.synchronous()) {
+    apply(pdo, frame, now_us);
+  } else if (values_.sync_window_us == 0 || now_us - last_sync_us_ <= values_.sync_window_us) {
+    latest_[receive_pdo] = {frame, true};
   }
 }
 
@@ -260,6 +269,12 @@ void Device::trigger(std::size_t transmit_pdo) {
   const std::uint8_t type = pdos_.transmit()[transmit_pdo].parameters().type;
   if (type >= kEventType) pending_ |= 1U << transmit_pdo;
   if (type == 0) for_sync_ |= 1U << transmit_pdo;
+}
+
+void Device::trigger_belated(std::size_t transmit_pdo) {
+  trigger(transmit_pdo);
+  pending_ |= for_sync_ & (1U << transmit_pdo);
+  for_sync_ &= ~(1U << transmit_pdo);
 }
 
 void Device::trigger_synchronous() {

@@ -120,6 +120,9 @@ class Device final : private ObjectAccess {
 
   // An event-driven TPDO (type 254, 255, or 0: at the next SYNC) has something to say.
   void trigger(std::size_t transmit_pdo);
+  // The same for what happened before the last SYNC and comes to light only now: type 0 goes out at
+  // once, among the answers to that SYNC.
+  void trigger_belated(std::size_t transmit_pdo);
   // Takes the offer of a TPDO back: what it would say is no longer true.
   void withdraw(std::size_t transmit_pdo);
   // Writes one object as an SDO client would, with every check (parameter files, stored values).
@@ -154,6 +157,7 @@ class Device final : private ObjectAccess {
   void take_sync(const hal::CanFrame& frame, std::uint64_t now_us);
   void run_cycle(std::uint64_t now_us);
   void take_process_data(const hal::CanFrame& frame, std::uint64_t now_us);
+  void take_process_data(std::size_t receive_pdo, const hal::CanFrame& frame, std::uint64_t now_us);
   void apply(const Pdo& pdo, const hal::CanFrame& frame, std::uint64_t now_us);
   void take_heartbeat(const hal::CanFrame& frame, std::uint64_t now_us);
   void watch_heartbeats(std::uint64_t now_us);

@@ -53,6 +53,10 @@ const char* sentence(ErrorCode code) {
       return "A second device produces SYNC.";
     case ErrorCode::offset_not_confirmed:
       return "A drive does not report the offset it was sent.";
+    case ErrorCode::touch_rejected:
+      return "A touch of the probe was rejected.";
+    case ErrorCode::point_lost:
+      return "A probed point was lost: the points that wait are not read.";
   }
   return "An error of another device's making.";
 }

@@ -31,6 +31,8 @@ enum class ErrorCode : std::uint16_t {
   table_damaged = 0xFF11,         // active tables changed in memory
   foreign_sync = 0xFF20,          // a second SYNC producer
   offset_not_confirmed = 0xFF21,  // a drive does not report the offset it was sent
+  touch_rejected = 0xFF30,        // first byte: TouchVerdict; then the number of the touch
+  point_lost = 0xFF31,            // nobody reads 2410h: it is full
 };
 
 // One plain sentence; also for codes another device made up.

@@ -44,6 +44,7 @@ AbortCode Pdo::configure(const PdoParameters& parameters, PdoKind kind,
     if (bytes > 8) return AbortCode::mapping_too_long;
   }
   parameters_ = parameters;
+  set_communication(parameters);
   piece_ = pieces;
   bytes_ = static_cast<std::uint8_t>(bytes);
   return AbortCode::none;
@@ -54,6 +55,7 @@ void Pdo::set_communication(const PdoParameters& parameters) {
   parameters_.type = parameters.type;
   parameters_.inhibit_100us = parameters.inhibit_100us;
   parameters_.event_timer_ms = parameters.event_timer_ms;
+  valid_id_ = valid() ? id() : kNoFrame;
 }
 
 void Pdo::scatter(const hal::CanFrame& frame) const {

@@ -47,6 +47,8 @@ class Pdo {
   }
   [[nodiscard]] std::uint8_t bytes() const { return bytes_; }
   [[nodiscard]] bool synchronous() const { return parameters_.type <= kMostCyclicType; }
+  // Valid, and with this identifier. One comparison: every frame asks every PDO.
+  [[nodiscard]] bool answers_to(std::uint16_t frame_id) const { return frame_id == valid_id_; }
 
   // Replaces all parameters. Refuses no_object, not_mappable, mapping_too_long.
   AbortCode configure(const PdoParameters& parameters, PdoKind kind,
@@ -61,6 +63,9 @@ class Pdo {
     std::uint8_t* value = nullptr;  // nullptr: dummy, skipped
     std::uint8_t bytes = 0;
   };
+  static constexpr std::uint16_t kNoFrame = 0xFFFF;
+
+  std::uint16_t valid_id_ = kNoFrame;
   PdoParameters parameters_{};
   std::array<Piece, kMostMapped> piece_{};
   std::uint8_t bytes_ = 0;

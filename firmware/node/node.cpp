@@ -12,7 +12,9 @@ namespace {
 
 constexpr std::uint64_t kScrubPeriod_us = 10'000'000;
 
-bool is_image(canopen::ObjectId object) { return object.index == 0x2110 && object.sub == 1; }
+constexpr canopen::ObjectId kImage{0x2110, 1};
+constexpr canopen::ObjectId kProbe{0x2300, 1};
+constexpr canopen::ObjectId kFeature{0x2310, 1};
 
 // What the cycle relies on may change only while there is no cycle.
 bool is_setting(std::uint16_t index) {
@@ -30,6 +32,7 @@ Node::Node(std::uint8_t node_id, Storage* storage, Preemption* preemption)
                {transmit_.data(), transmit_.size()}},
               *this),
       download_(objects_, compensator_, running_, preemption_),
+      probe_(objects_.probe, compensator_, preemption_),
       storage_(storage) {
   device_.set_node_id(node_id);
 }
@@ -50,6 +53,7 @@ void Node::reset_application() {
   objects_.reset_cause = static_cast<std::uint8_t>(reset_cause_);
   compensator_.restart({});
   download_.reset();
+  probe_.reset();
   running_ = cycle_open_ = overdue_ = false;
   start_given_ = 0;
   load_stored(true);
@@ -82,10 +86,14 @@ void Node::state_changed(NmtState state, std::uint64_t now_us) {
     gate.forget();
   for (WirePosition& position : position_)
     position.reset();
+  had_actual_ = 0;
+  probe_.restart();
   next_scrub_us_ = now_us + kScrubPeriod_us;
   objects_.state = static_cast<std::uint8_t>(NodeState::idle);
   if (state != NmtState::operational) return;
   report(configure(), objects_);
+  const auto probe = static_cast<ProbeCommand>(objects_.probe.command);
+  if (probe == ProbeCommand::on) static_cast<void>(switch_probe(probe));
   start_at_given_offsets();
   report_status();
 }
@@ -177,6 +185,11 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
   // While offsets are being sent, only they say what the drive holds.
   const bool starts = object.index == 0x2206 && object.sub != 0;
   if (starts && gate_[object.sub - 1U].open()) return AbortCode::device_state;
+  if (object == kProbe) return switch_probe(static_cast<ProbeCommand>(bytes[0]));
+  if (object == kFeature) {
+    const auto index = static_cast<std::uint32_t>(canopen::load_le(bytes.data(), 4));
+    return probe_.take_feature(index).ok() ? AbortCode::none : AbortCode::invalid_value;
+  }
   switch (object.index) {
     case 0x1010:
       return run_store(bytes);
@@ -184,6 +197,8 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
       return run_restore(bytes);
     case 0x2111:
       return run_table_command(static_cast<TableCommand>(bytes[0]));
+    case 0x2411:
+      return release_point(static_cast<std::uint32_t>(canopen::load_le(bytes.data(), 4)));
     default:
       return AbortCode::none;
   }
@@ -197,7 +212,10 @@ AbortCode Node::run_table_command(TableCommand command) {
   if (why != AbortCode::none || command < TableCommand::validate) return why;
   for (std::size_t letter = 0; letter < 128; ++letter)
     emergency.clear(ErrorCode::table_refused, static_cast<std::uint8_t>(letter));
-  if (command == TableCommand::activate) emergency.clear(ErrorCode::table_damaged, 0);
+  if (command == TableCommand::activate) {
+    emergency.clear(ErrorCode::table_damaged, 0);
+    probe_.set_machine(download_.machine_description());
+  }
   return why;
 }
 
@@ -228,12 +246,14 @@ void Node::before_read(canopen::ObjectId object) {
 }
 
 AbortCode Node::read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) {
-  return is_image(object) ? download_.read(source) : AbortCode::no_data;
+  if (object == kImage) return download_.read(source);
+  source = probe_.points().oldest();
+  return source.empty() ? AbortCode::no_data : AbortCode::none;
 }
 
 AbortCode Node::begin_domain(canopen::ObjectId object, std::size_t announced,
                              Span<std::uint8_t>& sink) {
-  return is_image(object) ? download_.begin(announced, sink) : AbortCode::unsupported_access;
+  return object == kImage ? download_.begin(announced, sink) : AbortCode::unsupported_access;
 }
 
 AbortCode Node::finish_domain(canopen::ObjectId /*object*/, std::size_t size) {

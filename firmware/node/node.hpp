@@ -31,6 +31,7 @@
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "firmware/node/preemption.hpp"
+#include "firmware/node/probe_path.hpp"
 #include "firmware/node/storage.hpp"
 #include "firmware/node/table_download.hpp"
 #include "firmware/node/wire_scale.hpp"
@@ -66,11 +67,13 @@ class Node final : private canopen::Application {
   void poll(std::uint64_t now_us) {
     poll_services(now_us);
     poll_cycle(now_us);
+    poll_probe();
     poll_scrub(now_us);
   }
   // Its parts: what waits for others, what is due at a time of its own, what takes long.
   void poll_services(std::uint64_t now_us) { device_.poll_services(now_us); }
   void poll_cycle(std::uint64_t now_us);
+  void poll_probe();
   void poll_scrub(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us) {
     return device_.offer(frame, now_us);
@@ -101,6 +104,8 @@ class Node final : private canopen::Application {
     std::uint32_t target = 0;
     std::uint32_t actual = 0;
     std::uint32_t held = 0;
+    std::uint32_t latched = 0;
+    std::uint32_t counted = 0;
   };
 
   void reset_application() override;
@@ -137,6 +142,14 @@ class Node final : private canopen::Application {
   void report_axis_errors(std::size_t axis, std::uint16_t status);
   void raise_if(bool present, canopen::ErrorCode code, std::size_t axis, std::uint16_t status);
 
+  // --- probe (node_probe.cpp)
+  [[nodiscard]] bool probes() const;
+  void end_probe_cycle(std::uint8_t next_counter);
+  [[nodiscard]] LatchReport latch_report(std::size_t axis, bool consecutive) const;
+  canopen::AbortCode switch_probe(ProbeCommand command);
+  [[nodiscard]] canopen::AbortCode release_point(std::uint32_t sequence);
+  void point_made();
+
   // --- settings (node_settings.cpp)
   Status configure();
   void configure_gates();
@@ -162,12 +175,16 @@ class Node final : private canopen::Application {
   canopen::Device device_;
   NodeCompensator compensator_{};
   TableDownload download_;
+  ProbePath probe_;
   Storage* storage_;
 
   PerAxis<OffsetGate> gate_{};
   PerAxis<WireScale> scale_{};
   PerAxis<WirePosition> position_{};
   Arrived arrived_{};
+  PerAxis<std::int32_t> previous_actual_{};  // of the cycle before
+  std::uint32_t had_actual_ = 0;             // a bit per axis
+  bool touch_rejected_ = false;              // the last one
   TickInput<kNodeAxes> input_{};
   TickOutput<kNodeAxes> output_{};
   std::uint64_t deadline_us_ = 0;

@@ -27,7 +27,8 @@ constexpr bool operation_enabled(std::uint16_t status_word) {
 
 std::uint64_t Node::deadline_after_sync_us() const {
   if (objects_.deadline_us != 0) return objects_.deadline_us;
-  return std::uint64_t{objects_.communication.cycle_period_us} * 3U / 5U;
+  const std::uint32_t period = objects_.communication.cycle_period_us;
+  return period / 5U * 3U + period % 5U * 3U / 5U;
 }
 
 void Node::sync(std::uint8_t counter, std::uint64_t now_us) {
@@ -35,6 +36,7 @@ void Node::sync(std::uint8_t counter, std::uint64_t now_us) {
     ++objects_.cycles_skipped;
     compute(now_us);
   }
+  end_probe_cycle(counter);
   if (clean_syncs_ < kCleanCycles && ++clean_syncs_ == kCleanCycles) {
     device_.emergency().clear(ErrorCode::foreign_sync, 0);
     device_.emergency().clear(ErrorCode::sync_length, 0);
@@ -52,6 +54,8 @@ void Node::received(const canopen::Pdo& pdo, std::uint64_t now_us) {
     const std::size_t axis = object.sub - 1U;
     if (object.index == 0x2011) arrived_.target |= bit(axis);
     if (object.index == 0x2014) arrived_.actual |= bit(axis);
+    if (object.index == 0x2017) arrived_.latched |= bit(axis);
+    if (object.index == 0x2019) arrived_.counted |= bit(axis);
     if (object.index != 0x2016) continue;
     arrived_.held |= bit(axis);
     gate_[axis].report(objects_.held_offset[axis]);
@@ -167,9 +171,10 @@ void Node::report_axis_errors(std::size_t axis, std::uint16_t status) {
 void Node::report_status() {
   std::uint16_t any = 0;
   bool silent = false;
+  const std::uint32_t correcting = correcting_axes();
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     if (a < objects_.axes) any = static_cast<std::uint16_t>(any | objects_.status[a]);
-    silent = silent || ((correcting_axes() & bit(a)) != 0 && !gate_[a].open());
+    silent = silent || ((correcting & bit(a)) != 0 && !gate_[a].open());
   }
   NodeState state = NodeState::no_tables;
   if (compensator_.active()) {

@@ -23,7 +23,7 @@ constexpr std::uint16_t at_began(std::size_t axis) {
                                     axis * sizeof(std::array<std::uint16_t, kStatusBits>));
 }
 
-constexpr std::array<Entry, 64> kOwn{{
+constexpr std::array<Entry, 93> kOwn{{
     {0x1010, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(store), 0,
      "Save all parameters"},
     {0x1011, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(restore), 0,
@@ -52,6 +52,12 @@ constexpr std::array<Entry, 64> kOwn{{
      VOLCOMP_AT(probe_status), 0, "Touch probe status of the drive"},
     {0x2016, 1, kNodeAxes, DataType::integer32, Access::read_write, kReceive,
      VOLCOMP_AT(held_offset), 0, "Offset the drive holds"},
+    {0x2017, 1, kNodeAxes, DataType::integer32, Access::read_write, kReceive, VOLCOMP_AT(latched),
+     0, "Latched position"},
+    {0x2018, 1, kNodeAxes, DataType::unsigned32, Access::read_write, kReceive,
+     VOLCOMP_AT(latch_time), 0, "Time of the latch since SYNC, ns"},
+    {0x2019, 1, kNodeAxes, DataType::unsigned16, Access::read_write, kReceive,
+     VOLCOMP_AT(edge_count), 0, "Edges the drive has latched"},
     {0x2020, 1, kNodeAxes, DataType::integer32, Access::read_only, kTransmit, VOLCOMP_AT(offset), 0,
      "Offset to the drive"},
     {0x2030, 1, kNodeAxes, DataType::unsigned32, Access::read_write, kStored,
@@ -110,6 +116,57 @@ constexpr std::array<Entry, 64> kOwn{{
     {0x2206, 1, kNodeAxes, DataType::integer32, Access::read_write, kPlain,
      VOLCOMP_AT(start_offset), 0, "Offset held by a drive that cannot report it", -1073741824,
      1073741824},
+    {0x2300, 1, 1, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(probe.command), 0,
+     "Probe: 0 off, 1 on with these settings", 0, 1},
+    {0x2300, 2, 2, DataType::unsigned32, Access::read_write, kStored, VOLCOMP_AT(probe.delay_ns), 0,
+     "Delay from contact to edge, ns", 0, 10000000},
+    {0x2300, 3, 3, DataType::unsigned32, Access::read_write, kStored, VOLCOMP_AT(probe.bounce_us),
+     0, "Shortest time between two touches, us", 0, 10000000},
+    {0x2300, 4, 4, DataType::unsigned32, Access::read_write, kStored, VOLCOMP_AT(probe.skew_ns), 0,
+     "Longest time between the edges of two axes, ns", 0, 10000000},
+    {0x2300, 5, 5, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(probe.reason), 0,
+     "Reason of the last refusal of these settings"},
+    {0x2301, 1, kNodeAxes, DataType::unsigned32, Access::read_write, kStored,
+     VOLCOMP_AT(probe.latch_delay_ns), 0, "Delay from edge to latch, ns", 0, 10000000},
+    {0x2302, 1, kLobingTerms, DataType::real64, Access::read_write, kStored,
+     VOLCOMP_AT(probe.lobing), 0, "Effective radius by direction, nm"},
+    {0x2303, 1, 12, DataType::real64, Access::read_write, kStored, VOLCOMP_AT(probe.workpiece), 0,
+     "Workpiece frame: rotation by rows, origin in nm"},
+    {0x2304, 1, 7, DataType::real64, Access::read_write, kStored, VOLCOMP_AT(probe.uncertainty), 0,
+     "Standard uncertainties of the probe"},
+    {0x2305, 1, kNodeAxes, DataType::real64, Access::read_write, kStored,
+     VOLCOMP_AT(probe.position_uncertainty), 0, "Standard uncertainty of a latched position"},
+    {0x2306, 1, kNodeAxes, DataType::real64, Access::read_write, kStored,
+     VOLCOMP_AT(probe.latch_delay_uncertainty_ns), 0, "Standard uncertainty of the delay, ns"},
+    {0x2310, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(probe.feature), 0,
+     "Feature to be touched next; takes its normal over"},
+    {0x2310, 2, 4, DataType::real64, Access::read_write, kPlain, VOLCOMP_AT(probe.normal), 0,
+     "Normal out of the part, or 0"},
+    {0x2400, 1, 1, DataType::unsigned16, Access::read_only, kTransmit, VOLCOMP_AT(probe.waiting), 0,
+     "Points that wait"},
+    {0x2400, 2, 2, DataType::unsigned32, Access::read_only, kTransmit, VOLCOMP_AT(probe.lost), 0,
+     "Points that found no room"},
+    {0x2400, 3, 3, DataType::unsigned32, Access::read_only, kTransmit, VOLCOMP_AT(probe.touches), 0,
+     "Touches"},
+    {0x2400, 4, 4, DataType::unsigned32, Access::read_only, kTransmit, VOLCOMP_AT(probe.rejected),
+     0, "Rejected touches"},
+    {0x2401, 1, 1, DataType::unsigned32, Access::read_only, kTransmit, VOLCOMP_AT(probe.sequence),
+     0, "Latest point: number"},
+    {0x2401, 2, 2, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(probe.verdict), 0,
+     "Latest point: verdict"},
+    {0x2401, 3, 3, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(probe.axis), 0,
+     "Latest point: axis of the verdict"},
+    {0x2401, 4, 4, DataType::unsigned16, Access::read_only, kTransmit,
+     VOLCOMP_AT(probe.feature_low), 0, "Latest point: feature, low half"},
+    {0x2401, 5, 7, DataType::integer32, Access::read_only, kTransmit,
+     VOLCOMP_AT(probe.workpiece_nm), 0, "Latest point: workpiece coordinate, nm"},
+    {0x2401, 8, 8, DataType::unsigned32, Access::read_only, kTransmit,
+     VOLCOMP_AT(probe.uncertainty_nm), 0, "Latest point: largest standard uncertainty, nm"},
+    {0x2401, 9, 11, DataType::integer64, Access::read_only, kPlain, VOLCOMP_AT(probe.machine_nm), 0,
+     "Latest point: machine coordinate, nm"},
+    {0x2410, 1, 1, DataType::domain, Access::read_only, kPlain, 0, 0, "Oldest point that waits"},
+    {0x2411, 0, 0, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(probe.release), 0,
+     "Number of the oldest point: it has been read"},
     {0x2600, 1, 1, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(state), 0,
      "State of the node"},
     {0x2600, 2, 2, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(sync_counter), 0,
@@ -161,12 +218,15 @@ constexpr auto kDictionary = canopen::with_communication(kOwn);
 // The axis number in front of the sub-index: arrays start at sub-index 1.
 constexpr std::uint8_t sub(std::size_t axis) { return static_cast<std::uint8_t>(axis + 1); }
 
+// 32 bits of a received PDO that the node has no use for (CiA 301, section 7.4.7: dummy mapping).
+constexpr std::uint32_t kFollowingError = canopen::mapped(0x0004, 0, 32);
+
 }  // namespace
 
 Span<const Entry> node_dictionary() { return {kDictionary.data(), kDictionary.size()}; }
 
-// The node listens to what controller and drives tell each other: RPDO1 of the drive, its TPDO1 and
-// TPDO4.
+// The node listens to what controller and drives tell each other: RPDO1 of the drive, and its
+// TPDO1, TPDO4, TPDO2 and TPDO3.
 canopen::PdoParameters default_receive_pdo(std::size_t number,
                                            const PerAxis<std::uint8_t>& drives) {
   using canopen::mapped;
@@ -185,10 +245,20 @@ canopen::PdoParameters default_receive_pdo(std::size_t number,
       p.count = 3;
       p.mapping = {mapped(0x2013, s, 32), mapped(0x2014, s, 16), mapped(0x2015, s, 16)};
       break;
-    default:
+    case 2:
       function = canopen::kTpdo1 + 0x300U;
       p.count = 1;
       p.mapping = {mapped(0x2016, s, 32)};
+      break;
+    case 3:
+      function = canopen::kTpdo1 + 0x100U;
+      p.count = 2;
+      p.mapping = {mapped(0x2017, s, 32), mapped(0x2018, s, 32)};
+      break;
+    default:
+      function = canopen::kTpdo1 + 0x200U;
+      p.count = 2;
+      p.mapping = {mapped(0x2019, s, 16), kFollowingError};
       break;
   }
   p.cob_id = function + drives[axis];
@@ -196,23 +266,48 @@ canopen::PdoParameters default_receive_pdo(std::size_t number,
   return p;
 }
 
-canopen::PdoParameters default_transmit_pdo(std::size_t number, const PerAxis<std::uint8_t>& drives,
-                                            std::uint8_t node_id) {
+namespace {
+
+canopen::PdoParameters status_pdo() {
   using canopen::mapped;
   canopen::PdoParameters p;
-  if (number == kStatusPdo) {
-    p.cob_id = canopen::kPdoNoRtr | (canopen::kTpdo1 + std::uint32_t{node_id});
-    p.event_timer_ms = 1000;
-    p.inhibit_100us = 1000;
-    p.count = 4;
-    p.mapping = {mapped(0x2112, 7, 32), mapped(0x2600, 1, 8), mapped(0x2600, 2, 8),
-                 mapped(0x2600, 3, 16)};
+  p.event_timer_ms = 1000;
+  p.inhibit_100us = 1000;
+  p.count = 4;
+  p.mapping = {mapped(0x2112, 7, 32), mapped(0x2600, 1, 8), mapped(0x2600, 2, 8),
+               mapped(0x2600, 3, 16)};
+  return p;
+}
+
+canopen::PdoParameters point_pdo(std::size_t part) {
+  using canopen::mapped;
+  canopen::PdoParameters p;
+  p.count = part == 0 ? 4 : 2;
+  if (part == 0)
+    p.mapping = {mapped(0x2401, 1, 32), mapped(0x2401, 2, 8), mapped(0x2401, 3, 8),
+                 mapped(0x2401, 4, 16)};
+  if (part == 1) p.mapping = {mapped(0x2401, 5, 32), mapped(0x2401, 6, 32)};
+  if (part == 2) p.mapping = {mapped(0x2401, 7, 32), mapped(0x2401, 8, 32)};
+  return p;
+}
+
+}  // namespace
+
+// TPDO1…4 of the node itself, RPDO2 of the drives.
+canopen::PdoParameters default_transmit_pdo(std::size_t number, const PerAxis<std::uint8_t>& drives,
+                                            std::uint8_t node_id) {
+  canopen::PdoParameters p;
+  if (number >= kStatusPdo) {
+    const std::size_t own = number - kStatusPdo;
+    p = own == 0 ? status_pdo() : point_pdo(own - 1);
+    const auto function = static_cast<std::uint32_t>(canopen::kTpdo1 + 0x100U * own);
+    p.cob_id = canopen::kPdoNoRtr | (function + node_id);
     return p;
   }
   p.cob_id = canopen::kPdoNoRtr | (canopen::kRpdo1 + 0x100U + std::uint32_t{drives[number]});
   if (drives[number] == 0) p.cob_id |= canopen::kPdoInvalid;
   p.count = 1;
-  p.mapping = {mapped(0x2020, sub(number), 32)};
+  p.mapping = {canopen::mapped(0x2020, sub(number), 32)};
   return p;
 }
 

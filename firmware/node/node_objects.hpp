@@ -5,6 +5,7 @@
 //   2000h machine and identity      2010h…201Fh process data of the axes, drive position units
 //   2020h offsets to the drives     2030h scaling between drive and run-time units
 //   2100h tables                    2200h limits and ramps
+//   2300h probe and feature         2400h points
 //   2600h diagnostics
 //
 // Run-time units: nm, or 2^-32 turn for offsets and limits of a rotary axis.
@@ -15,6 +16,7 @@
 #include "firmware/canopen/communication_objects.hpp"
 #include "firmware/canopen/pdo.hpp"
 #include "firmware/node/node_compensator.hpp"
+#include "firmware/node/probe_objects.hpp"
 
 namespace volcomp::node {
 
@@ -70,6 +72,9 @@ struct NodeObjects {
   PerAxis<std::uint16_t> drive_status{};  // 2014h as 6041h
   PerAxis<std::uint16_t> probe_status{};  // 2015h as 60B9h
   PerAxis<std::int32_t> held_offset{};    // 2016h as 60B0h, reported by the drive
+  PerAxis<std::int32_t> latched{};        // 2017h as 60BAh
+  PerAxis<std::uint32_t> latch_time{};    // 2018h as 60D1h, ns since SYNC
+  PerAxis<std::uint16_t> edge_count{};    // 2019h as 60D5h
   PerAxis<std::int32_t> offset{};         // 2020h to 60B0h
 
   PerAxis<std::uint32_t> scale_numerator{1, 1, 1, 1, 1};                 // 2030h run-time units per
@@ -102,6 +107,8 @@ struct NodeObjects {
   PerAxis<std::int64_t> max_step{};                                          // 2205h 0: unchecked
   PerAxis<std::int32_t> start_offset{};  // 2206h offset a drive holds that cannot report it
 
+  ProbeObjects probe{};  // 2300h…2411h
+
   std::uint8_t state = 0;             // 2600h:01 NodeState
   std::uint8_t sync_counter = 0;      // 2600h:02 of the cycle last computed
   std::uint16_t any_status = 0;       // 2600h:03 status bits of all axes together
@@ -124,9 +131,13 @@ struct NodeObjects {
 [[nodiscard]] Span<const canopen::Entry> node_dictionary();
 
 // Numbers of the PDOs, from 0.
-inline constexpr std::size_t kReceivePdos = 3 * kNodeAxes;   // targets, actual values, held offsets
-inline constexpr std::size_t kTransmitPdos = kNodeAxes + 1;  // offsets, node status
+// From the drives: targets, actual values, held offsets, latches, edge counters.
+inline constexpr std::size_t kReceivePdos = 5 * kNodeAxes;
+// Offsets, node status, the latest point: number and verdict, X and Y, Z and uncertainty.
 inline constexpr std::size_t kStatusPdo = kNodeAxes;
+inline constexpr std::size_t kFirstPointPdo = kNodeAxes + 1;
+inline constexpr std::size_t kPointPdos = 3;
+inline constexpr std::size_t kTransmitPdos = kFirstPointPdo + kPointPdos;
 
 // Default parameters of the PDOs for the drives of 2010h; PDOs of absent drives are invalid.
 [[nodiscard]] canopen::PdoParameters default_receive_pdo(std::size_t number,

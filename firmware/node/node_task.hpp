@@ -102,11 +102,12 @@ class NodeTask final : private Preemption {
 
   // --- background
 
-  // One frame that waits, and the scrub when it is due. False: nothing is left to do until the next
-  // interrupt.
+  // One frame and one touch that wait, and the scrub when it is due. False: nothing is left to do
+  // until the next interrupt.
   bool background_step() {
     guardian_.alive();
     serve();
+    probe();
     scrub();
     return waiting_count_ != 0;
   }
@@ -154,6 +155,10 @@ class NodeTask final : private Preemption {
     if (!waiting_.pop(frame)) return;
     node_.receive(frame, board_.clock.now_us());
     --waiting_count_;
+  }
+  void probe() {
+    const Guarded guarded(board_.section);
+    node_.poll_probe();
   }
   void scrub() {
     const Guarded guarded(board_.section);

@@ -15,8 +15,8 @@ void report(const Status& status, NodeObjects& objects) {
   objects.where_index = static_cast<std::int16_t>(where.index);
   objects.where_channel = static_cast<std::int8_t>(where.channel);
   objects.reason_text = {};
-  const char* const text = sentence(status.reason);
-  std::strncpy(objects.reason_text.data(), text, objects.reason_text.size() - 1);
+  if (const char* const text = loading_sentence(status.reason); text != nullptr)
+    std::strncpy(objects.reason_text.data(), text, objects.reason_text.size() - 1);
 }
 
 AbortCode TableDownload::begin(std::size_t announced, Span<std::uint8_t>& sink) {

@@ -48,6 +48,10 @@ class TableDownload {
   [[nodiscard]] TableState state() const { return static_cast<TableState>(objects_.table_state); }
   // The image behind the active tables, while it is still here; empty otherwise.
   [[nodiscard]] Span<const std::uint8_t> active_image() const;
+  // Of the tables that were checked last.
+  [[nodiscard]] const MachineDescription& machine_description() const {
+    return tables_.chain.description();
+  }
   // An image that comes from the store: as if it had been downloaded.
   [[nodiscard]] Span<std::uint8_t> buffer() { return {image_.data(), image_.size()}; }
 

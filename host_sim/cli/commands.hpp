@@ -1,11 +1,15 @@
 #pragma once
 // The subcommands of the host tool. Each registers itself and sets `code` when it ran.
 
+#include <string>
+
 #include <CLI/CLI.hpp>
 
 namespace volcomp::sim {
 
 void add_run_command(CLI::App& app, int argc, char** argv, int& code);
+// Below "run"; `command` as the user has typed it.
+void add_l300g_command(CLI::App& run, const std::string& command, int& code);
 void add_build_tables_command(CLI::App& app, int& code);
 void add_machine_command(CLI::App& app, int& code);
 void add_list_command(CLI::App& app, int& code);

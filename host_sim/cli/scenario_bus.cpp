@@ -43,10 +43,9 @@ void ScenarioBus::join(const NodePlace& place) {
   if (link_ != nullptr) gateway_ = std::make_unique<CanGateway>(*link_);
 }
 
-CellFactory ScenarioBus::cells(const MachineFile& machine) {
-  if (recorder_) return logged_cells(machine, cycle_hz_, gateway_.get(), *recorder_);
-  return gateway_ ? gateway_cells(machine, cycle_hz_, *gateway_)
-                  : loopback_cells(machine, cycle_hz_);
+BusAxesFactory ScenarioBus::axes() {
+  BusAxesFactory make = gateway_ ? gateway_axes(*gateway_) : loopback_axes();
+  return recorder_ ? recorded(std::move(make), *recorder_) : make;
 }
 
 void ScenarioBus::finish() {

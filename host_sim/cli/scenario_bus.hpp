@@ -5,7 +5,7 @@
 #include <string>
 
 #include "host_sim/boards/emulated_node.hpp"
-#include "host_sim/bus_tools/logged_cells.hpp"
+#include "host_sim/bus_tools/bus_recorder.hpp"
 #include "host_sim/cli/firmware_options.hpp"
 
 namespace volcomp::sim {
@@ -34,8 +34,11 @@ class ScenarioBus {
   auto watch(Work&& work) {
     return board_ ? board_->with_last_words(work) : work();
   }
-  // The bus must outlive the cells.
-  [[nodiscard]] CellFactory cells(const MachineFile& machine);
+  // The bus must outlive what is made.
+  [[nodiscard]] BusAxesFactory axes();
+  [[nodiscard]] CellFactory cells(const MachineFile& machine) {
+    return bus_cells(machine, cycle_hz_, axes());
+  }
   // After the scenario: the log is complete, the firmware has ended well.
   void finish();
 

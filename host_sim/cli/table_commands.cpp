@@ -149,8 +149,9 @@ void add_list_command(CLI::App& app, int& code) {
   list->callback([&code] {
     fmt::print(
         "scenarios:\n  xyfz    three-axis machine, Abbe-optimised volumetric model, 21 errors "
-        "(seed 001)\n");
-    fmt::print("machines:\n  {}\n", bundled_machine("xyfz").string());
+        "(seed 001)\n  l300g   gear grinder that measures, involute gears, 24 errors (seed 000)\n");
+    fmt::print("machines:\n  {}\n  {}\n", bundled_machine("xyfz").string(),
+               bundled_machine("l300g").string());
     code = 0;
   });
 }

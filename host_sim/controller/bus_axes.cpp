@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/units.hpp"
 #include "host_sim/controller/integrated_axes.hpp"
 #include "host_sim/data/user_error.hpp"
 
@@ -16,14 +17,12 @@ constexpr std::size_t kGatewayMailboxes = 4096;
 constexpr std::uint64_t kAnswerTimeout_us = 5'000'000;
 constexpr std::uint32_t kWait_us = 200;
 
-std::vector<std::int32_t> on_wire(const TargetsNm& target) {
-  std::vector<std::int32_t> wire;
-  for (const std::int64_t nm : target) {
-    if (nm > INT32_MAX || nm < INT32_MIN)
-      throw UserError(fmt::format("{} nm is beyond the 32 bits of 607Ah", nm));
-    wire.push_back(static_cast<std::int32_t>(nm));
-  }
-  return wire;
+AxisKinds kinds_of(const BusSettings& settings) {
+  AxisKinds kinds;
+  kinds.count = settings.axes.size();
+  for (std::size_t a = 0; a < kinds.count; ++a)
+    kinds.rotary.at(a) = settings.axes[a].rotary;
+  return kinds;
 }
 
 BusSettings lock_step(BusSettings settings) {
@@ -55,9 +54,9 @@ BusAxes::BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& i
 }
 
 void BusAxes::build(const BusSettings& settings) {
-  if (settings.axes.size() != kGroupAxes)
-    throw UserError(fmt::format("the simulated bus has {} axes, the machine has {}", kGroupAxes,
-                                settings.axes.size()));
+  if (settings.axes.empty() || settings.axes.size() > kMostAxes)
+    throw UserError(fmt::format("the simulated bus takes 1 to {} axes, the machine has {}",
+                                kMostAxes, settings.axes.size()));
   bus_.attach(controller_, "controller");
   for (const BusAxis& axis : settings.axes) {
     Cia402Drive::Settings s;
@@ -65,17 +64,50 @@ void BusAxes::build(const BusSettings& settings) {
     s.rotary = axis.rotary;
     s.period_s = period_s();
     s.time_constant_s = kDriveTimeConstant_s;
-    drive_.push_back(std::make_unique<Cia402Drive>(s));
-    drive_port_.push_back(&bus_.attach(*drive_.back(), fmt::format("drive {}", axis.letter)));
-    drive_.back()->power_on(0);
+    s.latch_delay_ns = axis.latch_delay_ns;
+    attach(s, fmt::format("drive {}", axis.letter));
   }
 }
 
-void BusAxes::stand_at(const Vec3& mm) {
+void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& name) {
+  Cia402Drive& drive = *drive_.emplace_back(std::make_unique<Cia402Drive>(settings));
+  const auto serve = [this, &drive](SimulatedBus::Port& port, std::uint64_t now_us) {
+    if (probe_) {
+      serve_drives(now_us);
+    } else {
+      canopen::exchange(drive, port, now_us);
+    }
+  };
+  drive_port_.push_back(&bus_.attach_served(name, serve));
+  drive.power_on(0);
+}
+
+// The nearest unit of the drive.
+std::int64_t BusAxes::drive_units(std::size_t a, std::int64_t run_time_units) const {
+  const BusAxis& axis = controller_.settings().axes[a];
+  const std::int64_t scaled = run_time_units * axis.scale_denominator;
+  const std::int64_t half = axis.scale_numerator / 2;
+  return (scaled + (scaled < 0 ? -half : half)) / axis.scale_numerator;
+}
+
+std::vector<std::int32_t> BusAxes::on_wire(const Targets& target) const {
+  std::vector<std::int32_t> wire;
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    const std::int64_t units = drive_units(a, target[a]);
+    const bool rotary = controller_.settings().axes[a].rotary;
+    if (!rotary && saturated(units) != units)
+      throw UserError(fmt::format("{} nm is beyond the 32 bits of 607Ah", target[a]));
+    wire.push_back(wrapped(units));
+  }
+  return wire;
+}
+
+void BusAxes::stand_at(const Pose& pose) {
   if (up_) throw std::logic_error("axes on a bus cannot be put elsewhere while they run");
-  target_ = to_targets(mm);
-  for (std::size_t a = 0; a < kGroupAxes; ++a)
-    drive_[a]->stand_at(target_[a]);
+  target_ = kinds_of(controller_.settings()).targets(pose);
+  for (std::size_t a = 0; a < drive_.size(); ++a)
+    drive_[a]->stand_at(drive_units(a, target_[a]));
+  felt_ = {position(), approach()};
 }
 
 void BusAxes::power_drive(std::size_t a, bool on) {
@@ -140,7 +172,7 @@ void BusAxes::bring_up(double timeout_s) {
   throw UserError("the machine on the bus does not start: " + controller_.trouble());
 }
 
-void BusAxes::cycle(const TargetsNm& target) {
+void BusAxes::cycle(const Targets& target) {
   if (!up_) bring_up();
   target_ = target;
   run_cycle(on_wire(target));
@@ -148,28 +180,33 @@ void BusAxes::cycle(const TargetsNm& target) {
   if (!trouble.empty()) throw UserError("the machine on the bus has stopped: " + trouble);
 }
 
-OffsetsNm BusAxes::offset_nm() const {
-  OffsetsNm offsets{};
-  for (std::size_t a = 0; a < kGroupAxes; ++a)
-    offsets[a] = drive_[a]->offset_taken();
+Offsets BusAxes::offset() const {
+  Offsets offsets{};
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    const BusAxis& axis = controller_.settings().axes[a];
+    offsets[a] =
+        std::int64_t{drive_[a]->offset_taken()} * axis.scale_numerator / axis.scale_denominator;
+  }
   return offsets;
 }
 
 Pose BusAxes::position() const {
   Pose q{};
-  for (std::size_t a = 0; a < kGroupAxes; ++a)
-    q[a] = drive_[a]->position_mm();
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    const bool rotary = controller_.settings().axes[a].rotary;
+    q[a] = rotary ? 2.0 * kPi * drive_[a]->position_turns() : drive_[a]->position_mm();
+  }
   return q;
 }
 
 Approach BusAxes::approach() const {
   Approach from{};
-  for (std::size_t a = 0; a < kGroupAxes; ++a)
+  for (std::size_t a = 0; a < drive_.size(); ++a)
     from[a] = drive_[a]->approach();
   return from;
 }
 
-double BusAxes::following_error_nm() const {
+double BusAxes::following_error() const {
   double worst = 0.0;
   for (const auto& drive : drive_) {
     worst =
@@ -180,32 +217,25 @@ double BusAxes::following_error_nm() const {
 
 bool BusAxes::ramping() const { return (controller_.report().any_status & kRamping) != 0; }
 
-namespace {
-
-BusSettings with_correction(BusSettings settings, CorrectionFile correction, double cycle_hz) {
-  correction.tick_hz = cycle_hz;
-  settings.limits = compensator_settings(correction);
-  return settings;
-}
-
-}  // namespace
-
-CellFactory loopback_cells(const MachineFile& machine, double cycle_hz) {
-  const BusSettings settings = bus_settings(machine, cycle_hz);
-  return [settings, cycle_hz](const TrueMachine& truth, const CorrectionFile& correction,
-                              const std::vector<std::uint8_t>& image) {
-    return std::make_unique<MotionCell>(
-        truth, std::make_unique<BusAxes>(with_correction(settings, correction, cycle_hz), image));
+BusAxesFactory loopback_axes() {
+  return [](const BusSettings& settings, const std::vector<std::uint8_t>& image) {
+    return std::make_unique<BusAxes>(settings, image);
   };
 }
 
-CellFactory gateway_cells(const MachineFile& machine, double cycle_hz, CanGateway& gateway) {
-  const BusSettings settings = bus_settings(machine, cycle_hz);
-  return [settings, cycle_hz, &gateway](const TrueMachine& truth, const CorrectionFile& correction,
-                                        const std::vector<std::uint8_t>& image) {
-    return std::make_unique<MotionCell>(
-        truth,
-        std::make_unique<BusAxes>(with_correction(settings, correction, cycle_hz), image, gateway));
+BusAxesFactory gateway_axes(CanGateway& gateway) {
+  return [&gateway](const BusSettings& settings, const std::vector<std::uint8_t>& image) {
+    return std::make_unique<BusAxes>(settings, image, gateway);
+  };
+}
+
+CellFactory bus_cells(const MachineFile& machine, double cycle_hz, BusAxesFactory make_axes) {
+  return [machine, cycle_hz, make_axes = std::move(make_axes)](
+             const TrueMachine& truth, const CorrectionFile& correction,
+             const std::vector<std::uint8_t>& image) {
+    MachineFile corrected = machine;
+    corrected.correction = correction;
+    return std::make_unique<MotionCell>(truth, make_axes(bus_settings(corrected, cycle_hz), image));
   };
 }
 

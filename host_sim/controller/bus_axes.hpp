@@ -1,8 +1,9 @@
 #pragma once
-// Three axes on a CAN bus: motion controller, CiA 402 drives and compensation node exchange frames,
+// Axes on a CAN bus: motion controller, CiA 402 drives and compensation node exchange frames,
 // and nothing else passes between them.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware/node/node.hpp"
@@ -12,6 +13,7 @@
 #include "host_sim/controller/motion_cell.hpp"
 #include "host_sim/controller/simulated_bus.hpp"
 #include "host_sim/drives/cia402_drive.hpp"
+#include "host_sim/instruments/touch_probe.hpp"
 
 namespace volcomp::sim {
 
@@ -27,16 +29,17 @@ class BusAxes final : public AxisGroup {
   BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& image, CanGateway& gateway);
 
   // Only before the first cycle.
-  void stand_at(const Vec3& mm) override;
+  void stand_at(const Pose& pose) override;
   // Throws UserError when the machine stops: somebody went silent, was refused or lost a reference.
-  void cycle(const TargetsNm& target) override;
+  void cycle(const Targets& target) override;
   [[nodiscard]] double period_s() const override { return period_us_ * 1e-6; }
 
-  [[nodiscard]] TargetsNm target_nm() const override { return target_; }
-  [[nodiscard]] OffsetsNm offset_nm() const override;
+  [[nodiscard]] Targets target() const override { return target_; }
+  [[nodiscard]] Offsets offset() const override;
   [[nodiscard]] Pose position() const override;
   [[nodiscard]] Approach approach() const override;
-  [[nodiscard]] double following_error_nm() const override;
+  [[nodiscard]] double following_error() const override;
+  [[nodiscard]] Latches latches() const override;
   [[nodiscard]] bool ramping() const override;
 
   [[nodiscard]] BusController& controller() { return controller_; }
@@ -44,6 +47,12 @@ class BusAxes final : public AxisGroup {
   [[nodiscard]] Cia402Drive& drive(std::size_t a) { return *drive_.at(a); }
   // The node in this process; nullptr when it is elsewhere.
   [[nodiscard]] const node::Node* node() const { return node_.get(); }
+
+  // Puts a probe on the tool, instead of any other; its signal reaches every drive. The drives
+  // latch it only when the settings say that the machine probes.
+  void mount(TouchProbe probe);
+  // The line from the probe to one drive is broken, or whole again.
+  void break_probe_line(std::size_t a, bool broken) { line_broken_.at(a) = broken; }
 
   // Without power: off the bus until it comes back, then as after any power-on.
   void power_drive(std::size_t a, bool on);
@@ -57,7 +66,12 @@ class BusAxes final : public AxisGroup {
 
  private:
   void build(const BusSettings& settings);
+  void attach(const Cia402Drive::Settings& settings, const std::string& name);
   void await_node();
+  void serve_drives(std::uint64_t now_us);
+  void feel();
+  [[nodiscard]] std::int64_t drive_units(std::size_t a, std::int64_t run_time_units) const;
+  [[nodiscard]] std::vector<std::int32_t> on_wire(const Targets& target) const;
 
   double period_us_;
   SimulatedBus bus_;
@@ -68,18 +82,29 @@ class BusAxes final : public AxisGroup {
   std::unique_ptr<node::Node> node_;  // in this process
   CanGateway* gateway_ = nullptr;
   SimulatedBus::Port* gateway_port_ = nullptr;
-  TargetsNm target_{};
+  std::optional<TouchProbe> probe_;
+  std::array<bool, kMostAxes> line_broken_{};
+  Stance felt_{};                         // where the probe has felt last
+  std::uint64_t served_ns_ = UINT64_MAX;  // when the drives were, with a probe
+  std::uint64_t felt_periods_ = 0;        // of all drives together
+  Targets target_{};
   std::uint64_t next_sync_ns_ = 0;
   std::uint64_t cycles_ = 0;
   bool up_ = false;
 };
 
-// Cell factories for the scenarios.
-[[nodiscard]] CellFactory loopback_cells(const MachineFile& machine, double cycle_hz);
-[[nodiscard]] CellFactory gateway_cells(const MachineFile& machine, double cycle_hz,
-                                        CanGateway& gateway);
+// Puts the axes of a machine on a bus, with the node wherever it is.
+using BusAxesFactory = std::function<std::unique_ptr<BusAxes>(
+    const BusSettings& settings, const std::vector<std::uint8_t>& image)>;
+[[nodiscard]] BusAxesFactory loopback_axes();
+[[nodiscard]] BusAxesFactory gateway_axes(CanGateway& gateway);  // must outlive the axes
 
-// Cycle on the bus: 500 Hz for three axes (architecture page: 1 Mbit/s).
+// Cells for the scenarios, whatever their axes are.
+[[nodiscard]] CellFactory bus_cells(const MachineFile& machine, double cycle_hz,
+                                    BusAxesFactory make_axes = loopback_axes());
+
+// Cycle on the bus at 1 Mbit/s: 500 Hz for three axes, 250 Hz for up to five.
 inline constexpr double kBusCycle_hz = 500.0;
+inline constexpr double kBusCycleOfFive_hz = 250.0;
 
 }  // namespace volcomp::sim

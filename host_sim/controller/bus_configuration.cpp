@@ -20,6 +20,23 @@ namespace {
 // 60A8h: prefix 10^-9, unit metre (CiA 303-2).
 constexpr std::uint32_t kNanometre = 0xF701'0000;
 
+// Every rising edge is latched; position and instant, then count and following error, go out at the
+// SYNC after it and at no other.
+void arm_probe(SdoChannel& sdo, std::uint8_t drive) {
+  constexpr std::uint16_t kRisingContinuously = 0x0013;
+  constexpr std::uint8_t kAtNextSync = 0;
+  const auto report = [&sdo](std::uint16_t pdo, std::uint32_t id, const std::string& name) {
+    sdo.write_value<std::uint32_t>({pdo, 1}, id | canopen::kPdoInvalid, name + " off");
+    sdo.write_value<std::uint8_t>({pdo, 2}, kAtNextSync, name + " type");
+    sdo.write_value<std::uint32_t>({pdo, 1}, id, name + " on");
+  };
+  const std::uint32_t base = canopen::kPdoNoRtr | drive;
+  report(0x1801, base | canopen::kTpdo2, "latch PDO");
+  report(0x1802, base | canopen::kTpdo3, "edge counter PDO");
+  sdo.write_value<std::uint16_t>({0x60B8, 0}, 0, "touch probe off");
+  sdo.write_value<std::uint16_t>({0x60B8, 0}, kRisingContinuously, "touch probe function");
+}
+
 }  // namespace
 
 void BusController::configure(Station& s) {
@@ -80,7 +97,7 @@ void BusController::check_scaling(Station& s, std::size_t axis) {
                      if (i + 1 < ratio->size()) return;
                      // 6092h counts position units per revolution of the shaft, which is the axis.
                      const double per_turn = (*ratio)[2] / (*ratio)[3];
-                     const double expected = static_cast<double>(volcomp::kUnitsPerTurn) *
+                     const double expected = static_cast<double>(kUnitsPerTurn) *
                                              static_cast<double>(a.scale_denominator) /
                                              static_cast<double>(a.scale_numerator);
                      if (std::abs(per_turn - expected) > 0.5)
@@ -103,6 +120,7 @@ void BusController::configure_drive(Station& s, std::size_t axis) {
                                    "upper software limit");
   }
   set_mode(sdo, axis, kHomingMode);
+  if (settings_.probes) arm_probe(sdo, a.drive);
 }
 
 void BusController::configure_node(SdoChannel& sdo) {
@@ -140,6 +158,7 @@ void BusController::configure_node(SdoChannel& sdo) {
     sdo.write_value<std::uint16_t>({kStatus, 3}, 0, "status PDO without inhibit time");
     sdo.write_value<std::uint32_t>({kStatus, 1}, id, "status PDO on");
   }
+  if (node_probe_) queue_probe(sdo, *node_probe_);
   if (!image_.empty()) queue_tables(sdo);
 }
 
@@ -160,17 +179,16 @@ BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
   b.machine_id = machine.id;
   CorrectionFile correction = machine.correction;
   correction.tick_hz = cycle_hz;
-  b.limits = compensator_settings(correction);
-  if (machine.axes.size() > LoadedCompensator::kAxes) {
-    throw UserError(fmt::format("{}: a node on the bus has room for {} axes, this machine has {}",
-                                machine.path, LoadedCompensator::kAxes, machine.axes.size()));
-  }
-  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+  b.probes = machine.probe.has_value();
+  const AxisKinds kinds = axis_kinds(machine.chain);
+  b.limits = compensator_settings(correction, kinds);
+  for (std::size_t i = 0; i < kinds.count; ++i) {
     BusAxis a;
     a.letter = machine.axes[i].letter;
     a.drive = static_cast<std::uint8_t>(i + 1);
-    a.rotary = machine.chain.axis(i).kind == JointKind::rotary;
+    a.rotary = kinds.rotary[i];
     if (a.rotary) a.scale_numerator = 512;  // 2^31 units per turn on the wire, 2^40 inside
+    a.latch_delay_ns = std::llround(1000.0 * machine.axes[i].latch_delay_us);
     b.axes.push_back(a);
   }
   return b;

@@ -16,19 +16,18 @@ using canopen::NmtState;
 
 namespace {
 
-constexpr std::uint8_t kCounterOverflow = 240;
 constexpr std::uint64_t kRetryPause_us = 200'000;
 constexpr std::uint64_t kResetPause_us = 1'000'000;
+// SDO frames per cycle to a node that runs. More of them, and their answers, leave no gap on the
+// bus for a heartbeat; a drive whose controller sends in the order of its queue then keeps its
+// position back behind it for cycles.
+constexpr int kMostNodeRequests = 6;
 constexpr int kUnheededStarts = 3;  // heartbeats before a node that should run is started again
-
-std::uint64_t le(const hal::CanFrame& frame, std::size_t at, std::size_t count) {
-  return canopen::load_le(&frame.data.at(at), count);
-}
 
 }  // namespace
 
 BusController::BusController(BusSettings settings, std::vector<std::uint8_t> image)
-    : settings_(std::move(settings)), axis_(settings_.axes.size()) {
+    : settings_(std::move(settings)), axis_(settings_.axes.size()), probe_(settings_.axes.size()) {
   stations_.reserve(settings_.axes.size() + 1);
   for (const BusAxis& axis : settings_.axes)
     stations_.emplace_back(axis.drive, fmt::format("drive {} (node {})", axis.letter, axis.drive));
@@ -41,6 +40,12 @@ void BusController::load_tables(std::vector<std::uint8_t> image) {
   image_crc_ = image_crc({image_.data(), image_.size()});
   Station& node = stations_.back();
   if (node.phase == Station::Phase::running && !image_.empty()) queue_tables(node.channel);
+}
+
+void BusController::use_probe(const NodeProbe& probe) {
+  node_probe_ = probe;
+  Station& node = stations_.back();
+  if (node.phase == Station::Phase::running) queue_probe(node.channel, probe);
 }
 
 void BusController::command(NmtCommand what, std::uint8_t node) {
@@ -82,30 +87,13 @@ void BusController::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
       emergencies_.push_back(
           {now_us,
            node,
-           static_cast<std::uint16_t>(le(frame, 0, 2)),
+           static_cast<std::uint16_t>(canopen::load_le(frame.data.data(), 2)),
            frame.data[2],
            {frame.data[3], frame.data[4], frame.data[5], frame.data[6], frame.data[7]}});
       return;
     default:
-      take_drive_pdo(frame);
+      take_process_data(frame);
       return;
-  }
-}
-
-void BusController::take_drive_pdo(const hal::CanFrame& frame) {
-  if (frame.id == canopen::kTpdo1 + settings_.node && frame.size == 8) {
-    report_ = {static_cast<std::uint32_t>(le(frame, 0, 4)), frame.data[4], frame.data[5],
-               static_cast<std::uint16_t>(le(frame, 6, 2)), report_.count + 1};
-    return;
-  }
-  for (std::size_t a = 0; a < axis_.size(); ++a) {
-    const std::uint8_t drive = settings_.axes[a].drive;
-    if (frame.id == canopen::kTpdo1 + drive && frame.size == 8) {
-      axis_[a].actual(static_cast<std::int32_t>(le(frame, 0, 4)),
-                      static_cast<std::uint16_t>(le(frame, 4, 2)));
-    } else if (frame.id == canopen::kTpdo1 + 0x300 + drive && frame.size == 4) {
-      axis_[a].held(static_cast<std::int32_t>(le(frame, 0, 4)));
-    }
   }
 }
 
@@ -213,7 +201,9 @@ bool BusController::offer(hal::CanFrame& frame, std::uint64_t /*now_us*/) {
     return true;
   }
   for (Station& s : stations_) {
-    if (!s.channel.offer(frame)) continue;
+    const bool enough =
+        !is_drive(s) && s.phase == Station::Phase::running && node_requests_ >= kMostNodeRequests;
+    if (enough || !s.channel.offer(frame)) continue;
     offered_sdo_ = &s.channel;
     return true;
   }
@@ -223,28 +213,10 @@ bool BusController::offer(hal::CanFrame& frame, std::uint64_t /*now_us*/) {
 void BusController::taken(std::uint64_t /*now_us*/) {
   if (offered_sdo_ != nullptr) {
     offered_sdo_->taken();
+    if (offered_sdo_ == &stations_.back().channel) ++node_requests_;
   } else {
     outgoing_.pop_front();
   }
-}
-
-void BusController::send_sync() {
-  counter_ = static_cast<std::uint8_t>(counter_ % kCounterOverflow + 1);
-  send_latest({canopen::kSync, 1, {counter_}});
-}
-
-void BusController::send_targets(const std::vector<std::int32_t>& path) {
-  for (std::size_t a = 0; a < axis_.size(); ++a) {
-    if (stations_[a].phase != Station::Phase::running) continue;
-    axis_[a].step(path.at(a));
-    hal::CanFrame frame;
-    frame.id = static_cast<std::uint16_t>(canopen::kRpdo1 + settings_.axes[a].drive);
-    frame.size = 6;
-    canopen::store_le(frame.data.data(), 2, axis_[a].control_word());
-    canopen::store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()));
-    send_latest(frame);
-  }
-  set_modes();
 }
 
 // The mode of operation is not in a PDO: one SDO at a time.

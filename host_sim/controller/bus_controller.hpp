@@ -4,10 +4,12 @@
 // and lets the axes move only while all of them work.
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "host_sim/controller/axis_commander.hpp"
 #include "host_sim/controller/bus_settings.hpp"
+#include "host_sim/controller/node_probe.hpp"
 #include "host_sim/controller/station.hpp"
 
 namespace volcomp::sim {
@@ -19,6 +21,15 @@ struct NodeReport {
   std::uint8_t sync_counter = 0;  // of the cycle it belongs to
   std::uint16_t any_status = 0;   // StatusBit of all axes together
   std::uint64_t count = 0;        // reports so far
+};
+
+// What a drive has said about its touch probe input.
+struct ProbeReport {
+  std::uint16_t status = 0;   // 60B9h
+  std::int32_t position = 0;  // 60BAh
+  std::uint32_t time_ns = 0;  // 60D1h
+  std::uint16_t edges = 0;    // 60D5h
+  std::uint64_t latches = 0;  // reports of 60BAh and 60D1h so far
 };
 
 class BusController {
@@ -41,6 +52,12 @@ class BusController {
   void power_on(std::uint64_t now_us);
   // Tables to work with from now on; downloaded at once to a node that runs.
   void load_tables(std::vector<std::uint8_t> image);
+  // Settings of the node's probe from now on, written at once to a node that runs.
+  void use_probe(const NodeProbe& probe);
+  // What the node has made of touches since the last call.
+  [[nodiscard]] std::vector<NodePoint> take_points() { return points_.take_points(); }
+  // Everything else that is read and written of the node's objects.
+  [[nodiscard]] SdoChannel& node_objects() { return stations_.back().channel; }
 
   // Everybody runs, every axis follows its path, the node compensates (or was given no tables).
   [[nodiscard]] bool motion_allowed() const;
@@ -50,6 +67,7 @@ class BusController {
   [[nodiscard]] std::uint8_t sync_counter() const { return counter_; }
   [[nodiscard]] const NodeReport& report() const { return report_; }
   [[nodiscard]] const AxisCommander& axis(std::size_t a) const { return axis_.at(a); }
+  [[nodiscard]] const ProbeReport& probe(std::size_t a) const { return probe_.at(a); }
   [[nodiscard]] const Station& node() const { return stations_.back(); }
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }  // drives, node
   [[nodiscard]] const std::vector<EmergencyRecord>& emergencies() const { return emergencies_; }
@@ -60,7 +78,8 @@ class BusController {
   [[nodiscard]] Station* station(std::uint8_t id);
   [[nodiscard]] bool is_drive(const Station& s) const { return s.id != settings_.node; }
   void take_heartbeat(Station& s, std::uint8_t state, std::uint64_t now_us);
-  void take_drive_pdo(const hal::CanFrame& frame);
+  void take_process_data(const hal::CanFrame& frame);
+  void take_drive_pdo(std::size_t a, const hal::CanFrame& frame);
   void supervise(Station& s, std::uint64_t now_us);
   void call_back(Station& s, std::uint64_t now_us);
   void retry_tables(Station& s, std::uint64_t now_us);
@@ -77,7 +96,10 @@ class BusController {
   BusSettings settings_;
   std::vector<std::uint8_t> image_;
   std::uint32_t image_crc_ = 0;
+  std::optional<NodeProbe> node_probe_;
+  PointReader points_;
   std::vector<AxisCommander> axis_;
+  std::vector<ProbeReport> probe_;
   std::vector<Station> stations_;
   std::deque<hal::CanFrame> outgoing_;
   SdoChannel* offered_sdo_ = nullptr;
@@ -85,6 +107,7 @@ class BusController {
   NodeReport report_;
   std::uint64_t next_heartbeat_us_ = 0;
   std::uint8_t counter_ = 0;
+  int node_requests_ = 0;  // SDO frames to the running node in this cycle
 };
 
 }  // namespace volcomp::sim

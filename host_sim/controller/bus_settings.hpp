@@ -18,6 +18,7 @@ struct BusAxis {
   std::uint32_t scale_denominator = 1;
   std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
   std::int32_t highest = 0;
+  std::int64_t latch_delay_ns = 0;  // of the touch probe input
 };
 
 struct BusSettings {
@@ -30,6 +31,7 @@ struct BusSettings {
   std::uint16_t heartbeat_timeout_ms = 350;
   std::uint32_t machine_id = 0;
   std::vector<BusAxis> axes;
+  bool probes = false;  // the drives latch the rising edges of a touch probe and report them
   CompensatorSettings<LoadedCompensator::kAxes> limits{};  // per cycle of this period
 };
 

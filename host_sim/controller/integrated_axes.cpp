@@ -10,18 +10,18 @@
 namespace volcomp::sim {
 namespace {
 
-std::unique_ptr<LoadedCompensator> make_compensator(const CorrectionFile& settings,
+std::unique_ptr<LoadedCompensator> make_compensator(const LoadedCompensator::Settings& settings,
                                                     const std::vector<std::uint8_t>& image) {
   if (image.empty()) {
     auto idle = std::make_unique<LoadedCompensator>();
-    require(idle->configure(compensator_settings(settings)), "[correction]");
+    require(idle->configure(settings), "[correction]");
     return idle;
   }
   const auto tables = std::make_unique<MachineTables>();
   require(decode_image(image, kDefaultKnots, *tables), "table image");
   auto compensator =
       std::make_unique<LoadedCompensator>(LoadedMachine<5>{make_runtime_chain(tables->machine)});
-  require(compensator->configure(compensator_settings(settings)), "[correction]");
+  require(compensator->configure(settings), "[correction]");
   const Vec3 tool = Eigen::Map<const Vec3>(tables->machine.tool_point.data());
   const std::uint32_t crc = image_crc(image);
   require(compensator->stage(*tables, tool, crc), "table image");
@@ -29,32 +29,56 @@ std::unique_ptr<LoadedCompensator> make_compensator(const CorrectionFile& settin
   return compensator;
 }
 
+// What a machine file says about the correction of one axis: mm or rad.
+struct AxisCorrection {
+  double limit;
+  double rate_per_s;
+  double hysteresis;
+  double max_speed_per_s;
+};
+
+// Offsets of a rotary axis count in 2^-32 turn, its positions in 2^-40 turn.
+AxisLimits in_units(const AxisCorrection& c, bool rotary, double period_s, double ramp_s) {
+  const double position_units = rotary ? kUnitsPerRad : kNmPerMm;
+  const double offset_units = rotary ? kUnitsPerRad / 256.0 : kNmPerMm;
+  const auto offset = [offset_units](double value) {
+    return static_cast<std::int32_t>(
+        std::min<std::int64_t>(to_units(value, offset_units), INT32_MAX));
+  };
+  AxisLimits l;
+  l.limit = offset(c.limit);
+  l.rate = std::max(1, offset(c.rate_per_s * period_s));
+  l.soft_rate = std::max(1, std::min(l.rate, offset(c.limit * period_s / ramp_s)));
+  l.hysteresis = offset(c.hysteresis);
+  // seed 001, bad input: a jump beyond v_max·Δt·2
+  l.max_step = to_units(2.0 * c.max_speed_per_s * period_s, position_units);
+  return l;
+}
+
 }  // namespace
 
-LoadedCompensator::Settings compensator_settings(const CorrectionFile& c) {
+LoadedCompensator::Settings compensator_settings(const CorrectionFile& c, const AxisKinds& kinds) {
   LoadedCompensator::Settings s;
   const double period = 1.0 / c.tick_hz;
-  for (AxisLimits& l : s.axis) {
-    l.limit = static_cast<std::int32_t>(to_nm(c.limit_mm));
-    l.rate = static_cast<std::int32_t>(std::max<std::int64_t>(1, to_nm(c.rate_mm_per_s * period)));
-    l.soft_rate = std::max(
-        1, std::min(l.rate, static_cast<std::int32_t>(to_nm(c.limit_mm * period / c.ramp_s))));
-    l.hysteresis = static_cast<std::int32_t>(to_nm(c.hysteresis_mm));
-    l.max_step = to_nm(2.0 * c.max_speed_mm_per_s *
-                       period);  // seed 001, bad input: a jump beyond v_max·Δt·2
+  for (std::size_t a = 0; a < s.axis.size(); ++a) {
+    const AxisCorrection values =
+        kinds.rotary[a]
+            ? AxisCorrection{c.limit_rad, c.rate_rad_per_s, c.hysteresis_rad, c.max_speed_rad_per_s}
+            : AxisCorrection{c.limit_mm, c.rate_mm_per_s, c.hysteresis_mm, c.max_speed_mm_per_s};
+    s.axis[a] = in_units(values, kinds.rotary[a], period, c.ramp_s);
   }
   s.ramp_ticks = static_cast<std::uint32_t>(std::max(1.0, std::round(c.ramp_s * c.tick_hz)));
   return s;
 }
 
-IntegratedAxes::IntegratedAxes(const CorrectionFile& settings,
+IntegratedAxes::IntegratedAxes(const AxisKinds& kinds, const CorrectionFile& settings,
                                const std::vector<std::uint8_t>& image)
     : period_s_(1.0 / settings.tick_hz),
-      axes_(period_s_, kDriveTimeConstant_s),
-      compensator_(make_compensator(settings, image)),
+      axes_(kinds, period_s_, kDriveTimeConstant_s),
+      compensator_(make_compensator(compensator_settings(settings, kinds), image)),
       loop_(*compensator_, axes_) {}
 
-void IntegratedAxes::cycle(const TargetsNm& target) {
+void IntegratedAxes::cycle(const Targets& target) {
   axes_.set_target(target);
   loop_.on_servo_interrupt();
 }
@@ -65,7 +89,8 @@ bool IntegratedAxes::ramping() const { return (loop_.last_output().status[0] & k
 std::unique_ptr<MotionCell> make_integrated_cell(const TrueMachine& machine,
                                                  const CorrectionFile& correction,
                                                  const std::vector<std::uint8_t>& image) {
-  return std::make_unique<MotionCell>(machine, std::make_unique<IntegratedAxes>(correction, image));
+  auto axes = std::make_unique<IntegratedAxes>(axis_kinds(machine.chain), correction, image);
+  return std::make_unique<MotionCell>(machine, std::move(axes));
 }
 
 }  // namespace volcomp::sim

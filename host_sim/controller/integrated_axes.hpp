@@ -18,17 +18,18 @@ class IntegratedAxes final : public AxisGroup {
  public:
   // `image`: table image of the compensation, empty for an uncompensated machine. The image goes
   // the whole way: decoded, validated, folded, activated, ramped in. Throws UserError.
-  IntegratedAxes(const CorrectionFile& settings, const std::vector<std::uint8_t>& image);
+  IntegratedAxes(const AxisKinds& kinds, const CorrectionFile& settings,
+                 const std::vector<std::uint8_t>& image);
 
-  void stand_at(const Vec3& mm) override { axes_.stand_at(to_targets(mm)); }
-  void cycle(const TargetsNm& target) override;
+  void stand_at(const Pose& pose) override { axes_.stand_at(pose); }
+  void cycle(const Targets& target) override;
   [[nodiscard]] double period_s() const override { return period_s_; }
 
-  [[nodiscard]] TargetsNm target_nm() const override { return axes_.target_nm(); }
-  [[nodiscard]] OffsetsNm offset_nm() const override { return axes_.offset_nm(); }
+  [[nodiscard]] Targets target() const override { return axes_.target(); }
+  [[nodiscard]] Offsets offset() const override { return axes_.offset(); }
   [[nodiscard]] Pose position() const override { return axes_.position(); }
   [[nodiscard]] Approach approach() const override { return axes_.approach(); }
-  [[nodiscard]] double following_error_nm() const override { return axes_.following_error_nm(); }
+  [[nodiscard]] double following_error() const override { return axes_.following_error(); }
   [[nodiscard]] bool ramping() const override;
 
  private:
@@ -43,7 +44,8 @@ class IntegratedAxes final : public AxisGroup {
     const TrueMachine& machine, const CorrectionFile& correction,
     const std::vector<std::uint8_t>& image);
 
-// Settings of the compensator for a machine file: mm and seconds turned into units and ticks.
-[[nodiscard]] LoadedCompensator::Settings compensator_settings(const CorrectionFile& correction);
+// Settings of the compensator for a machine file: mm, rad and seconds turned into units and ticks.
+[[nodiscard]] LoadedCompensator::Settings compensator_settings(const CorrectionFile& correction,
+                                                               const AxisKinds& kinds);
 
 }  // namespace volcomp::sim

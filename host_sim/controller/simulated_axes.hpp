@@ -1,15 +1,14 @@
 #pragma once
-// Three simulated axes behind the HAL of the integrated form: targets go to the compensator, its
-// offsets to the drives.
+// Simulated axes behind the HAL of the integrated form: targets go to the compensator, its offsets
+// to the drives.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
-#include "comp/realtime/instances.hpp"
 #include "comp/units.hpp"
-#include "host_sim/controller/axis_group.hpp"
-#include "host_sim/drives/axis_drive.hpp"
+#include "host_sim/drives/cia402_axis.hpp"
+#include "host_sim/machine/true_machine.hpp"
 
 namespace volcomp::sim {
 
@@ -17,59 +16,69 @@ class SimulatedAxes {
  public:
   static constexpr std::size_t kSlots = LoadedCompensator::kAxes;
 
-  SimulatedAxes(double period_s, double time_constant_s)
-      : drive_{AxisDrive(period_s, time_constant_s), AxisDrive(period_s, time_constant_s),
-               AxisDrive(period_s, time_constant_s)} {}
+  SimulatedAxes(const AxisKinds& kinds, double period_s, double time_constant_s)
+      : kinds_(kinds), drive_(kinds.count, AxisDrive(period_s, time_constant_s)) {}
 
   // --- the controller's side
-  void set_target(const TargetsNm& target) { target_nm_ = target; }
-  void stand_at(const TargetsNm& position) {
-    set_target(position);
-    for (std::size_t a = 0; a < kGroupAxes; ++a)
-      drive_[a].stand_at(target_nm_[a]);
+  void set_target(const Targets& target) { target_ = target; }
+  void stand_at(const Pose& pose) {
+    set_target(kinds_.targets(pose));
+    for (std::size_t a = 0; a < drive_.size(); ++a)
+      drive_[a].stand_at(drive_units(a, target_[a]));
   }
 
   // --- the compensation's side (hal/axis_port.hpp)
   void sample(TickInput<kSlots>& in) const {
-    for (std::size_t a = 0; a < kGroupAxes; ++a)
-      in.axis[a] = {target_nm_[a], true, true};
+    for (std::size_t a = 0; a < drive_.size(); ++a)
+      in.axis[a] = {target_[a], true, true};
   }
   void apply(const TickOutput<kSlots>& out) {
-    for (std::size_t a = 0; a < kGroupAxes; ++a) {
-      offset_nm_[a] = out.offset[a];
-      drive_[a].command(target_nm_[a] + out.offset[a]);
+    // Offsets of rotary axes come in 2^-32 turn.
+    constexpr std::int64_t kFiner = 256;
+    for (std::size_t a = 0; a < drive_.size(); ++a) {
+      offset_[a] = out.offset[a] * (kinds_.rotary[a] ? kFiner : 1);
+      drive_[a].command(drive_units(a, target_[a] + offset_[a]));
     }
   }
 
   // --- what the world sees
-  [[nodiscard]] const TargetsNm& target_nm() const { return target_nm_; }
-  [[nodiscard]] const OffsetsNm& offset_nm() const { return offset_nm_; }
+  [[nodiscard]] const Targets& target() const { return target_; }
+  [[nodiscard]] const Offsets& offset() const { return offset_; }
   [[nodiscard]] Pose position() const {
     Pose q{};
-    for (std::size_t a = 0; a < kGroupAxes; ++a)
-      q[a] = drive_[a].position_mm();
+    for (std::size_t a = 0; a < drive_.size(); ++a)
+      q[a] = kinds_.rotary[a] ? counted(a) * (2.0 * kPi / kDriveUnitsPerTurn)
+                              : drive_[a].position_mm();
     return q;
   }
   [[nodiscard]] Approach approach() const {
     Approach from{};
-    for (std::size_t a = 0; a < kGroupAxes; ++a)
+    for (std::size_t a = 0; a < drive_.size(); ++a)
       from[a] = drive_[a].approach();
     return from;
   }
-  // Largest distance between an axis and its command.
-  [[nodiscard]] double following_error_nm() const {
+  // Largest distance between an axis and its command, drive units.
+  [[nodiscard]] double following_error() const {
     double worst = 0.0;
-    for (std::size_t a = 0; a < kGroupAxes; ++a) {
-      const auto commanded = static_cast<double>(target_nm_[a] + offset_nm_[a]);
-      worst = std::max(worst, std::abs(commanded - drive_[a].position_mm() * kNmPerMm));
+    for (std::size_t a = 0; a < drive_.size(); ++a) {
+      const auto commanded = static_cast<double>(drive_units(a, target_[a] + offset_[a]));
+      worst = std::max(worst, std::abs(commanded - counted(a)));
     }
     return worst;
   }
 
  private:
-  std::array<AxisDrive, kGroupAxes> drive_;
-  TargetsNm target_nm_{};
-  OffsetsNm offset_nm_{};
+  // Nearest unit of the drive, 1 nm or 2^-31 turn.
+  [[nodiscard]] std::int64_t drive_units(std::size_t a, std::int64_t run_time_units) const {
+    if (!kinds_.rotary[a]) return run_time_units;
+    return (run_time_units + 256) >> 9;
+  }
+  [[nodiscard]] double counted(std::size_t a) const { return drive_[a].position_mm() * kNmPerMm; }
+
+  AxisKinds kinds_;
+  std::vector<AxisDrive> drive_;
+  Targets target_{};
+  Offsets offset_{};
 };
 
 }  // namespace volcomp::sim

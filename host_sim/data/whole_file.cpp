@@ -27,4 +27,11 @@ void write_whole_file(const std::filesystem::path& path, std::string_view conten
   throw UserError(fmt::format("{}: cannot be written", path.string()));
 }
 
+void create_folder(const std::filesystem::path& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(path, failed);
+  if (failed)
+    throw UserError(fmt::format("{}: cannot be created: {}", path.string(), failed.message()));
+}
+
 }  // namespace volcomp::sim

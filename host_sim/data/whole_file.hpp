@@ -10,4 +10,7 @@ namespace volcomp::sim {
 // a failure.
 void write_whole_file(const std::filesystem::path& path, std::string_view content);
 
+// With those above it; one that exists is fine. Throws UserError naming it.
+void create_folder(const std::filesystem::path& path);
+
 }  // namespace volcomp::sim

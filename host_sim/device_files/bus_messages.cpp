@@ -117,8 +117,9 @@ void add_axis(const BusAxis& axis, std::vector<BusMessage>& messages) {
       "Compensation, takes effect with the command at the next SYNC");
   add(transmit[0], "Actual", drive, {kController, kNode},
       "As of the last SYNC; the position contains the offset");
-  add(transmit[1], "Probe", drive, {kController}, "Position latched by touch probe 1, and when");
-  add(transmit[2], "ProbeCounter", drive, {kController}, "Edges of touch probe 1 so far");
+  add(transmit[1], "Probe", drive, {kController, kNode},
+      "Position latched by touch probe 1, and when");
+  add(transmit[2], "ProbeCounter", drive, {kController, kNode}, "Edges of touch probe 1 so far");
   add(transmit[3], "HeldOffset", drive, {kNode}, "The offset the drive adds since the last SYNC");
 }
 
@@ -126,6 +127,17 @@ BusMessage node_status(const BusSettings& bus) {
   const PdoParameters pdo = node::default_transmit_pdo(node::kStatusPdo, {}, bus.node);
   return process_data(pdo, node::node_dictionary(), false,
                       {"Node_Status", kNode, {kController}, "State of the compensation"});
+}
+
+void add_points(const BusSettings& bus, std::vector<BusMessage>& messages) {
+  const auto add = [&](std::size_t part, const char* name, const char* comment) {
+    const PdoParameters pdo = node::default_transmit_pdo(node::kFirstPointPdo + part, {}, bus.node);
+    const Wire wire{name, kNode, {kController}, comment};
+    messages.push_back(process_data(pdo, node::node_dictionary(), false, wire));
+  };
+  add(0, "Point", "What became of the latest touch");
+  add(1, "Point_XY", "Workpiece coordinates of the latest point");
+  add(2, "Point_Z", "Workpiece coordinate of the latest point, and how sure it is");
 }
 
 // --- services
@@ -249,6 +261,7 @@ std::vector<BusMessage> bus_messages(const BusSettings& bus) {
   check(bus);
   std::vector<BusMessage> messages{nmt_command(bus), sync(bus), node_status(bus),
                                    heartbeat(bus, bus.controller, kController, kController)};
+  add_points(bus, messages);
   add_services(bus, bus.node, kNode, kNode, messages);
   for (const BusAxis& axis : bus.axes) {
     add_axis(axis, messages);

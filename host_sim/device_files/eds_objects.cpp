@@ -1,6 +1,7 @@
 #include "host_sim/device_files/eds_objects.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -29,12 +30,23 @@ constexpr std::uint16_t kSdoServer = 0x1200;
 // Of objects whose values have names of their own; of standard objects as in CiA 301.
 std::string_view title(std::uint16_t index) {
   static const std::map<std::uint16_t, std::string_view> titles{
-      {0x1003, "Pre-defined error field"},    {0x1010, "Store parameters"},
-      {0x1011, "Restore default parameters"}, {0x1018, "Identity object"},
-      {0x1020, "Verify configuration"},       {0x1029, "Error behaviour object"},
-      {0x1200, "SDO server parameter"},       {0x2000, "Machine and identity"},
-      {0x2110, "Staged table image"},         {0x2112, "Tables: state, last refusal, active image"},
-      {0x2200, "Limits and ramps"},           {0x2600, "Diagnostics"}};
+      {0x1003, "Pre-defined error field"},
+      {0x1010, "Store parameters"},
+      {0x1011, "Restore default parameters"},
+      {0x1018, "Identity object"},
+      {0x1020, "Verify configuration"},
+      {0x1029, "Error behaviour object"},
+      {0x1200, "SDO server parameter"},
+      {0x2000, "Machine and identity"},
+      {0x2110, "Staged table image"},
+      {0x2112, "Tables: state, last refusal, active image"},
+      {0x2200, "Limits and ramps"},
+      {0x2300, "Probe"},
+      {0x2310, "Feature"},
+      {0x2400, "Points"},
+      {0x2401, "Latest point"},
+      {0x2410, "Points that wait"},
+      {0x2600, "Diagnostics"}};
   const auto found = titles.find(index);
   return found == titles.end() ? std::string_view{} : found->second;
 }
@@ -52,7 +64,9 @@ std::string value_name(const Entry& row, std::uint8_t sub) {
   if (row.first_sub == row.last_sub) return name;
   if (row.index < 0x2000) return fmt::format("{} {}", name, sub);
   if (row.last_sub == kStatusBits) return fmt::format("{} (bit {})", name, sub - 1);
-  return fmt::format("{} (axis {})", name, sub);
+  const bool axes = row.first_sub == 1 && row.last_sub == node::kNodeAxes;
+  return axes ? fmt::format("{} (axis {})", name, sub)
+              : fmt::format("{} {}", name, sub - row.first_sub + 1);
 }
 
 // --- values
@@ -100,6 +114,11 @@ std::optional<std::string> Twins::text(ObjectId object, DataType type) const {
   if (size == 0) return std::nullopt;  // a domain
   if (canopen::is_signed(type))
     return fmt::format("{}", canopen::load_le_signed(mine.data(), size));
+  if (type == DataType::real64) {
+    double value = 0.0;
+    std::memcpy(&value, mine.data(), sizeof value);
+    return fmt::format("{}", value);
+  }
   const std::uint64_t value = canopen::load_le(mine.data(), size);
   if (mine != bytes(*second_, object)) return fmt::format("$NODEID+0x{:X}", value - kFirst);
   const bool identifier = object.index < 0x2000 && type == DataType::unsigned32;

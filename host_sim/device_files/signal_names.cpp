@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/realtime/touch.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/nmt.hpp"
 #include "firmware/node/node_objects.hpp"
@@ -37,6 +38,14 @@ const std::vector<SignalText>& texts() {
       {{0x60D5, 0}, "EdgeCounter", Quantity::count},
       {{0x60F4, 0}, "FollowingError", Quantity::position},
       {{0x2112, 7}, "ActiveCrc", Quantity::code},
+      {{0x2401, 1}, "PointNumber", Quantity::count},
+      {{0x2401, 2}, "Verdict", Quantity::code, nullptr, touch_verdicts()},
+      {{0x2401, 3}, "VerdictAxis", Quantity::code, "From 1; 0: none in particular"},
+      {{0x2401, 4}, "Feature", Quantity::code, "Low half of 2310h:01"},
+      {{0x2401, 5}, "PointX", Quantity::position},
+      {{0x2401, 6}, "PointY", Quantity::position},
+      {{0x2401, 7}, "PointZ", Quantity::position},
+      {{0x2401, 8}, "PointUncertainty", Quantity::position, "Largest of the three coordinates"},
       {{0x2600, 1}, "NodeState", Quantity::code, nullptr, node_states()},
       {{0x2600, 2}, "SyncCounter", Quantity::count},
       {{0x2600, 3}, "AxisStatusBits", Quantity::code, kStatusBitNames}};
@@ -79,6 +88,13 @@ ValueNames node_states() {
           named(NodeState::overdue, "background overdue")};
 }
 
+ValueNames touch_verdicts() {
+  ValueNames names;
+  for (std::uint8_t v = 0; v < kTouchVerdicts; ++v)
+    names.emplace_back(v, code(static_cast<TouchVerdict>(v)));
+  return names;
+}
+
 ValueNames error_codes() {
   using canopen::ErrorCode;
   return {named(ErrorCode::none, "error gone"),
@@ -101,7 +117,9 @@ ValueNames error_codes() {
           named(ErrorCode::table_refused, "table refused"),
           named(ErrorCode::table_damaged, "active tables damaged"),
           named(ErrorCode::foreign_sync, "second SYNC producer"),
-          named(ErrorCode::offset_not_confirmed, "drive does not report its offset")};
+          named(ErrorCode::offset_not_confirmed, "drive does not report its offset"),
+          named(ErrorCode::touch_rejected, "touch rejected"),
+          named(ErrorCode::point_lost, "probed point lost")};
 }
 
 }  // namespace volcomp::sim

@@ -22,6 +22,7 @@ struct SignalText {
 [[nodiscard]] ValueNames nmt_states();
 [[nodiscard]] ValueNames nmt_commands();
 [[nodiscard]] ValueNames node_states();
+[[nodiscard]] ValueNames touch_verdicts();
 [[nodiscard]] ValueNames error_codes();
 
 }  // namespace volcomp::sim

@@ -11,7 +11,7 @@
 namespace volcomp::sim {
 
 // Position units: 1 nm of a linear axis; 2⁻³¹ turn of a rotary one, counted through.
-inline constexpr double kUnitsPerTurn = 2147483648.0;
+inline constexpr double kDriveUnitsPerTurn = 2147483648.0;
 
 // As INTEGER32 on the bus: a linear position stays at the end of the range.
 constexpr std::int32_t saturated(std::int64_t units) {
@@ -36,6 +36,11 @@ class Cia402Axis {
 
   // The drive's side: positions as the drive counts them.
   [[nodiscard]] std::int64_t reading() const { return drive_.encoder_nm() + zero_shift_; }
+  // On the way of the last period, as if it had been travelled evenly: 0 at its begin, 1 at its
+  // end.
+  [[nodiscard]] std::int64_t reading_at(double part) const {
+    return std::llround(position_units() - (1.0 - part) * step_) + zero_shift_;
+  }
   // From now on the place where the axis stands reads `units`.
   void home(std::int64_t units) { zero_shift_ = units - drive_.encoder_nm(); }
 

@@ -43,7 +43,7 @@ Cia402Objects default_objects(const Cia402Drive::Settings& settings, std::uint64
   o.software_limit = {settings.software_min, settings.software_max};
   o.quick_stop_deceleration = settings.deceleration;
   const std::uint32_t turn =
-      settings.rotary ? static_cast<std::uint32_t>(kUnitsPerTurn) : settings.feed_per_turn;
+      settings.rotary ? static_cast<std::uint32_t>(kDriveUnitsPerTurn) : settings.feed_per_turn;
   o.encoder_resolution = {turn, 1};
   o.feed = {turn, 1};
   o.position_unit = settings.rotary ? kIncrement : kNanometre;
@@ -70,6 +70,7 @@ void Cia402Drive::power_on(std::uint64_t now_us) {
 void Cia402Drive::power_off() {
   powered_ = false;
   operational_ = false;
+  edges_.clear();
   machine_.power_on();
   axis_.stand();
   demand_ = axis_.reading();
@@ -85,13 +86,6 @@ void Cia402Drive::stand_at(std::int64_t units) {
 void Cia402Drive::lose_reference() {
   referenced_ = homing_attained_ = false;
   publish();
-}
-
-void Cia402Drive::probe_edge(bool rising, double time_in_cycle_s) {
-  const auto time_ns = static_cast<std::uint32_t>(std::llround(time_in_cycle_s * 1e9));
-  if (!powered_ || !latch(objects_.probe, rising, on_wire(axis_.reading()), time_ns)) return;
-  device_.trigger(kLatchPdo);
-  device_.trigger(kEdgePdo);
 }
 
 // A SYNC up to half a period late still starts its own period; only then does the clock go on
@@ -114,6 +108,7 @@ void Cia402Drive::reset_application() {
   demand_ = axis_.reading();
   offset_taken_ = 0;
   last_controlword_ = 0;
+  edges_.clear();
   operational_ = target_arrived_ = limited_ = false;
   referenced_ = homing_attained_ = home_offset_given_ = false;
   fault_ = canopen::ErrorCode::none;

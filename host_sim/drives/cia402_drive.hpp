@@ -9,8 +9,12 @@
 // At SYNC the latest 607Ah and 60B0h take effect together, the axis moves on by one servo period,
 // and 6064h, 6041h and 60B0h as they are then go out with the TPDOs. Between and without SYNC the
 // servo clock runs on: a drive that loses its controller still brakes.
+//
+// The way of a servo period is known when it has been gone: an edge of the probe is given to the
+// drive after the SYNC that ends the period, and before anybody fetches the answers to that SYNC.
 
 #include <functional>
+#include <vector>
 
 #include "firmware/canopen/device.hpp"
 #include "host_sim/drives/cia402_axis.hpp"
@@ -37,6 +41,8 @@ class Cia402Drive final : private canopen::Application {
     std::uint32_t following_window = 5'000'000;  // 6065h
     std::uint32_t deceleration = 2'000'000'000;  // 6085h, units/s²: 2 m/s² or 0.93 turn/s²
     std::uint32_t feed_per_turn = 10'000'000;    // 6092h:01, linear axes: a 10 mm screw
+    std::int64_t latch_delay_ns = 0;             // from an edge of the probe to its latch, ≥ 0
+    std::int64_t latch_resolution_ns = 20;       // instants of latches are multiples of this
   };
 
   // What the position loop takes in at a SYNC.
@@ -78,13 +84,17 @@ class Cia402Drive final : private canopen::Application {
   void stand_at(std::int64_t units);
   // Bit 8 of the statusword falls; the axis can be homed again.
   void lose_reference();
-  // The probe signal changes, `time_in_cycle_s` after the last SYNC (0…4.29 s).
-  void probe_edge(bool rising, double time_in_cycle_s);
+  // The probe signal changes, `time_ns` (≥ 0) after the begin of the servo period that the axis has
+  // just gone. The latch comes latch_delay_ns later, where the axis was then; if that is beyond the
+  // period, it belongs to the next one.
+  void probe_edge(bool rising, std::int64_t time_ns);
+  // Servo periods gone so far.
+  [[nodiscard]] std::uint64_t periods() const { return periods_; }
 
   // Where the axis really is, counted through.
   [[nodiscard]] double position_units() const { return axis_.position_units(); }
   [[nodiscard]] double position_mm() const { return position_units() * 1e-6; }  // linear
-  [[nodiscard]] double position_turns() const { return position_units() / kUnitsPerTurn; }
+  [[nodiscard]] double position_turns() const { return position_units() / kDriveUnitsPerTurn; }
   [[nodiscard]] double approach() const { return axis_.approach(); }  // −1…+1
   // What the drive wants, counted through from its own zero (607Ch), and the 60B0h it had at the
   // last SYNC.
@@ -132,12 +142,18 @@ class Cia402Drive final : private canopen::Application {
   [[nodiscard]] std::int64_t wanted() const;
   [[nodiscard]] std::int64_t within_software_limits(std::int64_t wanted);
   void run_servo_period();
+  void latch_edges();
   void move();
   void brake();
   void supervise();
   void publish();
   [[nodiscard]] std::uint16_t statusword() const;
   [[nodiscard]] std::uint16_t mode_bits() const;
+
+  struct Edge {
+    bool rising;
+    std::int64_t latch_ns;  // since the begin of the last period
+  };
 
   Settings settings_;
   std::uint64_t period_us_;
@@ -151,6 +167,8 @@ class Cia402Drive final : private canopen::Application {
   std::int64_t demand_ = 0;
   std::int32_t offset_taken_ = 0;
   std::uint64_t last_period_us_ = 0;  // when the last servo period began
+  std::uint64_t periods_ = 0;
+  std::vector<Edge> edges_;  // not latched yet
   std::uint16_t last_controlword_ = 0;
   bool powered_ = false;
   bool operational_ = false;     // NMT

@@ -41,6 +41,10 @@ std::int64_t Cia402Drive::within_software_limits(std::int64_t wanted) {
 
 void Cia402Drive::run_servo_period() {
   move();
+  ++periods_;
+  for (Edge& edge : edges_)
+    edge.latch_ns -= static_cast<std::int64_t>(1000U * period_us_);
+  latch_edges();
   supervise();
   publish();
 }

@@ -10,7 +10,7 @@ namespace volcomp::sim {
 // What one edge of one probe leaves behind.
 struct TouchProbeLatch {
   std::int32_t position = 0;     // 60BAh…60BDh
-  std::uint32_t time_ns = 0;     // 60D1h…60D4h: since the last SYNC
+  std::uint32_t time_ns = 0;     // 60D1h…60D4h: since the SYNC before it
   std::uint16_t edge_count = 0;  // 60D5h…60D8h: latched edges since power-on, wraps
 };
 

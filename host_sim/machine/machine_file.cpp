@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
+#include "comp/geometry/frame.hpp"
 #include "comp/tables/plausibility.hpp"
-#include "host_sim/data/toml_section.hpp"
+#include "comp/units.hpp"
+#include "host_sim/data/toml_text.hpp"
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/machine/machine_sections.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -25,11 +26,11 @@ char letter_of(const Section& section, const std::string& key) {
 
 AxisFile read_axis(const Section& s) {
   s.allow_only({"name", "travel_mm", "travel_rad", "targets", "reference_mm", "reference_rad",
-                "sensed_point_mm", "kappa"});
+                "sensed_point_mm", "kappa", "latch_delay_us"});
   AxisFile axis;
   axis.letter = letter_of(s, "name");
-  const bool rotary = s.has("travel_rad");
-  const std::string travel_key = rotary ? "travel_rad" : "travel_mm";
+  axis.rotary = s.has("travel_rad");
+  const std::string travel_key = axis.rotary ? "travel_rad" : "travel_mm";
   const auto travel = s.numbers<2>(travel_key);
   axis.lo = travel[0];
   axis.hi = travel[1];
@@ -37,7 +38,7 @@ AxisFile read_axis(const Section& s) {
     s.complain(travel_key, fmt::format("'{}' must be [low, high]", travel_key));
   axis.targets =
       static_cast<std::size_t>(s.integer_or("targets", 11, 2, static_cast<long>(kTableKnots)));
-  const std::string reference_key = rotary ? "reference_rad" : "reference_mm";
+  const std::string reference_key = axis.rotary ? "reference_rad" : "reference_mm";
   axis.reference = s.number(reference_key);
   if (axis.reference < axis.lo || axis.reference > axis.hi) {
     s.complain(reference_key,
@@ -47,7 +48,19 @@ AxisFile read_axis(const Section& s) {
   s.check(check_offset("sensed_point_mm", point), "sensed_point_mm");
   axis.sensed.at_zero = Vec3(point[0], point[1], point[2]);
   axis.sensed.kappa = static_cast<int>(s.integer("kappa", -1, 1));
+  axis.latch_delay_us = read_delay_us(s, "latch_delay_us");
   return axis;
+}
+
+// The reading of a rotary axis at which its frame stands like that of the body before it.
+void turn_to_zero(const Section& s, Joint& joint) {
+  if (joint.kind != JointKind::rotary || s.has("orientation"))
+    s.complain("zero_deg", "'zero_deg' is for rotary joints without 'orientation'");
+  const double zero = s.number("zero_deg") * kPi / 180.0;
+  const Mat3 back = axis_rotation(joint.axis, -joint.sign * zero);
+  for (std::size_t i = 0; i < 9; ++i)
+    joint.orientation.at(i) =
+        back(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3));
 }
 
 Joint read_joint(const Section& s, const std::vector<AxisFile>& axes) {
@@ -58,7 +71,10 @@ Joint read_joint(const Section& s, const std::vector<AxisFile>& axes) {
     s.check(check_offset("offset_mm", joint.offset), "offset_mm");
   }
   if (s.has("orientation")) joint.orientation = s.numbers<9>("orientation");
-  if (kind == "fixed") return joint;
+  if (kind == "fixed") {
+    if (s.has("zero_deg")) turn_to_zero(s, joint);
+    return joint;
+  }
   joint.kind = s.choice("joint", {"fixed", "linear", "rotary"}) == 1 ? JointKind::prismatic
                                                                      : JointKind::rotary;
   joint.letter = letter_of(s, "axis");
@@ -67,8 +83,13 @@ Joint read_joint(const Section& s, const std::vector<AxisFile>& axes) {
   const long sign = s.integer("sign", -1, 1);
   if (sign == 0) s.complain("sign", "'sign' must be 1 or -1");
   joint.sign = static_cast<std::int8_t>(sign);
+  if (s.has("zero_deg")) turn_to_zero(s, joint);
   for (std::size_t a = 0; a < axes.size(); ++a) {
     if (axes[a].letter != joint.letter) continue;
+    if (axes[a].rotary != (joint.kind == JointKind::rotary))
+      s.complain("joint",
+                 fmt::format("axis {} is {} here, but its [[axis]] table says '{}'", joint.letter,
+                             kind, axes[a].rotary ? "travel_rad" : "travel_mm"));
     joint.nc_axis = static_cast<std::uint8_t>(a);
     return joint;
   }
@@ -86,7 +107,7 @@ std::uint8_t body_number(const MachineFile& file, const Section& s, const std::s
 void read_bodies(const Section& top, MachineFile& file, MachineDescription& d) {
   for (const Section& s : top.tables("body")) {
     s.allow_only({"name", "on", "joint", "axis", "moves_along", "turns_about", "sign", "offset_mm",
-                  "orientation", "constant_error"});
+                  "orientation", "zero_deg", "constant_error"});
     if (d.body_count == kMaxBodies)
       s.complain("name", fmt::format("more than {} bodies", kMaxBodies));
     Body& body = d.body.at(d.body_count);
@@ -100,8 +121,9 @@ void read_bodies(const Section& top, MachineFile& file, MachineDescription& d) {
 
 void read_correction(const Section& top, MachineFile& file, MachineDescription& d) {
   const Section s = top.table("correction");
-  s.allow_only({"axes", "limit_mm", "rate_mm_per_s", "hysteresis_mm", "ramp_s", "tick_hz",
-                "max_speed_mm_per_s"});
+  s.allow_only({"axes", "limit_mm", "rate_mm_per_s", "hysteresis_mm", "max_speed_mm_per_s",
+                "limit_rad", "rate_rad_per_s", "hysteresis_rad", "max_speed_rad_per_s", "ramp_s",
+                "tick_hz"});
   const toml::value& axes = s.need("axes");
   if (!axes.is_array() || axes.as_array().empty() || axes.as_array().size() > kMaxCorrecting) {
     s.complain("axes", fmt::format("'axes' must list one to {} correcting axes", kMaxCorrecting));
@@ -112,45 +134,7 @@ void read_correction(const Section& top, MachineFile& file, MachineDescription& 
     d.correcting.at(d.correcting_count++) =
         static_cast<std::uint8_t>(file.axis_index(v.as_string().str[0]));
   }
-  CorrectionFile& c = file.correction;
-  c.limit_mm = s.number_or("limit_mm", c.limit_mm);
-  c.rate_mm_per_s = s.number_or("rate_mm_per_s", c.rate_mm_per_s);
-  c.hysteresis_mm = s.number_or("hysteresis_mm", c.hysteresis_mm);
-  c.ramp_s = s.number_or("ramp_s", c.ramp_s);
-  c.tick_hz = s.number_or("tick_hz", c.tick_hz);
-  c.max_speed_mm_per_s = s.number_or("max_speed_mm_per_s", c.max_speed_mm_per_s);
-  const auto range = [&](const char* key, double value, double lo, double hi) {
-    if (!(value >= lo && value <= hi))
-      s.complain(s.has(key) ? key : "axes", fmt::format("'{}' must be from {} to {}", key, lo, hi));
-  };
-  range("limit_mm", c.limit_mm, 1e-6, 4.194);
-  range("rate_mm_per_s", c.rate_mm_per_s, 1e-3, 1e6);
-  range("hysteresis_mm", c.hysteresis_mm, 0.0, 1.0);
-  range("ramp_s", c.ramp_s, 1e-4, 60.0);
-  range("tick_hz", c.tick_hz, 1.0, 1e5);
-  range("max_speed_mm_per_s", c.max_speed_mm_per_s, 0.0, 1e5);
-}
-
-SquarenessFile read_squareness(const Section& s) {
-  s.allow_only({"a_xy_rad", "a_xz_rad", "a_yz_rad", "at_mm", "x_mm", "y_mm", "z_mm", "points"});
-  SquarenessFile q;
-  q.points = static_cast<std::size_t>(s.integer_or("points", 7, 2, 101));
-  const std::array<std::string, 3> keys{"a_xy_rad", "a_xz_rad", "a_yz_rad"};
-  std::array<double, 3> angle{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    angle[i] = s.number(keys[i]);
-    s.check(check_squareness(keys[i].c_str(), {angle[i], 0.0, 0.0}), keys[i]);
-  }
-  q.measured = {angle[0], angle[1], angle[2]};
-  const auto at = s.numbers<3>("at_mm");
-  q.at = Vec3(at[0], at[1], at[2]);
-  const std::array<std::string, 3> lines{"x_mm", "y_mm", "z_mm"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    q.segment[i] = s.numbers<2>(lines[i]);
-    if (!(q.segment[i][0] < q.segment[i][1]))
-      s.complain(lines[i], fmt::format("'{}' must be [low, high]", lines[i]));
-  }
-  return q;
+  read_correction_values(s, file.correction);
 }
 
 void read_tables(const Section& s, MachineFile& file) {
@@ -162,25 +146,10 @@ void read_tables(const Section& s, MachineFile& file) {
   }
 }
 
-// The TOML library recurses once per bracket and copies freely; no machine file comes near these
-// limits.
-void refuse_monsters(const std::string& text, const std::string& name) {
-  constexpr std::size_t kLargest = 1U << 20U;
-  constexpr int kDeepest = 32;
-  if (text.size() > kLargest)
-    throw UserError(name + ": larger than 1 MiB, this is not a machine file");
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') --depth;
-    if (depth > kDeepest) throw UserError(name + ": brackets nested too deep");
-  }
-}
-
 MachineFile read_machine(const toml::value& root, const std::string& name) {
   const Section top(root, name, "the machine file");
   top.allow_only({"name", "id", "convention", "side", "tool", "work", "body", "axis", "correction",
-                  "tables", "squareness"});
+                  "tables", "squareness", "probe"});
   MachineFile file;
   file.path = name;
   file.name = top.text("name");
@@ -210,6 +179,7 @@ MachineFile read_machine(const toml::value& root, const std::string& name) {
     top.complain("axis", "every [[axis]] needs exactly one [[body]] that it moves");
   }
   if (top.has("tables")) read_tables(top.table("tables"), file);
+  if (top.has("probe")) file.probe = read_probe(top.table("probe"));
   if (top.has("squareness")) file.squareness = read_squareness(top.table("squareness"));
   return file;
 }
@@ -233,25 +203,11 @@ std::size_t MachineFile::axis_index(char letter) const {
 }
 
 MachineFile parse_machine(const std::string& text, const std::string& name) {
-  refuse_monsters(text, name);
-  try {
-    std::istringstream stream(text);
-    return read_machine(toml::parse(stream, name), name);
-  } catch (const toml::exception& e) {
-    throw UserError(fmt::format("{}:{}: not valid TOML", name, e.location().line()));
-  } catch (const std::exception& e) {
-    if (dynamic_cast<const UserError*>(&e) != nullptr) throw;
-    throw UserError(fmt::format("{}: not valid TOML ({})", name, e.what()));
-  }
+  return read_toml(text, name, [&](const toml::value& root) { return read_machine(root, name); });
 }
 
 MachineFile read_machine_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw UserError(fmt::format("{}: cannot be opened", path.string()));
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return parse_machine(text.str(), path.string());
+  return parse_machine(text_of_file(path), path.string());
 }
 
 std::filesystem::path bundled_machine(const std::string& name) {

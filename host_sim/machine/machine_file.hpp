@@ -16,11 +16,19 @@ namespace volcomp::sim {
 
 struct AxisFile {
   char letter = '\0';
+  bool rotary = false;
   double lo = 0.0;  // travel, mm or rad
   double hi = 0.0;
   std::size_t targets = 11;
   double reference = 0.0;
   SensedPoint sensed;
+  double latch_delay_us = 0.0;  // of the touch probe input of its drive
+};
+
+// A touch probe at the tool point.
+struct ProbeFile {
+  double radius_mm = 0.0;  // effective, of the ball
+  double delay_us = 0.0;   // from the contact to the edge at the drives
 };
 
 // Squareness measured at a place: three lines through a point, each from two ends.
@@ -40,6 +48,11 @@ struct CorrectionFile {
   double ramp_s = 0.2;
   double tick_hz = 1000.0;
   double max_speed_mm_per_s = 0.0;  // 0: position jumps are not checked
+  // The same of rotary axes.
+  double limit_rad = 1e-3;
+  double rate_rad_per_s = 0.05;
+  double hysteresis_rad = 1e-5;
+  double max_speed_rad_per_s = 0.0;
 };
 
 struct MachineFile {
@@ -55,6 +68,7 @@ struct MachineFile {
   std::size_t refine = 8;
   Interpolation interpolation = Interpolation::catmull_rom;
   std::optional<SquarenessFile> squareness;
+  std::optional<ProbeFile> probe;
 
   [[nodiscard]] std::size_t axis_index(char letter) const;  // throws UserError
 };

@@ -10,8 +10,10 @@ ErrorMotion TrueMachine::relative_error(std::size_t a, double q, double approach
     e(channel_index) =
         truth.channel[c].at(q, truth.lo, truth.hi) + 0.5 * approach * truth.reversal[c];
   }
-  // Scales grow with the machine: the position error along the axis.
-  e(static_cast<Eigen::Index>(chain.axis(a).axis)) += q * expansion_per_K * temperature_offset_K;
+  // Scales grow with the machine: the position error along the axis. Graduated circles do not care.
+  const Joint& joint = chain.axis(a);
+  if (joint.kind == JointKind::prismatic)
+    e(static_cast<Eigen::Index>(joint.axis)) += q * expansion_per_K * temperature_offset_K;
   return e;
 }
 

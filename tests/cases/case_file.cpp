@@ -93,7 +93,7 @@ json where_to_json(const Where& where) {
   if (where.channel >= 0) j["channel"] = where.channel;
   if (where.index >= 0) j["index"] = where.index;
   if (where.body >= 0) j["body"] = where.body;
-  if (where.count >= 0) j["n"] = where.count;
+  if (where.count >= 0) j["n"] = j["rank"] = where.count;
   if (where.has_deviation) j["deviation"] = where.deviation;
   return j;
 }

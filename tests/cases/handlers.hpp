@@ -6,6 +6,9 @@
 
 namespace volcomp::cases {
 
+void add_s0_calibration(Handlers& handlers);
+void add_s0_gear(Handlers& handlers);
+void add_s0_geometry(Handlers& handlers);
 void add_s1_geometry(Handlers& handlers);
 void add_s1_tables(Handlers& handlers);
 void add_s1_compensation(Handlers& handlers);

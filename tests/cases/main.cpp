@@ -14,6 +14,9 @@ int main(int argc, char** argv) {
       return 2;
     }
     volcomp::cases::Handlers handlers;
+    volcomp::cases::add_s0_calibration(handlers);
+    volcomp::cases::add_s0_gear(handlers);
+    volcomp::cases::add_s0_geometry(handlers);
     volcomp::cases::add_s1_geometry(handlers);
     volcomp::cases::add_s1_tables(handlers);
     volcomp::cases::add_s1_compensation(handlers);

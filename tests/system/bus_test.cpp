@@ -14,20 +14,20 @@ namespace {
 
 constexpr double kFeed_mm_s = 10'000.0 / 60.0;
 
-std::vector<OffsetsNm> offsets_along(MotionCell& cell, const Diagonal& line) {
-  std::vector<OffsetsNm> offsets;
+std::vector<Offsets> offsets_along(MotionCell& cell, const Diagonal& line) {
+  std::vector<Offsets> offsets;
   cell.place(line.start);
   cell.move_to(line.end, kFeed_mm_s,
-               [&](const MotionCell& c) { offsets.push_back(c.axes().offset_nm()); });
+               [&](const MotionCell& c) { offsets.push_back(c.axes().offset()); });
   return offsets;
 }
 
 TEST(Bus, OffsetsAreThoseOfTheIntegratedFormToTheBit) {
   const BusMachine& m = bus_machine();
   const auto integrated = make_integrated_cell(m.truth, m.file.correction, m.image);
-  const auto bus = loopback_cells(m.file, kBusCycle_hz)(m.truth, m.file.correction, m.image);
+  const auto bus = bus_cells(m.file, kBusCycle_hz)(m.truth, m.file.correction, m.image);
   const Diagonal line = body_diagonals(travel_box(m.file))[kPnp];
-  const std::vector<OffsetsNm> expected = offsets_along(*integrated, line);
+  const std::vector<Offsets> expected = offsets_along(*integrated, line);
   ASSERT_GT(expected.size(), 1000U);
   EXPECT_EQ(offsets_along(*bus, line), expected);
 }
@@ -39,7 +39,7 @@ TEST(Bus, HasRoomForTheCycleOfThreeAxesWithTheLongestFrames) {
   axes.bring_up();
   const std::uint64_t busy_ns = axes.bus().bus().busy_ns();
   const std::uint64_t begin_ns = axes.bus().bus().now_ns();
-  const TargetsNm target = axes.target_nm();
+  const Targets target = axes.target();
   for (int i = 0; i < 1000; ++i)
     axes.cycle(target);
   const double load = static_cast<double>(axes.bus().bus().busy_ns() - busy_ns) /
@@ -52,7 +52,7 @@ TEST(Bus, HasRoomForTheCycleOfThreeAxesWithTheLongestFrames) {
 TEST(Bus, LineAtTenMetresPerMinuteIsCompensatedWithinTwoNanometres) {
   const BusMachine& m = bus_machine();
   const Dynamics d =
-      run_dynamics(m.truth, m.file, *m.commissioned, loopback_cells(m.file, kBusCycle_hz));
+      run_dynamics(m.truth, m.file, *m.commissioned, bus_cells(m.file, kBusCycle_hz));
   EXPECT_LE(d.line_worst_nm, 2.0);
   EXPECT_GT(d.line_worst_nm, 0.0);
 }
@@ -61,7 +61,7 @@ TEST(Bus, LineAtTenMetresPerMinuteIsCompensatedWithinTwoNanometres) {
 TEST(Bus, ManyJourneysLaterTheOffsetsAreTheSame) {
   BusWorld world(5);
   ASSERT_TRUE(world.approach());
-  const OffsetsNm before = world.offsets();
+  const Offsets before = world.offsets();
   world.run(20'000);
   ASSERT_TRUE(world.approach());
   EXPECT_EQ(world.offsets(), before);

@@ -46,8 +46,8 @@ BusMachine make_bus_machine() {
 
 std::vector<std::int32_t> on_wire(const Vec3& mm) {
   std::vector<std::int32_t> wire;
-  for (const std::int64_t nm : to_targets(mm))
-    wire.push_back(static_cast<std::int32_t>(nm));
+  for (const double coordinate : mm)
+    wire.push_back(static_cast<std::int32_t>(to_nm(coordinate)));
   return wire;
 }
 
@@ -69,9 +69,9 @@ BusWorld::BusWorld(std::uint64_t seed, const std::vector<std::uint8_t>& image)
       intruder_(axes_.bus()),
       path_(on_wire(kStart)),
       goal_(path_) {
-  for (std::size_t a = 0; a < kGroupAxes; ++a)
+  for (std::size_t a = 0; a < kBusMachineAxes; ++a)
     watch(a);
-  axes_.stand_at(kStart);
+  axes_.stand_at(pose_of(kStart));
   axes_.bring_up();
 }
 
@@ -121,7 +121,7 @@ bool BusWorld::go_to(const Vec3& mm) {
   step_nm_ = 400'000;
   int quiet = 0;
   for (int i = 0; i < kLongest && quiet < kSettle; ++i) {
-    const OffsetsNm before = offsets();
+    const Offsets before = offsets();
     step(goal);
     const bool still = at(goal) && offsets() == before && (node().any_status & kRamping) == 0;
     quiet = still ? quiet + 1 : 0;

@@ -15,6 +15,7 @@ namespace volcomp::sim {
 
 // The XYFZ machine as commissioned without noise, at the cycle of the bus, and two images of it
 // that differ in their values.
+inline constexpr std::size_t kBusMachineAxes = 3;
 struct BusMachine {
   MachineFile file;
   TrueMachine truth;
@@ -85,7 +86,7 @@ class BusWorld {
   [[nodiscard]] hal::LoopbackBus& bus() { return axes_.bus().bus(); }
   [[nodiscard]] Intruder& intruder() { return intruder_; }
   [[nodiscard]] const node::NodeObjects& node() const { return axes_.node()->objects(); }
-  [[nodiscard]] OffsetsNm offsets() const { return axes_.offset_nm(); }
+  [[nodiscard]] Offsets offsets() const { return axes_.offset(); }
   [[nodiscard]] std::uint64_t cycles() const { return axes_.cycles(); }
 
  private:

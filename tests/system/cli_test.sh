@@ -25,6 +25,24 @@ touch "$work/file"
 expect 2 'cannot be created' "$volcomp" run xyfz --draws 0 --report "$work/file"
 one_line "$volcomp" run xyfz --draws 0 --report "$work/file"
 
+# A gear, measured; with a machine that the user describes, and one that no table of an axis puts right.
+expect 0 'l300g' "$volcomp" list
+expect 0 'PASS Profile grade 8 before, 4 after' "$volcomp" run l300g --report "$work/gear" --json "$work/gear.json" --gcode "$work/gear"
+for file in gear/report.html gear/report.json gear.json gear/inspection_before.ngc gear/inspection_after.ngc; do
+  [ -s "$work/$file" ] || { echo "FAILED: $file is missing"; failed=1; }
+done
+grep -q '"transport"' "$work/gear.json" || { echo 'FAILED: the figures do not say where the node was'; failed=1; }
+expect 1 'FAIL Profile grade 8 before, 8 after' "$volcomp" run l300g --cycle-hz 50 --path generate --errors short-arm
+printf 'convention = "body"\n[Y]\nconstant = [0, 4.5, 0, 0, 0, 0]\n' >"$work/errors.toml"
+expect 0 'PASS' "$volcomp" run l300g --cycle-hz 50 --errors "$work/errors.toml"
+printf 'convention = "body"\n[Y]\nconstant = [0, 4.5]\n' >"$work/bad_errors.toml"
+expect 2 'bad_errors.toml:3' "$volcomp" run l300g --errors "$work/bad_errors.toml"
+one_line "$volcomp" run l300g --errors "$work/bad_errors.toml"
+expect 2 'cannot be opened' "$volcomp" run l300g --errors p9
+expect 2 '--path' "$volcomp" run l300g --path sideways
+expect 2 'the axes must be X Y B A' "$volcomp" run l300g --machine "$machine"
+expect 2 'no-such-can0' "$volcomp" run l300g --can no-such-can0
+
 # The whole road of a user's own data, with the run files of a simulated campaign.
 expect 0 'PASS' "$volcomp" run xyfz --draws 1 --report "$work/report" --json "$work/figures.json"
 for file in report/report.html report/report.json figures.json report/campaign/draw_001/runs_X.csv; do

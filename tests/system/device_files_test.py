@@ -34,7 +34,8 @@ class Database(unittest.TestCase):
 
     def test_every_frame_has_its_place(self):
         expected = {0x000: ("NMT_Command", 2), 0x080: ("SYNC", 1), 0x0A0: ("Node_Emergency", 8),
-                    0x1A0: ("Node_Status", 8), 0x5A0: ("Node_SdoResponse", 8),
+                    0x1A0: ("Node_Status", 8), 0x2A0: ("Point", 8), 0x3A0: ("Point_XY", 8),
+                    0x4A0: ("Point_Z", 8), 0x5A0: ("Node_SdoResponse", 8),
                     0x620: ("Node_SdoRequest", 8), 0x720: ("Node_Heartbeat", 1),
                     0x77F: ("Controller_Heartbeat", 1)}
         for drive, axis in enumerate("XYZ", start=1):
@@ -70,6 +71,10 @@ class Database(unittest.TestCase):
             (0x182, "FF FF FF FF 37 12 01 00",
              {"ActualPosition": -1, "Statusword": 0x1237, "ProbeStatus": 1}),
             (0x283, "10 00 00 00 A0 86 01 00", {"ProbePosition": 16, "ProbeTime": 100_000}),
+            (0x2A0, "07 00 00 00 06 02 01 00",
+             {"PointNumber": 7, "Verdict": 6, "VerdictAxis": 2, "Feature": 1}),
+            (0x3A0, "D2 FF FF FF 40 42 0F 00", {"PointX": -46, "PointY": 1_000_000}),
+            (0x4A0, "FF FF FF FF 2C 01 00 00", {"PointZ": -1, "PointUncertainty": 300}),
             (0x080, "F0", {"SyncCounter": 240}),
             (0x000, "01 20", {"Command": 1, "NodeId": 32}),
             (0x0A0, "01 FF 81 02 02 00 00 00",

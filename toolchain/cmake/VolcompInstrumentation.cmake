@@ -1,11 +1,16 @@
 # VOLCOMP_SANITIZE, VOLCOMP_COVERAGE and VOLCOMP_FUZZ: flags for every target below the project folder.
-# Lines are all that their reports need to know of the debug information (-g1).
+# Lines are all that their reports need to know of the debug information (-g1). Optimized as usual:
+# what is inlined is checked all the same, and whole campaigns run under the sanitizers.
+
+# No vptr check: it needs the type information that the libraries of the target are built without.
+# Without -fno-sanitize-recover a report of undefined behaviour would not end a fuzz run.
+set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
+  -fno-sanitize-recover=all)
+set(volcomp_sanitized ${volcomp_sanitizers} -O2 -g1 -fno-omit-frame-pointer
+  -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/toolchain/sanitizer-ignore.txt)
 
 if(VOLCOMP_SANITIZE)
-  # No vptr check: it needs the type information that the libraries of the target are built without.
-  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
-    -fno-sanitize-recover=all)
-  add_compile_options(${volcomp_sanitizers} -O1 -g1 -fno-omit-frame-pointer)
+  add_compile_options(${volcomp_sanitized})
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
   add_link_options(${volcomp_sanitizers})
 endif()
@@ -20,16 +25,14 @@ endfunction()
 # Counted in the source, before any optimization and before the sanitizers add their own branches.
 if(VOLCOMP_COVERAGE)
   volcomp_need_clang(VOLCOMP_COVERAGE host-asan)
-  add_compile_options(-fprofile-instr-generate -fcoverage-mapping)
+  add_compile_options(-fprofile-instr-generate -fcoverage-mapping
+    -fprofile-list=${PROJECT_SOURCE_DIR}/toolchain/coverage-files.txt)
   add_link_options(-fprofile-instr-generate)
 endif()
 
 if(VOLCOMP_FUZZ)
   volcomp_need_clang(VOLCOMP_FUZZ fuzz)
-  # Without -fno-sanitize-recover an undefined-behaviour report would not end the run.
-  set(volcomp_sanitizers -fsanitize=address,undefined,float-cast-overflow -fno-sanitize=vptr
-    -fno-sanitize-recover=all)
-  add_compile_options(-fsanitize=fuzzer-no-link ${volcomp_sanitizers} -O1 -g1 -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=fuzzer-no-link ${volcomp_sanitized})
   add_link_options(${volcomp_sanitizers})
   add_custom_target(volcomp_fuzzers)
 endif()

@@ -41,7 +41,8 @@ endif()
 
 # volcomp_target_rules: the language that comp, hal and firmware are restricted to.
 add_library(volcomp_target_rules INTERFACE)
-set(volcomp_target_cxx_flags -fno-exceptions -fno-rtti -fno-threadsafe-statics)
+# Nobody reads errno: without -fno-math-errno every square root could call the C library.
+set(volcomp_target_cxx_flags -fno-exceptions -fno-rtti -fno-threadsafe-statics -fno-math-errno)
 target_compile_options(volcomp_target_rules INTERFACE
   "$<$<COMPILE_LANGUAGE:CXX>:${volcomp_target_cxx_flags}>")
 target_link_libraries(volcomp_target_rules INTERFACE volcomp_eigen)

@@ -15,7 +15,7 @@ set(CMAKE_ASM_COMPILER aarch64-linux-gnu-gcc)
 # Every function and object in a section of its own, so that the linker leaves out what nobody uses. -fstack-usage
 # writes the frame of every function beside its object file; -g is for the debugger.
 set(CMAKE_CXX_FLAGS_INIT
-  "-mcpu=cortex-a53 -mno-outline-atomics -fno-pie -fno-stack-protector -fno-math-errno -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage -g")
+  "-mcpu=cortex-a53 -mno-outline-atomics -fno-pie -fno-stack-protector -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage -g")
 set(CMAKE_ASM_FLAGS_INIT "-mcpu=cortex-a53 -g")
 # Sine and cosine of the commissioning code come from the C library's mathematics.
 set(CMAKE_CXX_STANDARD_LIBRARIES "-lm -lgcc")

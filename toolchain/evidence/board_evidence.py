@@ -16,7 +16,8 @@ from failure import Failure
 PRODUCTS = ("node", "servo")  # images that a controller would carry
 # Entries that bring a stack of their own or share that of main, and what the processor puts there first: eight words,
 # eighteen more where the FPU is in use, one to align (Armv7-M, B1.5.7).
-INTERRUPTS = {"first timer": "TIMER0_Handler", "second timer": "TIMER1_Handler", "link, receive": "UARTRX0_Handler", "link, transmit": "UARTTX0_Handler"}
+INTERRUPTS = {"first timer": "TIMER0_Handler", "second timer": "TIMER1_Handler", "link, receive": "UARTRX0_Handler",
+              "link, transmit": "UARTTX0_Handler"}
 EXCEPTION_FRAME = 4 * (8 + 18 + 1)
 FAULT = "report_fault"
 TICK_OF = {
@@ -47,7 +48,7 @@ class BoardEvidence:
         self.offences += [f"The list documents calls of {call.caller} that no image makes." for call in CALLS if call not in self.used]
         ticks = self._ticks()
         self.checks.append(budgets.Check(f"{self.board}, node, bytes of flash", products["node"]["flash"], budgets.NODE_FLASH))
-        return {"products": products, **ticks, "services": self._services()}
+        return {"products": products, **ticks, "services": self._services(), "touches": self._touches()}
 
     def _product(self, name):
         image = self.image(name)
@@ -123,6 +124,12 @@ class BoardEvidence:
         found = {"sdo": {}, "image": {}}
         for word, fields in runs.figures(runs.run(self.root, self.board, self.image("services").path)):
             found[word][fields["request" if word == "sdo" else "machine"]] = fields
+        return found
+
+    def _touches(self):
+        figures = runs.figures(runs.run(self.root, self.board, self.image("touches").path))
+        found = {fields["machine"]: fields for word, fields in figures if word == "touch"}
+        self.checks += budgets.of_touches(self.board, found)
         return found
 
     def _independence(self, spans):

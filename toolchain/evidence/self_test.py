@@ -165,9 +165,9 @@ class SelfTest:
         self.expect(sizes.measure(image).ram == 440, f"440 bytes of variables were measured as {sizes.measure(image).ram}")
 
     def budgets(self):
-        for known, measured, wanted in ((None, 400, True), (None, 401, False), (434, 434, True), (434, 435, False), (434, 400, False)):
-            found = budgets.Check("a figure", measured, 400).acceptable({} if known is None else {"a figure": known})
-            self.expect(found == wanted, f"{measured} of 400, known {known}, was judged wrongly")
+        for measured, wanted in ((400, True), (401, False)):
+            found = budgets.Check("a figure", measured, 400).kept()
+            self.expect(found == wanted, f"{measured} of 400 was judged wrongly")
 
     def run(self):
         for check in (self.budgets, self.frames, self.offences, self.virtual_calls, self.dynamic_frames, self.symbols, self.tick, self.sizes):

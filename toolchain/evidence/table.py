@@ -1,5 +1,5 @@
 """The figures as Markdown, for README and for reading."""
-from budgets import NODE_FLASH, SPREAD, STACK_OF_TICK, TICKS
+from budgets import NODE_FLASH, SPREAD, STACK_OF_TICK, TICKS, TOUCH, TOUCHES
 
 BEGIN, END = "<!-- evidence: made by toolchain/evidence.sh --write -->", "<!-- end of evidence -->"
 BOARDS = {"m7": "Cortex-M7", "m4": "Cortex-M4F"}
@@ -74,6 +74,18 @@ def services(boards):
     return rows(["background, instructions", *BOARDS.values()], body)
 
 
+def touches(boards):
+    must, aim = TOUCH["m7"]
+    body = []
+    for machine, name in TOUCHES.items():
+        cost = {b: boards[b]["touches"][machine] for b in BOARDS}
+        body.append([f"{name}: from the complete latch to the point", judged(number(cost["m7"]["point"]), cost["m7"]["point"], must),
+                     number(cost["m4"]["point"]), limit(must), limit(aim)])
+        body.append([f"{name}: reports of the drives, cycle with an edge / without", *[f"{number(cost[b]['collect'])} / {number(cost[b]['quiet'])}"
+                                                                                     for b in BOARDS], "–", "–"])
+    return rows(["touch, instructions, at most", *BOARDS.values(), "must, M7", "aim"], body)
+
+
 def markdown(evidence):
     boards = evidence["boards"]
     counted = {f["kind"]: f["count"] for f in boards["m7"]["kinds"] if f["variant"] == "xyfz_compiled" and f["phase"] == "usual"
@@ -83,7 +95,7 @@ def markdown(evidence):
             f"{number(counted['reversal'])} reversals, {number(counted['clamp'])} clamps, {counted['swap']} exchanges of tables with "
             f"{number(counted['ramp'])} ticks of ramp.")
     text = [f"{seen} Bold: over its must. {evidence['tables']}. {evidence['compiler']}, `{evidence['flags']}`; QEMU counts instructions, exactly, not cycles.",
-            "", *ticks(boards), "", *services(boards), "", *images(evidence), "",
+            "", *ticks(boards), "", *touches(boards), "", *services(boards), "", *images(evidence), "",
             f"llvm-mca estimates {kernel['cycles']} cycles on a Cortex-M7 for the {kernel['instructions']} instructions of the folded kernel, "
             "memory that answers at once assumed."]
     return "\n".join(text) + "\n"

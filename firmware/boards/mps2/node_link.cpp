@@ -1,18 +1,20 @@
 #include "firmware/boards/mps2/node_link.hpp"
 
 #include <array>
-#include <cstring>
-
+#include <string_view>
 #include "hal/mps2/semihosting.hpp"
 
 namespace volcomp::boards {
 namespace {
 
 bool slcan_is_wanted() {
-  std::array<char, 128> line{};
-  if (!hal::mps2::semihosting::command_line(line)) return false;
-  const char* const space = std::strrchr(line.data(), ' ');
-  return space != nullptr && std::strcmp(space + 1, "slcan") == 0;
+  constexpr std::string_view kWord = " slcan";
+  std::array<char, 128> text{};
+  if (!hal::mps2::semihosting::command_line(text)) return false;
+  std::string_view line(text.data());
+  if (line.size() < kWord.size()) return false;
+  line.remove_prefix(line.size() - kWord.size());
+  return line == kWord;
 }
 
 }  // namespace

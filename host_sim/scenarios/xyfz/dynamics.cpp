@@ -14,8 +14,6 @@ constexpr double kCircleFeed_mm_s = 1000.0 / 60.0;
 constexpr double kCircleRadius_mm = 100.0;
 constexpr std::size_t kKeepEvery = 8;  // of the ticks, for the pictures
 
-Pose pose_of(const Vec3& q) { return {q.x(), q.y(), q.z()}; }
-
 Travels travels_of(const Vec3& direction) {
   Travels t{};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -33,11 +31,11 @@ void keep(Trace& trace, double x, double y) {
 // model stand at the (integer) target.
 template <class ErrorAt>
 double offset_error_nm(const MotionCell& cell, const ErrorAt& error_at) {
-  const TargetsNm target_nm = cell.axes().target_nm();
-  const OffsetsNm offset_nm = cell.axes().offset_nm();
+  const Targets target_nm = cell.axes().target();
+  const Offsets offset_nm = cell.axes().offset();
   Vec3 target;
   Vec3 applied;
-  for (std::size_t a = 0; a < kGroupAxes; ++a) {
+  for (std::size_t a = 0; a < 3; ++a) {
     const auto i = static_cast<Eigen::Index>(a);
     target(i) = static_cast<double>(target_nm[a]) / kNmPerMm;
     applied(i) = static_cast<double>(offset_nm[a]);

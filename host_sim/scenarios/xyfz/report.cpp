@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/scenarios/report_parts.hpp"
 #include "host_sim/version.hpp"
 
 namespace volcomp::sim {
@@ -11,13 +12,6 @@ using nlohmann::json;
 
 constexpr std::array<const char*, 4> kModeTitles{
     "uncompensated", "naive model", "Abbe model as in the paper", "Abbe model, squareness closed"};
-constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
-
-json axis_label(const char* label, const char* unit) { return {{"label", label}, {"unit", unit}}; }
-
-json series_of(const char* name, const std::vector<double>& x, const std::vector<double>& y) {
-  return {{"name", name}, {"x", x}, {"y", y}};
-}
 
 json tuned_text(const XyfzResult& r) {
   return {fmt::format("angle scale {:.4f} so that the naive residual on PNP is 16.37 µm",

@@ -15,10 +15,6 @@ namespace volcomp::sim {
 // The before/after table for a terminal.
 [[nodiscard]] std::string xyfz_summary(const XyfzResult& result);
 
-struct Verdict {
-  bool ok = false;
-  std::string text;
-};
 [[nodiscard]] Verdict xyfz_verdict(const XyfzResult& result);
 
 }  // namespace volcomp::sim

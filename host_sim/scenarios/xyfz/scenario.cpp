@@ -9,7 +9,7 @@
 #include "comp/tables/crc32.hpp"
 #include "comp/tables/per_axis.hpp"
 #include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/dynamics.hpp"
 
@@ -31,9 +31,7 @@ struct Bench {
 
 // The road of a user's own data: the runs go through files.
 Campaign through_files(const Campaign& campaign, const std::filesystem::path& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) throw UserError(fmt::format("{}: cannot be created", folder.string()));
+  create_folder(folder);
   Campaign reread{campaign.machine, {}};
   for (const RunsFile& runs : campaign.runs) {
     const std::filesystem::path path = folder / runs.name;

@@ -3,12 +3,12 @@
 // measure again.
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/controller/integrated_axes.hpp"
+#include "host_sim/scenarios/progress.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/truth.hpp"
 #include "host_sim/scenarios/xyfz/verification.hpp"
@@ -99,9 +99,6 @@ struct XyfzResult {
 };
 
 inline constexpr double kPaperRate = 87.07;
-
-// `progress`: called with 0…1 and what is being done.
-using Progress = std::function<void(double done, const std::string& what)>;
 
 // Throws UserError.
 [[nodiscard]] XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress);

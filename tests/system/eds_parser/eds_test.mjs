@@ -27,8 +27,8 @@ const name_of_mapping = (mapping) => {
 
 test('device information', () => {
   assert.equal(eds.deviceInfo.ProductName, 'volcomp compensation');
-  assert.equal(eds.deviceInfo.NrOfRXPDO, '15');
-  assert.equal(eds.deviceInfo.NrOfTXPDO, '6');
+  assert.equal(eds.deviceInfo.NrOfRXPDO, '25');
+  assert.equal(eds.deviceInfo.NrOfTXPDO, '9');
   assert.equal(eds.deviceInfo.Granularity, '8');
 });
 
@@ -51,6 +51,8 @@ test('types, access and defaults', () => {
     [0x2112, 4, DataType.INTEGER16, 'ro', -1],
     [0x2201, 3, DataType.INTEGER32, 'rw', 200000],
     [0x2205, 1, DataType.INTEGER64, 'rw', 0n],
+    [0x2303, 1, DataType.REAL64, 'rw', 1],
+    [0x2303, 2, DataType.REAL64, 'rw', 0],
     [0x2600, 0xb, DataType.UNSIGNED8, 'ro', 0],
   ];
   for (const [index, sub, type, access, value] of expected) {

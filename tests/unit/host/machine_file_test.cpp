@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "comp/geometry/l300g.hpp"
 #include "comp/realtime/instances.hpp"
+#include "comp/units.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/machine/machine_file.hpp"
 
@@ -21,6 +23,27 @@ TEST(MachineFile, BundledXyfzIsTheCompiledInMachine) {
   EXPECT_NEAR(file.squareness->measured.a_xy, 127.264e-6, 1e-12);
   EXPECT_NEAR(file.squareness->measured.a_xz, 222.190e-6, 1e-12);
   EXPECT_NEAR(file.squareness->measured.a_yz, 17.356e-6, 1e-12);
+}
+
+TEST(MachineFile, BundledL300gIsTheMachineOfThePaper) {
+  const MachineFile file = read_machine_file(bundled_machine("l300g"));
+  MachineChain chain;
+  ASSERT_TRUE(
+      MachineChain::build(l300g({173.7135, -39.025 * kPi / 180.0}, {0.0, 168.8053}), chain).ok());
+  EXPECT_TRUE(same_chain(make_runtime_chain(file.chain.description()),
+                         make_runtime_chain(chain.description())));
+  const Pose q{12.0, 230.0, -0.6, 2.5};
+  for (const auto branch : {&MachineChain::tool, &MachineChain::work}) {
+    const Frame from_file = file.chain.ideal((file.chain.*branch)(), q);
+    const Frame expected = chain.ideal((chain.*branch)(), q);
+    EXPECT_EQ(from_file.t, expected.t);
+    EXPECT_EQ(from_file.R, expected.R);
+  }
+  EXPECT_EQ(file.chain.tool_point(), chain.tool_point());
+  EXPECT_EQ(file.chain.description().correcting, chain.description().correcting);
+  // The probe of the paper, 16.4935 mm less the mandrel's 15 mm.
+  ASSERT_TRUE(file.probe.has_value());
+  EXPECT_NEAR(file.probe->radius_mm, 16.4935 - 15.0, 1e-12);
 }
 
 // A machine no paper has: a rotary table C on X, nothing but a file.
@@ -91,6 +114,17 @@ TEST(MachineFile, RefusalsNameLineAndField) {
   EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = -7"), HasSubstr("'id' must be a whole number"));
   EXPECT_THAT(refusal_of(kRotary, "kappa = 0 }", "kappa = 2 }"), HasSubstr("from -1 to 1"));
   EXPECT_THAT(refusal_of(kRotary, "on = \"X\"", "on = \"Z\""), HasSubstr("no earlier [[body]]"));
+  EXPECT_THAT(refusal_of(kRotary, "travel_rad = [0.0, 6.283185307179586], reference_rad",
+                         "travel_mm = [0.0, 6.3], reference_mm"),
+              HasSubstr("axis C is rotary here, but its [[axis]] table says 'travel_mm'"));
+  EXPECT_THAT(refusal_of(kRotary, "moves_along = \"X\"", "moves_along = \"X\", zero_deg = 1.0"),
+              HasSubstr("table.toml:10: 'zero_deg' is for rotary joints"));
+  EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]", "axes = [\"X\"], limit_rad = 0.01"),
+              HasSubstr("'limit_rad' must be from"));
+  EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = 7\nprobe = { radius_mm = 0.0 }"),
+              HasSubstr("'radius_mm' must be above 0"));
+  EXPECT_THAT(refusal_of(kRotary, "kappa = 0 }", "kappa = 0, latch_delay_us = -1.0 }"),
+              HasSubstr("'latch_delay_us' must be from 0 to 1000"));
 }
 
 TEST(MachineFile, DeepBracketsAreRefusedBeforeTheyAreParsed) {

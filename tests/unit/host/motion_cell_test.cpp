@@ -22,39 +22,41 @@ class Cell : public testing::Test {
   TrueMachine truth = make_xyfz_truth(file, 5, {});
 };
 
+constexpr AxisKinds kThreeLinear{3, {}};
+
 // Axes that follow at once, write down where they were sent, and pretend a ramp for a while.
 class IdealAxes final : public AxisGroup {
  public:
   explicit IdealAxes(double period_s, int ramp_cycles = 0)
       : period_s_(period_s), ramp_cycles_(ramp_cycles) {}
 
-  void stand_at(const Vec3& mm) override { target_ = to_targets(mm); }
-  void cycle(const TargetsNm& target) override {
+  void stand_at(const Pose& pose) override { target_ = kThreeLinear.targets(pose); }
+  void cycle(const Targets& target) override {
     target_ = target;
     ramp_cycles_ = std::max(0, ramp_cycles_ - 1);
   }
   [[nodiscard]] double period_s() const override { return period_s_; }
-  [[nodiscard]] TargetsNm target_nm() const override { return target_; }
-  [[nodiscard]] OffsetsNm offset_nm() const override { return {}; }
+  [[nodiscard]] Targets target() const override { return target_; }
+  [[nodiscard]] Offsets offset() const override { return {}; }
   [[nodiscard]] Pose position() const override {
     Pose q{};
-    for (std::size_t a = 0; a < kGroupAxes; ++a)
+    for (std::size_t a = 0; a < kThreeLinear.count; ++a)
       q[a] = static_cast<double>(target_[a]) / kNmPerMm;
     return q;
   }
   [[nodiscard]] Approach approach() const override { return {}; }
-  [[nodiscard]] double following_error_nm() const override { return 0.0; }
+  [[nodiscard]] double following_error() const override { return 0.0; }
   [[nodiscard]] bool ramping() const override { return ramp_cycles_ > 0; }
 
  private:
   double period_s_;
   int ramp_cycles_;
-  TargetsNm target_{};
+  Targets target_{};
 };
 
-double distance_mm(const TargetsNm& a, const TargetsNm& b) {
+double distance_mm(const Targets& a, const Targets& b) {
   Vec3 d;
-  for (std::size_t i = 0; i < kGroupAxes; ++i)
+  for (std::size_t i = 0; i < kThreeLinear.count; ++i)
     d(static_cast<Eigen::Index>(i)) = static_cast<double>(a[i] - b[i]) / kNmPerMm;
   return d.norm();
 }
@@ -69,14 +71,14 @@ TEST_F(Cell, LineKeepsItsFeedAndItsDurationAtAnyPeriod) {
     const Vec3 from(-400.0, -200.0, -300.0);
     const Vec3 to(-100.0, -250.0, -50.0);
     cell.place(from);
-    TargetsNm last = cell.axes().target_nm();
+    Targets last = cell.axes().target();
     int cycles = 0;
     cell.move_to(to, kFeed, [&](const MotionCell& c) {
-      EXPECT_LE(distance_mm(c.axes().target_nm(), last), kFeed * period_s + 2e-6);
-      last = c.axes().target_nm();
+      EXPECT_LE(distance_mm(c.axes().target(), last), kFeed * period_s + 2e-6);
+      last = c.axes().target();
       ++cycles;
     });
-    EXPECT_EQ(last, to_targets(to));
+    EXPECT_EQ(last, kThreeLinear.targets(pose_of(to)));
     EXPECT_NEAR(cycles * period_s, (to - from).norm() / kFeed + kFeed / kAcceleration, period_s);
   }
 }
@@ -92,7 +94,7 @@ TEST_F(Cell, UncompensatedMachineStandsOnItsTargetAndShowsItsError) {
   const Vec3 target(-123.456, -78.9, -321.0);
   cell->place(Vec3(-100.0, -50.0, -300.0));
   cell->move_to(target, 100.0);
-  EXPECT_LT(cell->axes().following_error_nm(), 0.5);
+  EXPECT_LT(cell->axes().following_error(), 0.5);
   const Vec3 expected =
       truth.error(cell->axes().position(), cell->axes().approach(), truth.chain.tool_point())
           .position_work;
@@ -130,16 +132,16 @@ TEST_F(Cell, EveryOffsetObeysLimitAndRate) {
   const auto cell = make_integrated_cell(
       truth, tight, make_image(commission(campaign.machine, campaign.runs, {})->tables));
   cell->place(Vec3(-500.0, -300.0, -400.0));
-  auto before = cell->axes().offset_nm();
+  auto before = cell->axes().offset();
   bool limit_reached = false;
   cell->move_to(Vec3(0.0, 0.0, 0.0), 400.0, [&](const MotionCell& c) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::int32_t now = c.axes().offset_nm()[a];
+      const std::int64_t now = c.axes().offset()[a];
       EXPECT_LE(std::abs(now), 20'000);
       EXPECT_LE(std::abs(now - before[a]), 500);
       limit_reached = limit_reached || std::abs(now) == 20'000;
     }
-    before = c.axes().offset_nm();
+    before = c.axes().offset();
   });
   EXPECT_TRUE(limit_reached);
 }

@@ -17,12 +17,12 @@ std::string record_run(const Incident& incident) {
   record(axes.bus(), log);
   axes.stand_at({-250.0, -150.0, -200.0});
   axes.bring_up();
-  const TargetsNm start = axes.target_nm();
+  const Targets start = axes.target();
   for (std::int32_t i = 0; i < 600; ++i) {
     if (i == 200) incident(axes);
     std::vector<std::int32_t> path;
-    for (const std::int64_t nm : start)
-      path.push_back(static_cast<std::int32_t>(nm) + 100'000 * i);
+    for (std::size_t a = 0; a < 3; ++a)
+      path.push_back(static_cast<std::int32_t>(start[a]) + 100'000 * i);
     axes.run_cycle(path);
   }
   return log;

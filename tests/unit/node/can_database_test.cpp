@@ -64,7 +64,9 @@ TEST(CommittedDatabase, HoldsEveryPdoOfTheNode) {
       EXPECT_EQ(8 * found->second, bits) << std::hex << cob_id;
     }
   }
-  EXPECT_EQ(valid, 13);  // command, actual, held offset and offset of three axes; node status
+  // Command, actual, held offset, latch, edge counter and offset of three axes; node status,
+  // points.
+  EXPECT_EQ(valid, 22);
 }
 
 // Each sent by one station, and no signal over another or over the end.

@@ -1,5 +1,6 @@
 #include "tests/unit/node/device_files_support.hpp"
 
+#include <cstring>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -52,6 +53,7 @@ std::size_t EdsEntry::bytes() const {
     case 0x04:
     case 0x07:
       return 4;
+    case 0x11:
     case 0x15:
     case 0x1B:
       return 8;
@@ -74,6 +76,12 @@ std::optional<Bytes> EdsEntry::default_value(std::uint8_t node_id) const {
   const std::string prefix = "$NODEID+";
   if (text.rfind(prefix, 0) == 0)
     return little_endian(std::stoll(text.substr(prefix.size()), nullptr, 0) + node_id, bytes());
+  if (number("DataType") == 0x11) {
+    const double value = std::stod(text);
+    Bytes real(sizeof value);
+    std::memcpy(real.data(), &value, sizeof value);
+    return real;
+  }
   return little_endian(number("DefaultValue"), bytes());
 }
 

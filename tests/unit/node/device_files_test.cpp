@@ -47,8 +47,8 @@ TEST_F(CommittedEds, ValuesAfterPowerOnAreTheDefaults) {
   }
 }
 
-// No error has happened and no image was staged: nothing else may lack a default.
-TEST_F(CommittedEds, OnlyTheErrorHistoryAndTheDomainHaveNoDefault) {
+// No error has happened, no image was staged, no point waits: nothing else may lack a default.
+TEST_F(CommittedEds, OnlyTheErrorHistoryAndTheDomainsHaveNoDefault) {
   for (const EdsEntry& entry : entries) {
     const bool history = entry.object.index == 0x1003 && entry.object.sub > 0;
     EXPECT_EQ(entry.has("DefaultValue"), !history && !entry.is_domain()) << name_of(entry.object);
@@ -66,9 +66,10 @@ void prepare_pdo(NodeOnTheBus& node, ObjectId object) {
   ASSERT_EQ(node.write({object.index, 0}, {0}), AbortCode::none);
 }
 
-// 1010h and 1011h want the words "save" and "load".
+// 1010h and 1011h want the words "save" and "load", 2411h the number of a point that waits.
 AbortCode answer_to_writing(const EdsEntry& entry) {
   if (entry.access() == "ro" || entry.access() == "const") return AbortCode::read_only;
+  if (entry.object.index == 0x2411) return AbortCode::invalid_value;
   const bool signature = entry.object.index == 0x1010 || entry.object.index == 0x1011;
   return signature ? AbortCode::cannot_store : AbortCode::none;
 }
@@ -106,6 +107,8 @@ TEST_F(CommittedEds, LimitsAreThoseOfTheNode) {
     const bool is_signed = entry.number("DataType") < 0x05 || entry.number("DataType") == 0x15;
     const auto write = [&](std::int64_t value) {
       NodeOnTheBus node;
+      // A probe needs to know the cycle period.
+      EXPECT_EQ(node.write({0x1006, 0}, little_endian(1'000, 4)), AbortCode::none);
       return node.write(entry.object, little_endian(value, entry.bytes()));
     };
     EXPECT_EQ(write(low), AbortCode::none);

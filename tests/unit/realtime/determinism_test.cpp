@@ -1,62 +1,20 @@
 // One fixed sequence of ticks gives the same bits with every compiler, optimisation and sanitizer,
 // compiled in or loaded.
 
-#include "comp/tables/crc32.hpp"
-#include "tests/unit/realtime/support.hpp"
+#include "tests/unit/realtime/fixed_numbers.hpp"
 
 namespace volcomp::test {
 namespace {
 
 constexpr int kTicks = 100'000;
-constexpr std::int64_t kTurn = std::int64_t{1} << 40;
-
-// Numbers that are the same everywhere and always: integers, exact in float after one division.
-class Fixed {
- public:
-  std::int64_t integer(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>(bits_() % static_cast<std::uint64_t>(high - low + 1));
+template <class Output>
+void add_record(Digest& digest, const Output& out, std::size_t axes) {
+  for (std::size_t a = 0; a < axes; ++a) {
+    digest.add(static_cast<std::uint32_t>(out.offset[a]), 4);
+    digest.add(out.status[a], 2);
   }
-  AxisTable table(std::int64_t q0, std::int64_t pitch, std::uint32_t knots, bool periodic = false) {
-    AxisTable t;
-    t.q0 = q0;
-    t.pitch = pitch;
-    t.knots = knots;
-    t.periodic = periodic;
-    for (auto& column : t.value) {
-      for (std::uint32_t i = 0; i < knots; ++i) {
-        for (std::size_t c = 0; c < 6; ++c) {
-          const auto whole = static_cast<float>(integer(-40'000, 40'000));
-          column[i][c] = c < 3 ? whole : whole / 1e9F;
-        }
-      }
-    }
-    return t;
-  }
-
- private:
-  std::mt19937_64 bits_{1};
-};
-
-class Digest {
- public:
-  template <class Output>
-  void add(const Output& out, std::size_t axes) {
-    std::array<std::uint8_t, 6 * kMaxAxes> bytes{};
-    std::size_t at = 0;
-    for (std::size_t a = 0; a < axes; ++a) {
-      const auto offset = static_cast<std::uint32_t>(out.offset[a]);
-      for (unsigned shift = 0; shift < 32; shift += 8)
-        bytes[at++] = static_cast<std::uint8_t>(offset >> shift);
-      bytes[at++] = static_cast<std::uint8_t>(out.status[a] & 0xFFU);
-      bytes[at++] = static_cast<std::uint8_t>(out.status[a] >> 8U);
-    }
-    digest_ = digest_ * 31U + crc32({bytes.data(), at});
-  }
-  [[nodiscard]] std::uint32_t value() const { return digest_; }
-
- private:
-  std::uint32_t digest_ = 0;
-};
+  digest.end_record();
+}
 
 // Default settings: ramp, slew, hysteresis and the position source all take part.
 template <class AnyRunner>
@@ -72,7 +30,7 @@ std::uint32_t run(AnyRunner& runner, std::size_t axes, std::int64_t rotary_span)
       runner.in.axis[a].valid = fixed.integer(0, 999) != 0;
     }
     runner.tick(q);
-    digest.add(runner.out, axes);
+    add_record(digest, runner.out, axes);
   }
   return digest.value();
 }

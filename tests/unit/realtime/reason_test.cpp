@@ -9,7 +9,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr int kReasons = static_cast<int>(Reason::hand_over_pending) + 1;
+constexpr int kReasons = static_cast<int>(Reason::incomplete) + 1;
 
 TEST(Reason, CodesAndSentencesAreDistinct) {
   std::set<std::string> codes;
@@ -30,6 +30,15 @@ TEST(Reason, CodesAreIdentifiersAndSentencesAreSentences) {
     ASSERT_GT(text.size(), 8U) << name;
     EXPECT_EQ(text.back(), '.') << name;
     EXPECT_TRUE(text.front() >= 'A' && text.front() <= 'Z') << name;
+  }
+}
+
+// A node carries the sentences for what machines and tables can be refused for, and no others.
+TEST(Reason, LoadingSentencesEndWhereMeasuringBegins) {
+  for (int i = 0; i < kReasons; ++i) {
+    const auto reason = static_cast<Reason>(i);
+    EXPECT_EQ(loading_sentence(reason) != nullptr, reason < Reason::length_mismatch)
+        << code(reason);
   }
 }
 

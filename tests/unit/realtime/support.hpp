@@ -229,6 +229,9 @@ class MachineModel {
     return ideal_work.turn(e);
   }
 
+  // Tool point of the ideal machine, base frame.
+  [[nodiscard]] Real3 nominal() const { return branch(tables_.machine.tool_body, 0).apply(tool_); }
+
   // First order: the odd part of the exact error; what is left of it is of third order.
   [[nodiscard]] Real3 first_order() const {
     const Real3 plus = exact(1);

@@ -25,9 +25,10 @@ TEST(Trigonometry, DenseSweepWithin2em7) {
   constexpr std::uint64_t step = (std::uint64_t{1} << 32U) / kPoints | 1U;
   for (std::uint64_t u = 0; u < (std::uint64_t{1} << 32U); u += step)
     worst = std::max(worst, worst_error(static_cast<std::uint32_t>(u)));
-  for (std::uint64_t eighth = 0; eighth < 8; ++eighth) {  // around every seam of the reduction
-    for (std::int64_t near = -2'000; near <= 2'000; ++near) {
-      const auto u = static_cast<std::uint32_t>(static_cast<std::int64_t>(eighth << 29U) + near);
+  // Around the points of the circle and the seams between them, where what is left is largest.
+  for (std::uint64_t half = 0; half < 256; ++half) {
+    for (std::int64_t near = -100; near <= 100; ++near) {
+      const auto u = static_cast<std::uint32_t>(static_cast<std::int64_t>(half << 24U) + near);
       worst = std::max(worst, worst_error(u));
     }
   }

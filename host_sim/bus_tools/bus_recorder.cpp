@@ -1,7 +1,8 @@
-#include "host_sim/bus_tools/logged_cells.hpp"
+#include "host_sim/bus_tools/bus_recorder.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace volcomp::sim {
 namespace {
@@ -30,18 +31,12 @@ void BusRecorder::write(std::uint64_t bus_ns, const hal::CanFrame& frame) {
   log_.write(last_us_, frame);
 }
 
-CellFactory logged_cells(const MachineFile& machine, double cycle_hz, CanGateway* gateway,
-                         BusRecorder& recorder) {
-  return [machine, cycle_hz, gateway, &recorder](const TrueMachine& truth,
-                                                 const CorrectionFile& correction,
-                                                 const std::vector<std::uint8_t>& image) {
-    MachineFile corrected = machine;
-    corrected.correction = correction;
-    const BusSettings settings = bus_settings(corrected, cycle_hz);
-    auto axes = gateway == nullptr ? std::make_unique<BusAxes>(settings, image)
-                                   : std::make_unique<BusAxes>(settings, image, *gateway);
+BusAxesFactory recorded(BusAxesFactory make_axes, BusRecorder& recorder) {
+  return [make_axes = std::move(make_axes), &recorder](const BusSettings& settings,
+                                                       const std::vector<std::uint8_t>& image) {
+    auto axes = make_axes(settings, image);
     recorder.record(*axes);
-    return std::make_unique<MotionCell>(truth, std::move(axes));
+    return axes;
   };
 }
 

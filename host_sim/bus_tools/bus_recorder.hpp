@@ -29,9 +29,7 @@ class BusRecorder {
   std::uint64_t last_us_ = 0;
 };
 
-// The cell factories of bus_axes.hpp; `gateway` may be nullptr: the node is in this process. What
-// is given must outlive the cells.
-[[nodiscard]] CellFactory logged_cells(const MachineFile& machine, double cycle_hz,
-                                       CanGateway* gateway, BusRecorder& recorder);
+// Axes that are recorded from their first frame. The recorder must outlive them.
+[[nodiscard]] BusAxesFactory recorded(BusAxesFactory make_axes, BusRecorder& recorder);
 
 }  // namespace volcomp::sim

@@ -1,0 +1,41 @@
+#pragma once
+// Deviations of one trace or one round of pitch measurements, in the unit of the input.
+
+#include <cstddef>
+
+#include "comp/span.hpp"
+#include "comp/status.hpp"
+
+namespace volcomp {
+
+struct TraceDeviations {
+  double total = 0.0;  // F: range of the trace
+  double form = 0.0;   // f_f: range about the mean line
+  double slope = 0.0;  // f_H: rise of the mean line over the evaluation range
+  std::size_t used = 0;
+};
+
+struct EvaluationRange {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+// Profile (`at`: roll length) or lead (`at`: x): unweighted least-squares line through the points
+// within `range`, ends included. Refused: length_mismatch, not_finite (index), too_few_points
+// (count) for fewer than 3 in the range. Seed 000 section 4.
+Status evaluate_trace(Span<const double> at, Span<const double> deviation,
+                      const EvaluationRange& range, TraceDeviations& out);
+
+struct PitchDeviations {
+  double total = 0.0;   // F_p
+  double single = 0.0;  // f_pt, magnitude
+  double single_signed = 0.0;
+  std::size_t tooth = 0;  // where f_pt is largest: between this tooth and the one before
+};
+
+// `position`: deviation of each tooth from where it should be, all of one side; NaN: not measured.
+// Refused: too_few_points (count) for fewer than 2, incomplete (index of the first that is missing,
+// count of all), not_finite (index).
+Status evaluate_pitch(Span<const double> position, PitchDeviations& out);
+
+}  // namespace volcomp

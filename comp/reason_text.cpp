@@ -1,0 +1,162 @@
+#include "comp/status.hpp"
+
+namespace volcomp {
+
+const char* code(Reason reason) {
+  switch (reason) {
+    case Reason::ok:
+      return "ok";
+    case Reason::not_finite:
+      return "not_finite";
+    case Reason::missing_field:
+      return "missing_field";
+    case Reason::no_runs:
+      return "no_runs";
+    case Reason::run_length:
+      return "run_length";
+    case Reason::too_many_runs:
+      return "too_many_runs";
+    case Reason::positions_not_monotone:
+      return "positions_not_monotone";
+    case Reason::positions_duplicate:
+      return "positions_duplicate";
+    case Reason::positions_not_uniform:
+      return "positions_not_uniform";
+    case Reason::gap_too_large:
+      return "gap_too_large";
+    case Reason::reference_out_of_range:
+      return "reference_out_of_range";
+    case Reason::unit_suspected:
+      return "unit_suspected";
+    case Reason::too_few_knots:
+      return "too_few_knots";
+    case Reason::too_many_knots:
+      return "too_many_knots";
+    case Reason::pitch_not_positive:
+      return "pitch_not_positive";
+    case Reason::travel_too_long:
+      return "travel_too_long";
+    case Reason::not_periodic:
+      return "not_periodic";
+    case Reason::bad_magic:
+      return "bad_magic";
+    case Reason::version_unknown:
+      return "version_unknown";
+    case Reason::image_truncated:
+      return "image_truncated";
+    case Reason::crc_mismatch:
+      return "crc_mismatch";
+    case Reason::machine_mismatch:
+      return "machine_mismatch";
+    case Reason::axes_mismatch:
+      return "axes_mismatch";
+    case Reason::bound_exceeded:
+      return "bound_exceeded";
+    case Reason::contraction_exceeded:
+      return "contraction_exceeded";
+    case Reason::parent_not_lower:
+      return "parent_not_lower";
+    case Reason::not_one_root:
+      return "not_one_root";
+    case Reason::bad_body:
+      return "bad_body";
+    case Reason::too_many_bodies:
+      return "too_many_bodies";
+    case Reason::too_many_axes:
+      return "too_many_axes";
+    case Reason::bad_joint:
+      return "bad_joint";
+    case Reason::not_a_rotation:
+      return "not_a_rotation";
+    case Reason::bad_axis_index:
+      return "bad_axis_index";
+    case Reason::no_authority:
+      return "no_authority";
+    case Reason::bad_setting:
+      return "bad_setting";
+    case Reason::lever_mismatch:
+      return "lever_mismatch";
+    case Reason::lever_spread_too_small:
+      return "lever_spread_too_small";
+    case Reason::too_few_points:
+      return "too_few_points";
+    case Reason::hand_over_pending:
+      return "hand_over_pending";
+    case Reason::not_staged:
+      return "not_staged";
+    case Reason::length_mismatch:
+      return "length_mismatch";
+    case Reason::coincident:
+      return "coincident";
+    case Reason::collinear:
+      return "collinear";
+    case Reason::rank_deficient:
+      return "rank_deficient";
+    case Reason::inside_base_circle:
+      return "inside_base_circle";
+    case Reason::out_of_standard:
+      return "out_of_standard";
+    case Reason::out_of_reach:
+      return "out_of_reach";
+    case Reason::no_z_authority:
+      return "no_z_authority";
+    case Reason::zero_normal:
+      return "zero_normal";
+    case Reason::implausible_radius:
+      return "implausible_radius";
+    case Reason::residuals_too_large:
+      return "residuals_too_large";
+    case Reason::parent_not_identified:
+      return "parent_not_identified";
+    case Reason::wrong_flank:
+      return "wrong_flank";
+    case Reason::outlier:
+      return "outlier";
+    case Reason::incomplete:
+      return "incomplete";
+  }
+  return "unknown";
+}
+
+const char* sentence(Reason reason) {
+  if (const char* const text = loading_sentence(reason); text != nullptr) return text;
+  switch (reason) {
+    case Reason::length_mismatch:
+      return "Two lists that belong together have different lengths.";
+    case Reason::coincident:
+      return "All points are the same point.";
+    case Reason::collinear:
+      return "The points lie on a line; they determine no circle.";
+    case Reason::rank_deficient:
+      return "The targets do not determine all six error motions; at least three are needed that "
+             "do not lie on a line.";
+    case Reason::inside_base_circle:
+      return "The point lies inside the base circle, where there is no involute.";
+    case Reason::out_of_standard:
+      return "The gear is outside the sizes the standard covers.";
+    case Reason::out_of_reach:
+      return "The height is beyond the length of the arm.";
+    case Reason::no_z_authority:
+      return "The arm stands so upright that swinging it hardly changes the height.";
+    case Reason::zero_normal:
+      return "The surface normal has no length.";
+    case Reason::implausible_radius:
+      return "The effective radius is not between 0 and the radius of the ball + 0.05 mm; it is "
+             "R_c of the circle minus the radius of the mandrel.";
+    case Reason::residuals_too_large:
+      return "The points are farther from the fit than is allowed.";
+    case Reason::parent_not_identified:
+      return "An axis that this one hangs on has moved, and its errors are not identified yet.";
+    case Reason::wrong_flank:
+      return "The point is more than 0.5 mm off the flank; another tooth or side was probably "
+             "touched.";
+    case Reason::outlier:
+      return "A point deviates too much from the fit; the result was not taken over.";
+    case Reason::incomplete:
+      return "Measured values are missing; there is no grade.";
+    default:
+      return "Unknown reason.";
+  }
+}
+
+}  // namespace volcomp

@@ -1,0 +1,47 @@
+#pragma once
+// Points that wait until somebody has read them: none is overwritten, none is dropped unnoticed.
+
+#include <array>
+
+#include "comp/realtime/probe_corrector.hpp"
+#include "comp/span.hpp"
+#include "firmware/node/node_compensator.hpp"
+
+namespace volcomp::node {
+
+// A point as 2410h hands it out, little-endian:
+//
+//    0  u32  sequence number          64  f32 × 3  standard uncertainty, nm, of the workpiece
+//    4  u32  feature                               coordinates
+//    8  u8   verdict (TouchVerdict)   76  u32      zeros
+//    9  u8   axis of the verdict      80  i64 × 5  positions of the axes as they were latched,
+//   10  u16  zeros                                 nm or 2^-40 turn
+//   12  u32  zeros                   120  f64 × 5  their speeds, nm or 2^-40 turn per second
+//   16  i64 × 3  machine, nm         160  end
+//   40  i64 × 3  workpiece, nm
+inline constexpr std::size_t kPointBytes = 160;
+using PointRecord = std::array<std::uint8_t, kPointBytes>;
+
+// A rejected touch has zeros instead of coordinates.
+[[nodiscard]] PointRecord encode_point(const ProbePoint& point, const Touch& touch);
+
+class PointFifo {
+ public:
+  static constexpr std::size_t kCapacity = 32;
+
+  // False when full: the new point is not taken.
+  bool push(const PointRecord& record);
+  [[nodiscard]] std::size_t waiting() const { return waiting_; }
+  // Empty when nothing waits; valid until release() or clear().
+  [[nodiscard]] Span<const std::uint8_t> oldest() const;
+  // Makes room once the oldest point has been read. False when it has another number.
+  bool release(std::uint32_t sequence);
+  void clear() { first_ = waiting_ = 0; }
+
+ private:
+  std::array<PointRecord, kCapacity> record_{};
+  std::size_t first_ = 0;
+  std::size_t waiting_ = 0;
+};
+
+}  // namespace volcomp::node

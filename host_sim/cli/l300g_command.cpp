@@ -1,0 +1,93 @@
+// volcomp run l300g
+
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/run_options.hpp"
+#include "host_sim/data/whole_file.hpp"
+#include "host_sim/scenarios/l300g/figures.hpp"
+#include "host_sim/scenarios/l300g/report.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct L300gArguments : RunArguments {
+  L300gOptions options;
+  std::string gcode_folder;  // empty: none
+};
+
+void write_programs(const std::filesystem::path& folder, const L300gResult& result) {
+  if (folder.empty()) return;
+  create_folder(folder);
+  write_whole_file(folder / "inspection_before.ngc", result.before.program);
+  write_whole_file(folder / "inspection_after.ngc", result.after.program);
+}
+
+int run_l300g_command(const L300gArguments& arguments) {
+  ScenarioBus bus(arguments.node);
+  L300gOptions options = arguments.options;
+  options.machine = machine_of(arguments, "l300g");
+  options.make_axes = bus.axes();
+  options.cycle_hz = arguments.node.cycle_hz;
+  const L300gResult result = run_watched(
+      &bus, [&options](const Progress& progress) { return run_l300g(options, progress); });
+  fmt::print("{}transport: {}\n", l300g_summary(result), describe(arguments.node));
+  write_figures(arguments, l300g_figures(result));
+  write_pages(arguments, l300g_document(result, arguments.command, describe(arguments.node)));
+  write_programs(arguments.gcode_folder, result);
+  return l300g_verdict(result).ok ? 0 : 1;
+}
+
+template <class Choice>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& value,
+                        const std::map<std::string, Choice>& words, const std::string& what) {
+  std::string list;
+  for (const auto& [word, choice] : words)
+    list += (list.empty() ? "" : "|") + word;
+  return app.add_option(name, value, fmt::format("{}: {}", what, list))
+      ->transform(CLI::Transformer(words, CLI::ignore_case).description(""))
+      ->default_str(words.begin()->first);
+}
+
+}  // namespace
+
+void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
+  CLI::App* l300g = run.add_subcommand(
+      "l300g",
+      "Gear grinder: calibrate its probe, measure a master gear, compensate, measure again");
+  auto a = std::make_shared<L300gArguments>();
+  a->command = command;
+  a->node.can = "loopback";
+  a->node.cycle_hz = kBusCycleOfFive_hz;
+  L300gOptions& options = a->options;
+  add_choice<PathStyle>(*l300g, "--path", options.path,
+                        {{"fixed-a", PathStyle::fixed_a}, {"generate", PathStyle::generate}},
+                        "How a flank is followed");
+  add_choice<Origin>(*l300g, "--origin", options.origin,
+                     {{"mandrel", Origin::mandrel}, {"nominal", Origin::nominal}},
+                     "Where the axis of A is taken to be")
+      ->default_str("nominal");
+  add_choice<TableKind>(*l300g, "--tables", options.tables,
+                        {{"identified", TableKind::identified}, {"means", TableKind::means}},
+                        "What is compensated, all of each error function or its mean");
+  l300g
+      ->add_option("--errors", options.errors,
+                   fmt::format("What is wrong with the machine: {}, or a file", kNamedErrors))
+      ->capture_default_str();
+  l300g->add_option("--seed", options.seed, "Seed of the phases of the waves")
+      ->capture_default_str();
+  l300g
+      ->add_option("--can", a->node.can,
+                   fmt::format("Bus: loopback (node in this process), {}", kLinkForms))
+      ->capture_default_str();
+  l300g->add_option("--gcode", a->gcode_folder,
+                    "Folder for the inspection as NC programs, before and after compensation");
+  add_output_options(*l300g, *a);
+  add_bus_options(*l300g, a->node);
+  l300g->callback([a, &code] { code = run_l300g_command(*a); });
+}
+
+}  // namespace volcomp::sim

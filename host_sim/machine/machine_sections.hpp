@@ -1,0 +1,20 @@
+#pragma once
+// The tables of a machine file that stand by themselves. A value outside its range throws UserError
+// with file and line.
+
+#include "host_sim/data/toml_section.hpp"
+#include "host_sim/machine/machine_file.hpp"
+
+namespace volcomp::sim {
+
+// Limits, rates and times of [correction].
+void read_correction_values(const TomlSection& s, CorrectionFile& c);
+
+[[nodiscard]] SquarenessFile read_squareness(const TomlSection& s);
+
+[[nodiscard]] ProbeFile read_probe(const TomlSection& s);
+
+// 0…1000; 0 where nothing is said.
+[[nodiscard]] double read_delay_us(const TomlSection& s, const std::string& key);
+
+}  // namespace volcomp::sim

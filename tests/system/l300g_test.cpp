@@ -1,0 +1,224 @@
+// The whole procedure of seed 000 on the simulated L300G: every number here is one of its section
+// 5.4 (or another, where said), found by touches over the bus.
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "comp/units.hpp"
+#include "host_sim/scenarios/l300g/figures.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr double kTolerance_um = 0.2;
+constexpr double kVaried_um = 0.4;  // where the small variation is in
+
+L300gResult run(const std::string& errors, PathStyle path = PathStyle::fixed_a,
+                Origin origin = Origin::nominal, TableKind tables = TableKind::identified,
+                std::uint64_t seed = 1) {
+  L300gOptions options;
+  options.machine = bundled_machine("l300g");
+  options.errors = errors;
+  options.path = path;
+  options.origin = origin;
+  options.tables = tables;
+  options.seed = seed;
+  options.cycle_hz = 50.0;  // the slower, the fewer cycles; a touch does not wait for one
+  return run_l300g(options, [](double, const std::string&) {});
+}
+
+const L300gResult& p8() {
+  static const L300gResult result = run("p8");
+  return result;
+}
+
+struct Wanted {
+  double left, right;
+  int grade_left, grade_right;
+};
+
+void expect_total(const std::array<FlankTrace, 2>& trace, const Wanted& wanted, double tolerance) {
+  EXPECT_NEAR(trace[0].figures.total, wanted.left, tolerance) << "left";
+  EXPECT_NEAR(trace[1].figures.total, wanted.right, tolerance) << "right";
+  EXPECT_EQ(trace[0].grade_1995, wanted.grade_left);
+  EXPECT_EQ(trace[1].grade_1995, wanted.grade_right);
+}
+
+void expect_good_gear(const GearInspection& gear, double tolerance) {
+  expect_total(gear.profile, {5.59, 5.59, 4, 4}, tolerance);
+  expect_total(gear.lead, {4.82, 4.82, 4, 4}, tolerance);
+  for (const FlankTrace& profile : gear.profile) {
+    EXPECT_NEAR(profile.figures.form, 4.40, tolerance);
+    EXPECT_NEAR(profile.figures.slope, 3.40, tolerance);
+  }
+}
+
+TEST(L300g, AGoodMachineFindsTheGearAsItIs) {
+  const L300gResult result = run("none");
+  expect_good_gear(result.before, kTolerance_um);
+  expect_good_gear(result.after, kTolerance_um);
+  expect_good_gear(result.truth, kTolerance_um);
+}
+
+// The paper's claim: grade 8 before, 4 after; the lead was never wrong.
+TEST(L300g, P8SpoilsTheProfileAndCompensationPutsItRight) {
+  expect_total(p8().before.profile, {20.57, 20.87, 8, 8}, kTolerance_um);
+  expect_total(p8().before.lead, {4.82, 4.82, 4, 4}, kTolerance_um);
+  EXPECT_NEAR(p8().before.profile[0].figures.slope, 20.7, kTolerance_um);
+  EXPECT_NEAR(p8().before.profile[1].figures.slope, 20.6, kTolerance_um);
+  expect_good_gear(p8().after, kTolerance_um);
+  EXPECT_TRUE(l300g_verdict(p8()).ok);
+}
+
+// Of constants of 0.004°: X + Y + B − A by components, B tilted by 1.3° at the flank.
+TEST(L300g, OrientationIsWhatTheAxesAddUpTo) {
+  constexpr double kTilt = 0.004 * kPi / 180.0;
+  EXPECT_NEAR(p8().orientation.x(), 0.0, 0.03 * kTilt);
+  EXPECT_NEAR(p8().orientation.y(), kTilt, 0.01 * kTilt);
+  EXPECT_NEAR(p8().orientation.z(), 3.0 * kTilt, 0.03 * kTilt);
+}
+
+// Section 5.3: the errors that the paper has measured cannot do what the paper shows.
+TEST(L300g, Table2AloneLeavesTheGradeAlone) {
+  const L300gResult result = run("table2");
+  expect_total(result.before.profile, {5.50, 4.65, 4, 3}, kTolerance_um);
+  expect_total(result.before.lead, {4.82, 4.82, 4, 4}, kTolerance_um);
+  EXPECT_NEAR(result.before.profile[0].figures.slope, 2.93, kTolerance_um);
+  EXPECT_NEAR(result.before.profile[1].figures.slope, 0.90, kTolerance_um);
+  expect_good_gear(result.after, kTolerance_um);
+}
+
+TEST(L300g, WithTheOriginOfTheMandrelNothingIsLeftToCompensate) {
+  const L300gResult result = run("p8", PathStyle::fixed_a, Origin::mandrel);
+  EXPECT_NEAR(result.calibration.fit.geometric.y, 168.8573, 1e-4);
+  expect_total(result.before.profile, {5.64, 5.58, 4, 4}, kTolerance_um);
+  expect_total(result.before.lead, {4.82, 4.82, 4, 4}, kTolerance_um);
+  expect_good_gear(result.after, kTolerance_um);
+}
+
+TEST(L300g, GeneratingPathSeesLittleOfP8) {
+  const L300gResult result = run("p8", PathStyle::generate);
+  expect_total(result.before.profile, {6.89, 7.11, 5, 5}, kTolerance_um);
+  expect_total(result.before.lead, {4.83, 4.83, 4, 4}, kTolerance_um);
+  expect_good_gear(result.after, kTolerance_um);
+}
+
+// No table of the axes holds the length of the arm.
+TEST(L300g, AShortArmSpoilsTheGeneratingPathForGood) {
+  const L300gResult result = run("short-arm", PathStyle::generate);
+  expect_total(result.before.profile, {22.8, 22.8, 8, 8}, kTolerance_um);
+  expect_total(result.after.profile, {22.8, 22.8, 8, 8}, kTolerance_um);
+  expect_total(result.before.lead, {4.83, 4.83, 4, 4}, kTolerance_um);
+  EXPECT_FALSE(l300g_verdict(result).ok);
+}
+
+TEST(L300g, ASlopeOfASpoilsTheGeneratingPath) {
+  const L300gResult result = run("a-slope", PathStyle::generate);
+  expect_total(result.before.profile, {20.4, 20.4, 8, 8}, kTolerance_um);
+  expect_total(result.before.lead, {4.83, 4.83, 4, 4}, kTolerance_um);
+  expect_good_gear(result.after, kTolerance_um);
+}
+
+// --- rows that depend on phases nobody has handed down
+
+TEST(L300g, SmallVariationIsCompensatedWhateverItsPhases) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const L300gResult result =
+        run("p8-variation", PathStyle::fixed_a, Origin::nominal, TableKind::identified, seed);
+    EXPECT_EQ(result.before.profile[0].grade_1995, 8) << seed;
+    EXPECT_EQ(result.before.profile[1].grade_1995, 8) << seed;
+    expect_total(result.after.profile, {5.61, 5.58, 4, 4}, kVaried_um);
+    expect_total(result.after.lead, {4.82, 4.82, 4, 4}, kVaried_um);
+    EXPECT_LE(result.identification.max_error(), 1e-6);
+  }
+}
+
+// --- calibration and identification
+
+// Section 3; (0.277, 0.095, 0.156) σ of Y0, Z0, R_c.
+TEST(L300g, ProbeCalibrationIsThatOfThePaper) {
+  const MandrelCalibration good = run("none").calibration;
+  EXPECT_EQ(good.y.size(), 162U);
+  EXPECT_NEAR(good.rc, 1.4935, 1e-5);
+  EXPECT_NEAR(good.fit.geometric.y, 168.8053, 1e-5);
+  EXPECT_NEAR(std::sqrt(good.fit.cofactors(0, 0)), 0.277, 0.001);
+  EXPECT_NEAR(std::sqrt(good.fit.cofactors(1, 1)), 0.095, 0.001);
+  EXPECT_NEAR(std::sqrt(good.fit.cofactors(2, 2)), 0.156, 0.001);
+  EXPECT_NEAR(
+      good.fit.cofactors(0, 2) / std::sqrt(good.fit.cofactors(0, 0) * good.fit.cofactors(2, 2)),
+      -0.86, 0.005);
+  // An arm 0.17 mm shorter than believed: the believed one is longer.
+  const MandrelCalibration shortened = run("short-arm", PathStyle::generate).calibration;
+  EXPECT_NEAR(shortened.rc - 1.4935, 0.17 * 0.1097, 1e-4);
+}
+
+TEST(L300g, TrapsOfTheCalibrationAreThoseOfTheSpecification) {
+  EXPECT_NEAR(p8().longer_arm.radius / kLongerArm_mm, 0.1097, 1e-4);
+  EXPECT_NEAR(p8().longer_arm.y0 / kLongerArm_mm, -0.0921, 1e-4);
+  EXPECT_NEAR(p8().longer_arm.rms / kLongerArm_mm, 6.9e-3, 1e-4);
+  const double radius_um[] = {0.32, 8.0, 31.9};
+  const double z0_um[] = {-3.6, -18.0, -36.0};
+  const double rms_um[] = {0.80, 4.0, 8.3};
+  for (std::size_t i = 0; i < kHigherPivots_mm.size(); ++i) {
+    const MandrelEffect& e = p8().higher_pivot[i];
+    EXPECT_NEAR(kUmPerMm * e.radius, radius_um[i], 0.05);
+    EXPECT_NEAR(kUmPerMm * e.z0, z0_um[i], 0.5);
+    EXPECT_NEAR(kUmPerMm * e.rms, rms_um[i], 0.05);
+  }
+}
+
+TEST(L300g, IdentificationIsExactAndThePrintedProcedureIsNot) {
+  EXPECT_LE(p8().identification.max_error(), 1e-6);
+  EXPECT_EQ(p8().identification.printed.rank, 3);
+}
+
+// --- the path of the points
+
+TEST(L300g, PointsDoNotDependOnTheFeed) {
+  EXPECT_LE(p8().feeds.corrected_spread_nm(), 10.0);
+  // From 10 to 1000 mm/min at 16 µm from contact to latch of B: 264 nm along Z, less along the
+  // normal.
+  EXPECT_NEAR(p8().feeds.raw_spread_nm(), 264.0 * std::cos(0.3), 10.0);
+}
+
+// Lobing of ±5 µm, mapped from 36 directions with 0.1 µm of noise: 0.2 µm in 36 others.
+TEST(L300g, PointsDoNotDependOnTheDirection) {
+  EXPECT_LT(p8().lobing.corrected_um, 0.2);
+  EXPECT_GT(p8().lobing.raw_um, 2.0);
+  EXPECT_LT(p8().lobing.raw_um, 5.5);
+}
+
+TEST(L300g, JsonHoldsEveryPromisedFigure) {
+  const nlohmann::json j = l300g_figures(p8());
+  for (const char* key : {"Rc", "rc", "u_rc", "Y0", "Z0"})
+    EXPECT_TRUE(j["probe"][key].is_number()) << key;
+  EXPECT_TRUE(j["identify"]["max_error"].is_number());
+  for (const char* when : {"before", "after"}) {
+    for (const char* side : kSideNames) {
+      for (const char* what : {"profile", "lead"}) {
+        for (const char* key : {"F", "ff", "fH", "grade1995", "grade2013"})
+          EXPECT_TRUE(j[what][when][side][key].is_number()) << what << key;
+      }
+      for (const char* key : {"Fp", "fpt"})
+        EXPECT_TRUE(j["pitch"][when][side][key].is_number()) << key;
+    }
+  }
+  for (const char* key : {"raw", "corrected"}) {
+    EXPECT_TRUE(j["feed_spread_nm"][key].is_number());
+    EXPECT_TRUE(j["lobing_um"][key].is_number());
+  }
+}
+
+TEST(L300g, SameSeedSameFiguresOtherSeedOthers) {
+  const auto figures = [](std::uint64_t seed) {
+    return l300g_figures(run("p8-variation", PathStyle::fixed_a, Origin::nominal,
+                             TableKind::identified, seed))
+        .dump();
+  };
+  EXPECT_EQ(figures(7), figures(7));
+  EXPECT_NE(figures(7), figures(8));
+}
+
+}  // namespace
+}  // namespace volcomp::sim

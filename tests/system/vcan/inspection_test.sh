@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# A master gear measured with the node as a second process on a real SocketCAN interface: every touch is the
+# touch on the loopback, so every figure is.
+# shellcheck source=tests/system/vcan/common.sh
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+readonly volcomp=$build/host_sim/volcomp same_figures=tests/system/vcan/same_figures.py
+# The slower the cycle, the fewer there are; what is compared does not depend on it.
+inspection=("$volcomp" run l300g --cycle-hz 50)
+
+start node "$build/firmware/volcomp-node" --can vcan0 --node-id 32
+wait_for 'the node listens' listeners_are 1
+
+"${inspection[@]}" --can vcan0 --json "$work/vcan.json" > "$work/vcan_run.txt" 2>&1 ||
+  fail 'the inspection over vcan0'
+"${inspection[@]}" --can loopback --json "$work/loopback.json" > "$work/loopback_run.txt" 2>&1 ||
+  fail 'the inspection over loopback'
+
+expect 'vcan0 and loopback give the same figures' "$python" "$same_figures" "$work/vcan.json" "$work/loopback.json" 0

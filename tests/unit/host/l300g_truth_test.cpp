@@ -1,0 +1,106 @@
+// The simulated L300G: its errors, and what identification finds of them.
+
+#include <gtest/gtest.h>
+
+#include "comp/units.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/l300g/identification.hpp"
+#include "host_sim/scenarios/l300g/truth.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+const MachineFile& file() {
+  static const MachineFile f = read_machine_file(bundled_machine("l300g"));
+  return f;
+}
+
+TrueMachine machine_with(const std::string& errors) {
+  return make_l300g_truth(file(), grinder_errors(errors), 1);
+}
+
+// At the pitch point of the left flank: arm hardly swung, Y = 231 (section 5.2).
+Vec3 error_um(const TrueMachine& machine) {
+  const Pose q{0.0, 231.0, file().axes[2].reference + 0.02, 0.0};
+  return kUmPerMm * machine.error(q, {}, machine.chain.tool_point()).position_work;
+}
+
+// Section 5.4, to the tenth of a micrometre that it prints; 0.02 rad of swing move it by less.
+TEST(L300gTruth, P8IsTheErrorOfTheSpecification) {
+  const Vec3 e = error_um(machine_with("p8"));
+  EXPECT_NEAR(e.x(), -7.7, 0.2);
+  EXPECT_NEAR(e.y(), -52.0, 0.2);
+  EXPECT_NEAR(e.z(), -8.4, 0.2);
+}
+
+// Section 5.3.
+TEST(L300gTruth, Table2IsTheErrorOfTheSpecification) {
+  const Vec3 e = error_um(machine_with("table2"));
+  EXPECT_NEAR(e.x(), 4.1, 0.1);
+  EXPECT_NEAR(e.y(), 4.8, 0.1);
+  EXPECT_NEAR(e.z(), 6.6, 0.1);
+}
+
+TEST(L300gTruth, ASlopeOfATurningAxisReturns) {
+  const TrueMachine machine = machine_with("a-slope");
+  const auto about_itself = [&](double A) { return machine.errors({0.0, 0.0, 0.0, A}, {})[3](3); };
+  for (const double A : {-0.44, -0.1, 0.1, 0.44})
+    EXPECT_NEAR(about_itself(A), 8.6e-4 * A, 0.0014 * 8.6e-4 * std::abs(A));
+  EXPECT_NEAR(about_itself(0.3 + 2.0 * kPi), about_itself(0.3), 1e-15);
+}
+
+TEST(L300gTruth, AFileSaysTheSameAsAName) {
+  const TrueMachine by_file =
+      make_l300g_truth(file(),
+                       parse_grinder_errors("convention = \"relative\"\n"
+                                            "[X]\nconstant = [3.8, 0, 0, 0, 0, 0]\n"
+                                            "[Y]\nconstant = [0, 4.5, 0, 0, 0, 0]\n"
+                                            "[B]\nconstant = [0, 0, 0, 0, 63.7045, 0]\n"
+                                            "[A]\nconstant = [0, 0, 0, -72.4312, 0, 0]\n",
+                                            "errors.toml"),
+                       1);
+  EXPECT_LT((error_um(by_file) - error_um(machine_with("table2"))).norm(), 1e-4);
+}
+
+TEST(L300gTruth, ABadFileIsRefusedWithItsLine) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      static_cast<void>(parse_grinder_errors(text, "errors.toml"));
+    } catch (const UserError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal("arm_mm = 0.1\n").find("missing mandatory field 'convention'"),
+            std::string::npos);
+  EXPECT_EQ(refusal("convention = \"body\"\n[Q]\n").rfind("errors.toml:2: ", 0), 0U);
+  EXPECT_EQ(refusal("convention = \"body\"\n[X]\nwave_um = 1.0\n").rfind("errors.toml:3: ", 0), 0U);
+  EXPECT_THROW(static_cast<void>(grinder_errors("no-such-file.toml")), UserError);
+}
+
+// Section 2.2 and its 1e-6; the fit is repeated, so that nothing of second order is left either.
+TEST(L300gIdentification, FindsAll24FunctionsWithoutNoise) {
+  for (const char* errors : {"p8", "p8-variation", "a-slope"}) {
+    const Identification found = identify_l300g(machine_with(errors), file());
+    ASSERT_EQ(found.axis.size(), 4U);
+    EXPECT_LT(found.max_error(), 1e-9) << errors;
+  }
+}
+
+// Section 2.1: the printed equations have rank 3, and their "solution" is the mean reading.
+TEST(L300gIdentification, PrintedProcedureGivesTheMeanReadingAndNoMore) {
+  const Identification found = identify_l300g(machine_with("p8-variation"), file());
+  EXPECT_EQ(found.printed.rank, 3);
+  EXPECT_NEAR(found.printed.least(0) + found.printed.least(4) - found.printed.least(5),
+              found.axis[0].own.mean, 1e-12);
+}
+
+// Section 2.2: targets across the lever keep the noise down; all six unknowns alike.
+TEST(L300gIdentification, TargetsAreWellConditioned) {
+  const Identification found = identify_l300g(machine_with("none"), file());
+  EXPECT_LT(found.condition, 30.0);
+  EXPECT_LT(found.spread.head<3>().maxCoeff(), kTracker_mm);
+}
+
+}  // namespace
+}  // namespace volcomp::sim
