@@ -216,11 +216,12 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
     ++chain.axes;
   }
   chain.correcting_count = machine.correcting_count;
-  chain.correcting = machine.correcting;
   for (std::uint8_t& c : chain.correcting_index)
     c = kNotCorrecting;
-  for (std::uint8_t c = 0; c < machine.correcting_count; ++c)
+  for (std::uint8_t c = 0; c < machine.correcting_count; ++c) {  // what lies behind means nothing
+    chain.correcting[c] = machine.correcting[c];
     chain.correcting_index[machine.correcting[c]] = c;
+  }
   bool any_rotary = false;
   for (std::size_t i = 0; i < chain.steps; ++i) {
     RuntimeStep& step = chain.step[i];

@@ -66,6 +66,16 @@ void expect_refused_or_usable(const MachineTables& t) {
   }
 }
 
+// An image has room for three correcting axes; what stands behind the last in use may be anything.
+TEST(RotaryLookup, WhatStandsBehindTheCorrectingAxesIsNotRead) {
+  MachineTables t = one_rotary(0, kTurn / 10, 11);
+  t.machine.correcting = {0, 102, 255};
+  const RuntimeChain chain = make_runtime_chain(t.machine);
+  for (const std::uint8_t axis : chain.correcting)
+    EXPECT_LT(axis, chain.axes);
+  expect_refused_or_usable(t);
+}
+
 TEST(RotaryLookup, OrdinaryTable) {
   expect_refused_or_usable(one_rotary(-kTurn / 5, kTurn / 50, 20));
 }
