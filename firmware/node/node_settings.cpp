@@ -15,6 +15,8 @@ std::int32_t slew_on_wire(std::int32_t slew, const WireScale& scale) {
 
 }  // namespace
 
+// Whose tables these are is asked where they are loaded: the number may change while the node
+// rests.
 Status Node::configure() {
   configure_gates();
   CompensatorSettings<kNodeAxes> s;
@@ -24,7 +26,6 @@ Status Node::configure() {
                  objects_.hysteresis[a], objects_.max_step[a]};
   }
   s.source = static_cast<PositionSource>(objects_.position_source);
-  s.machine_id = objects_.machine_id;
   s.ramp_ticks = objects_.ramp_cycles;
   s.stale_drop_ticks = objects_.drop_cycles;
   return compensator_.configure(s);

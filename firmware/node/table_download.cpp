@@ -77,10 +77,14 @@ Status TableDownload::check(Span<const std::uint8_t> image) {
 
 AbortCode TableDownload::validate() {
   Status status = check({image_.data(), objects_.staged_bytes});
-  const std::uint32_t wanted = objects_.machine_id;
-  if (status.ok() && wanted != 0 && tables_.provenance.machine_id != wanted)
-    status = refuse(Reason::machine_mismatch);
+  if (status.ok()) status = check_machine();
   return judge(status, TableState::valid);
+}
+
+Status TableDownload::check_machine() const {
+  const std::uint32_t wanted = objects_.machine_id;
+  if (wanted == 0 || tables_.provenance.machine_id == wanted) return {};
+  return refuse(Reason::machine_mismatch);
 }
 
 LoadedMachine<kNodeAxes> TableDownload::machine() const {
@@ -106,7 +110,8 @@ Status TableDownload::stage(std::uint32_t crc) {
 }
 
 AbortCode TableDownload::arm() {
-  Status status = adopt_machine();
+  Status status = check_machine();  // again: 2000h:01 may have been written since
+  if (status.ok()) status = adopt_machine();
   if (status.ok()) status = stage(objects_.staged_crc);
   return judge(status, TableState::armed);
 }

@@ -61,6 +61,7 @@ class TableDownload {
   canopen::AbortCode validate();
   canopen::AbortCode arm();
   canopen::AbortCode activate();
+  [[nodiscard]] Status check_machine() const;
   Status adopt_machine();
   void settle();
 

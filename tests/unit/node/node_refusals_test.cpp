@@ -13,6 +13,7 @@ namespace {
 
 using canopen::AbortCode;
 using canopen::ErrorCode;
+using canopen::NmtCommand;
 
 void put(Bytes& image, std::size_t at, std::size_t count, std::uint64_t value) {
   canopen::store_le(&image[at], count, value);
@@ -154,6 +155,38 @@ TEST(NodeMachineId, TablesOfAnotherMachineAreRefused) {
   EXPECT_EQ(bench.command(TableCommand::validate), AbortCode::none);
   bench.wait(100'000);
   EXPECT_EQ(bench.node->objects().communication.error_register, 0);
+}
+
+// What the node ran before does not bind it to that machine.
+TEST(NodeMachineId, AnotherMachineIsTakenOnceTheNodeRests) {
+  NodeBench bench;
+  bench.configure();
+  ASSERT_EQ(bench.set<std::uint32_t>(0x2000, 1, 1001), AbortCode::none);
+  bench.load(bench_tables());
+  bench.nmt(NmtCommand::start);
+  bench.cycles(20);
+  ASSERT_EQ(bench.state(), NodeState::compensating);
+  bench.nmt(NmtCommand::enter_pre_operational);
+  ASSERT_EQ(bench.set<std::uint32_t>(0x2000, 1, 2002), AbortCode::none);
+  MachineTables other = bench_tables();
+  other.provenance.machine_id = 2002;
+  other.machine.body[1].joint.offset[0] += 1.0;
+  const Bytes bytes = image_of(other);
+  ASSERT_EQ(bench.write({0x2110, 1}, bytes), AbortCode::none);
+  EXPECT_EQ(bench.command(TableCommand::validate), AbortCode::none);
+  EXPECT_EQ(bench.command(TableCommand::arm), AbortCode::none);
+  EXPECT_EQ(bench.command(TableCommand::activate), AbortCode::none);
+  EXPECT_EQ(bench.number(0x2112, 7), image_crc({bytes.data(), bytes.size()}));
+}
+
+TEST(NodeMachineId, IsAskedAgainWhenTablesAreStaged) {
+  NodeBench bench;
+  bench.configure();
+  ASSERT_EQ(bench.write({0x2110, 1}, image_of(bench_tables())), AbortCode::none);
+  ASSERT_EQ(bench.command(TableCommand::validate), AbortCode::none);
+  ASSERT_EQ(bench.set<std::uint32_t>(0x2000, 1, 7), AbortCode::none);
+  EXPECT_EQ(bench.command(TableCommand::arm), AbortCode::general);
+  EXPECT_EQ(static_cast<Reason>(bench.number(0x2112, 2)), Reason::machine_mismatch);
 }
 
 // --- the right thing at the wrong time
