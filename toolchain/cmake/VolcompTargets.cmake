@@ -69,3 +69,11 @@ function(volcomp_tick_sources)
   endif()
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
 endfunction()
+
+# volcomp_precompile(TARGET HEADER...): for the builds that repeat what another build has compiled before. That one
+# goes without and shows that every file includes what it uses.
+function(volcomp_precompile target)
+  if(VOLCOMP_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
