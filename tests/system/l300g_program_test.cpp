@@ -7,7 +7,7 @@
 
 #include "comp/geometry/volumetric.hpp"
 #include "comp/units.hpp"
-#include "host_sim/scenarios/l300g/identification.hpp"
+#include "host_sim/commissioning/identification.hpp"
 #include "host_sim/scenarios/l300g/inspection_program.hpp"
 
 namespace volcomp::sim {
@@ -63,7 +63,7 @@ struct Planned {
       : file(read_machine_file(bundled_machine("l300g"))),
         truth(make_l300g_truth(file, grinder_errors(errors), 1)),
         setup{grinder_geometry(file.chain), master_gear(), PathStyle::fixed_a, 1.4935} {
-    const IdentifiedModel model(identify_l300g(truth, file), TableKind::identified, file.chain);
+    const IdentifiedModel model(identify_axes(truth, file), TableKind::identified, file.chain);
     before = inspection_program(setup, "before", no_offset);
     after = inspection_program(
         setup, "after", [&](const Pose& q) { return compensation_at(model.volumetric(), q); });

@@ -170,7 +170,7 @@ TEST(L300g, TrapsOfTheCalibrationAreThoseOfTheSpecification) {
 
 TEST(L300g, IdentificationIsExactAndThePrintedProcedureIsNot) {
   EXPECT_LE(p8().identification.max_error(), 1e-6);
-  EXPECT_EQ(p8().identification.printed.rank, 3);
+  EXPECT_EQ(p8().printed.x.rank, 3);
 }
 
 // --- the path of the points

@@ -6,9 +6,9 @@
 #include "comp/units.hpp"
 #include "host_sim/artefacts/plane.hpp"
 #include "host_sim/commissioning/commission.hpp"
+#include "host_sim/commissioning/identification.hpp"
 #include "host_sim/controller/prober.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/l300g/identification.hpp"
 #include "host_sim/scenarios/l300g/truth.hpp"
 
 namespace volcomp::sim {
@@ -22,7 +22,7 @@ class Bench {
  public:
   explicit Bench(TableKind tables, std::vector<std::int64_t> bounces_ns = {})
       : truth_(make_l300g_truth(file_, grinder_errors("p8"), 1)) {
-    const MachineTables contents = tables_of(identify_l300g(truth_, file_), file_,
+    const MachineTables contents = tables_of(identify_axes(truth_, file_), file_,
                                              file_.chain.description(), tables, kDefaultKnots);
     auto axes =
         std::make_unique<BusAxes>(bus_settings(file_, kBusCycleOfFive_hz), make_image(contents));

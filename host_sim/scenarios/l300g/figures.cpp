@@ -152,7 +152,7 @@ std::string l300g_summary(const L300gResult& r) {
   text += fmt::format(
       "identification: 24 functions, largest error {:.1e} mm or rad; the paper's eq. 18 has rank "
       "{} of 6\n",
-      r.identification.max_error(), r.identification.printed.rank);
+      r.identification.max_error(), r.printed.x.rank);
   const Vec3 orientation = kUradPerRad * r.orientation;
   text += fmt::format(
       "orientation of the probe against the gear at the pitch point: {:.1f}, {:.1f}, {:.1f} µrad; "

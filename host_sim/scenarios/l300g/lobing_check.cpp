@@ -7,8 +7,8 @@
 
 #include "comp/units.hpp"
 #include "host_sim/artefacts/sphere.hpp"
+#include "host_sim/commissioning/identification.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/l300g/identification.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -156,7 +156,7 @@ class SphereBench {
 LobingCheck check_lobing(const MachineFile& file, const BusAxesFactory& make_axes, double cycle_hz,
                          std::uint64_t seed) {
   const GrinderHall hall{file, make_l300g_truth(file, {}, seed), make_axes, cycle_hz};
-  const MachineTables tables = tables_of(identify_l300g(hall.truth, file), file,
+  const MachineTables tables = tables_of(identify_axes(hall.truth, file), file,
                                          file.chain.description(), TableKind::none, kDefaultKnots);
   Random random(seed);
   SphereBench bench(hall, tables, drawn(random));

@@ -132,8 +132,9 @@ json printed_table(const L300gResult& r) {
     const IdentifiedAxis& axis = r.identification.axis[a];
     const bool rotary = r.machine.axes[a].rotary;
     const double scale = rotary ? kUradPerRad : kUmPerMm;
-    rows.push_back({std::string(1, axis.letter), scale * axis.own.mean, scale * axis.own.deviation,
-                    scale * axis.own.range, rotary ? "µrad" : "µm"});
+    const ReadingFigures& own = r.printed.own.at(a);
+    rows.push_back({std::string(1, axis.letter), scale * own.mean, scale * own.deviation,
+                    scale * own.range, rotary ? "µrad" : "µm"});
   }
   return {{"type", "table"},
           {"id", "printed"},
@@ -149,8 +150,8 @@ json printed_table(const L300gResult& r) {
            fmt::format("Eq. 18 of the paper repeats the same three rows for every station: rank {} "
                        "of 6. Its shortest solution for X is EX {:.4f} µm, EB {:.2e} rad, EC "
                        "{:.2e} rad: the mean reading, and nothing else.",
-                       r.identification.printed.rank, kUmPerMm * r.identification.printed.least(0),
-                       r.identification.printed.least(4), r.identification.printed.least(5))}};
+                       r.printed.x.rank, kUmPerMm * r.printed.x.least(0), r.printed.x.least(4),
+                       r.printed.x.least(5))}};
 }
 
 // --- points

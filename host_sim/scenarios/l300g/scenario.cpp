@@ -92,7 +92,8 @@ L300gResult run_l300g(const L300gOptions& options, const Progress& progress) {
                   [](const Flank&, double s, double x) { return own_deviation(s, x); });
 
   progress(0.0, "identification of 24 error functions");
-  result.identification = identify_l300g(hall.truth, result.machine);
+  result.identification = identify_axes(hall.truth, result.machine);
+  result.printed = printed_procedure(result.identification, result.machine);
   progress(0.05, "probe calibration on the mandrel");
   result.calibration = calibrate_first(hall, result.identification, options.knots);
   const SwingArm arm = grinder_geometry(result.machine.chain).arm;

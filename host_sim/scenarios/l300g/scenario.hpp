@@ -7,10 +7,10 @@
 #include <string>
 
 #include "host_sim/scenarios/l300g/checks.hpp"
-#include "host_sim/scenarios/l300g/identification.hpp"
 #include "host_sim/scenarios/l300g/inspection.hpp"
 #include "host_sim/scenarios/l300g/lobing_check.hpp"
 #include "host_sim/scenarios/l300g/mandrel.hpp"
+#include "host_sim/scenarios/l300g/printed_procedure.hpp"
 #include "host_sim/scenarios/progress.hpp"
 
 namespace volcomp::sim {
@@ -40,6 +40,7 @@ struct L300gResult {
   MandrelEffect longer_arm;        // per kLongerArm_mm
   std::vector<MandrelEffect> higher_pivot;  // by kHigherPivots_mm
   Identification identification;
+  PrintedProcedure printed;
   Vec3 orientation;      // of the probe against the gear, at the pitch point, rad: stays
   GearInspection truth;  // what a perfect machine would find
   GearInspection before;

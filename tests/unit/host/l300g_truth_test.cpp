@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "comp/units.hpp"
+#include "host_sim/commissioning/identification.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/l300g/identification.hpp"
+#include "host_sim/scenarios/l300g/printed_procedure.hpp"
 #include "host_sim/scenarios/l300g/truth.hpp"
 
 namespace volcomp::sim {
@@ -81,7 +82,7 @@ TEST(L300gTruth, ABadFileIsRefusedWithItsLine) {
 // Section 2.2 and its 1e-6; the fit is repeated, so that nothing of second order is left either.
 TEST(L300gIdentification, FindsAll24FunctionsWithoutNoise) {
   for (const char* errors : {"p8", "p8-variation", "a-slope"}) {
-    const Identification found = identify_l300g(machine_with(errors), file());
+    const Identification found = identify_axes(machine_with(errors), file());
     ASSERT_EQ(found.axis.size(), 4U);
     EXPECT_LT(found.max_error(), 1e-9) << errors;
   }
@@ -89,15 +90,16 @@ TEST(L300gIdentification, FindsAll24FunctionsWithoutNoise) {
 
 // Section 2.1: the printed equations have rank 3, and their "solution" is the mean reading.
 TEST(L300gIdentification, PrintedProcedureGivesTheMeanReadingAndNoMore) {
-  const Identification found = identify_l300g(machine_with("p8-variation"), file());
-  EXPECT_EQ(found.printed.rank, 3);
-  EXPECT_NEAR(found.printed.least(0) + found.printed.least(4) - found.printed.least(5),
-              found.axis[0].own.mean, 1e-12);
+  const Identification found = identify_axes(machine_with("p8-variation"), file());
+  const PrintedProcedure printed = printed_procedure(found, file());
+  EXPECT_EQ(printed.x.rank, 3);
+  EXPECT_NEAR(printed.x.least(0) + printed.x.least(4) - printed.x.least(5), printed.own[0].mean,
+              1e-12);
 }
 
 // Section 2.2: targets across the lever keep the noise down; all six unknowns alike.
 TEST(L300gIdentification, TargetsAreWellConditioned) {
-  const Identification found = identify_l300g(machine_with("none"), file());
+  const Identification found = identify_axes(machine_with("none"), file());
   EXPECT_LT(found.condition, 30.0);
   EXPECT_LT(found.spread.head<3>().maxCoeff(), kTracker_mm);
 }

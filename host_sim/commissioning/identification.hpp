@@ -1,10 +1,9 @@
 #pragma once
-// The 24 error functions of the L300G from targets that each axis carries in turn: X, Y, B, A (seed
-// 000 section 2.2), and beside them what the paper's own readings can give (section 2.1).
+// The six error functions of every axis from targets that each carries in turn, in the order in
+// which the axes hang on one another (seed 000 section 2.2).
 
 #include <vector>
 
-#include "comp/calibration/printed_procedure.hpp"
 #include "comp/tables/machine_tables.hpp"
 #include "comp/tables/volumetric_model.hpp"
 #include "host_sim/machine/machine_file.hpp"
@@ -18,7 +17,6 @@ struct IdentifiedAxis {
   std::vector<double> nodes;
   std::vector<ErrorMotion> motion;
   std::vector<ErrorMotion> truth;
-  ReadingFigures own;  // the paper's reading: of the axis along or about itself
 
   [[nodiscard]] double largest_difference() const;
 };
@@ -27,7 +25,6 @@ struct Identification {
   std::vector<IdentifiedAxis> axis;  // by NC axis
   ErrorMotion spread;      // standard uncertainty of the six of a node, per kTracker_mm of a target
   double condition = 0.0;  // of the targets
-  PrintedSolution printed;  // eq. 18 with the readings of X
 
   // Identified − true, mm or rad.
   [[nodiscard]] double max_error() const;
@@ -36,13 +33,14 @@ struct Identification {
 // What a laser tracker leaves of a target, 1 σ: only for `spread`, the readings are perfect.
 inline constexpr double kTracker_mm = 0.3e-3;
 
-// At the equally spaced targets of the machine file.
-[[nodiscard]] Identification identify_l300g(const TrueMachine& truth, const MachineFile& file);
+// At the equally spaced targets of the machine file. Throws UserError where an axis comes before
+// one that carries it.
+[[nodiscard]] Identification identify_axes(const TrueMachine& truth, const MachineFile& file);
 
 enum class TableKind : std::uint8_t {
   none,        // all zero: the machine as drawn
   identified,  // the 24 functions
-  means,       // of each function: all that the paper's procedure aims at
+  means,       // of each function: all that the procedure of seed 000 aims at
 };
 inline constexpr std::array<const char*, 3> kTableKinds{"none", "identified", "means"};
 
@@ -55,8 +53,7 @@ class IdentifiedModel {
   ~IdentifiedModel() = default;
 
   [[nodiscard]] const VolumetricModel& volumetric() const { return model_; }
-  // Of the probe against the gear where the machine stands at q, frame of the gear, rad. X, Y and B
-  // cannot put it right.
+  // Of the tool against the work where the machine stands at q, work frame, rad.
   [[nodiscard]] Vec3 orientation_error(const Pose& q) const;
 
  private:

@@ -1,4 +1,4 @@
-#include "host_sim/scenarios/l300g/identification.hpp"
+#include "host_sim/commissioning/identification.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,6 @@ constexpr double kReach_mm = 150.0;
 const std::array<Vec3, 6> kTargets{Vec3(kReach_mm, 0.0, 0.0), Vec3(-kReach_mm, 0.0, 0.0),
                                    Vec3(0.0, kReach_mm, 0.0), Vec3(0.0, -kReach_mm, 0.0),
                                    Vec3(0.0, 0.0, kReach_mm), Vec3(0.0, 0.0, -kReach_mm)};
-
-constexpr double kPrintedStart_mm = 100.0;  // x₀ of the paper's Table 2
 
 // An axis, and how many bodies come before it.
 struct Place {
@@ -68,17 +66,7 @@ class Identifier {
     fit(parent, a, measured, result);
     identified_ |= 1U << a;
     at_reference_[a] = result.motion[node_nearest(file_.axes[a])];
-    const std::vector<double> readings = own_readings(a, result);
-    require(reading_figures(readings, result.own), "readings");
     return result;
-  }
-
-  // The rows of eq. 18 differ in nothing but their right sides.
-  [[nodiscard]] PrintedSolution printed(const IdentifiedAxis& x) const {
-    const std::vector<double> readings = own_readings(0, x);
-    PrintedSolution solution;
-    require(printed_x_solution(readings, kPrintedStart_mm, solution), "eq. 18");
-    return solution;
   }
 
  private:
@@ -137,16 +125,6 @@ class Identifier {
     return measured;
   }
 
-  [[nodiscard]] std::vector<double> own_readings(std::size_t a, const IdentifiedAxis& axis) const {
-    const Joint& joint = file_.chain.axis(a);
-    const auto channel =
-        static_cast<Eigen::Index>(joint.axis) + (joint.kind == JointKind::rotary ? 3 : 0);
-    std::vector<double> readings;
-    for (const ErrorMotion& e : axis.truth)
-      readings.push_back(e(channel));
-    return readings;
-  }
-
   const TrueMachine& truth_;
   const MachineFile& file_;
   Pose reference_{};
@@ -202,12 +180,11 @@ double Identification::max_error() const {
   return worst;
 }
 
-Identification identify_l300g(const TrueMachine& truth, const MachineFile& file) {
+Identification identify_axes(const TrueMachine& truth, const MachineFile& file) {
   Identification found;
   Identifier identifier(truth, file);
   for (std::size_t a = 0; a < file.axes.size(); ++a)
     found.axis.push_back(identifier.identify(a));
-  found.printed = identifier.printed(found.axis.front());
   judge_targets(found);
   return found;
 }
