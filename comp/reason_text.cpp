@@ -114,6 +114,14 @@ const char* code(Reason reason) {
       return "outlier";
     case Reason::incomplete:
       return "incomplete";
+    case Reason::centre_missing:
+      return "centre_missing";
+    case Reason::partial:
+      return "partial";
+    case Reason::surface_not_determined:
+      return "surface_not_determined";
+    case Reason::not_converged:
+      return "not_converged";
   }
   return "unknown";
 }
@@ -154,6 +162,14 @@ const char* sentence(Reason reason) {
       return "A point deviates too much from the fit; the result was not taken over.";
     case Reason::incomplete:
       return "Measured values are missing; there is no grade.";
+    case Reason::centre_missing:
+      return "The centre of the map was not measured; it cannot be zeroed there.";
+    case Reason::partial:
+      return "Not every tooth was measured; there is no total pitch deviation.";
+    case Reason::surface_not_determined:
+      return "The measured cells do not determine a surface of this degree.";
+    case Reason::not_converged:
+      return "The iteration did not settle.";
     default:
       return "Unknown reason.";
   }

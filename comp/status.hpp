@@ -64,6 +64,10 @@ enum class Reason : std::uint8_t {
   wrong_flank,
   outlier,
   incomplete,
+  centre_missing,
+  partial,
+  surface_not_determined,
+  not_converged,
 };
 
 // What a Status points at. A negative number or an empty name means "does not apply".

@@ -67,19 +67,6 @@ Line mean_line(const Counted& points, double n) {
   return line;
 }
 
-Status check_complete(Span<const double> values) {
-  Where where;
-  int missing = 0;
-  for (std::size_t i = values.size(); i > 0; --i) {
-    if (!std::isnan(values[i - 1])) continue;
-    where.index = static_cast<int>(i - 1);
-    ++missing;
-  }
-  if (missing == 0) return {};
-  where.count = missing;
-  return refuse(Reason::incomplete, where);
-}
-
 Status check_finite(Span<const double> values) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     Where where;
@@ -116,27 +103,6 @@ Status evaluate_trace(Span<const double> at, Span<const double> deviation,
   d.total = total.range();
   d.form = form.range();
   d.slope = line.slope * (range.high - range.low);
-  out = d;
-  return {};
-}
-
-Status evaluate_pitch(Span<const double> position, PitchDeviations& out) {
-  if (position.size() < 2) return too_few(position.size());
-  if (const Status s = check_complete(position); !s.ok()) return s;
-  if (const Status s = check_finite(position); !s.ok()) return s;
-  PitchDeviations d;
-  Spread total;
-  double before = position[position.size() - 1];
-  for (std::size_t k = 0; k < position.size(); ++k) {
-    const double single = position[k] - before;
-    before = position[k];
-    total.add(before);
-    if (std::abs(single) <= d.single) continue;
-    d.single = std::abs(single);
-    d.single_signed = single;
-    d.tooth = k;
-  }
-  d.total = total.range();
   out = d;
   return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Deviations of one trace or one round of pitch measurements, in the unit of the input.
+// Deviations of one trace of a cylindrical gear, in the unit of the input.
 
 #include <cstddef>
 
@@ -25,17 +25,5 @@ struct EvaluationRange {
 // (count) for fewer than 3 in the range. Seed 000 section 4.
 Status evaluate_trace(Span<const double> at, Span<const double> deviation,
                       const EvaluationRange& range, TraceDeviations& out);
-
-struct PitchDeviations {
-  double total = 0.0;   // F_p
-  double single = 0.0;  // f_pt, magnitude
-  double single_signed = 0.0;
-  std::size_t tooth = 0;  // where f_pt is largest: between this tooth and the one before
-};
-
-// `position`: deviation of each tooth from where it should be, all of one side; NaN: not measured.
-// Refused: too_few_points (count) for fewer than 2, incomplete (index of the first that is missing,
-// count of all), not_finite (index).
-Status evaluate_pitch(Span<const double> position, PitchDeviations& out);
 
 }  // namespace volcomp

@@ -13,5 +13,6 @@ void add_s1_geometry(Handlers& handlers);
 void add_s1_tables(Handlers& handlers);
 void add_s1_compensation(Handlers& handlers);
 void add_s1_bad_input(Handlers& handlers);
+void add_s2_maps(Handlers& handlers);
 
 }  // namespace volcomp::cases

@@ -2,6 +2,7 @@
 
 #include "comp/evaluation/gear_deviations.hpp"
 #include "comp/evaluation/gear_tolerance.hpp"
+#include "comp/evaluation/pitch.hpp"
 #include "comp/geometry/volumetric.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"

@@ -7,6 +7,7 @@
 
 #include "comp/evaluation/gear_deviations.hpp"
 #include "comp/evaluation/gear_tolerance.hpp"
+#include "comp/evaluation/pitch.hpp"
 #include "host_sim/scenarios/l300g/inspection_plan.hpp"
 
 namespace volcomp::sim {

@@ -9,6 +9,7 @@
 #include "comp/calibration/axis_identification.hpp"
 #include "comp/calibration/effective_radius.hpp"
 #include "comp/evaluation/gear_deviations.hpp"
+#include "comp/evaluation/pitch.hpp"
 #include "comp/geometry/l300g.hpp"
 #include "comp/surfaces/involute_gear.hpp"
 #include "comp/units.hpp"

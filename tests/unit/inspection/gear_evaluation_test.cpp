@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include "comp/evaluation/gear_deviations.hpp"
 #include "comp/evaluation/gear_tolerance.hpp"
+#include "comp/evaluation/pitch.hpp"
 #include "comp/units.hpp"
 
 namespace volcomp::test {

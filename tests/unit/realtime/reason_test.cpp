@@ -9,7 +9,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr int kReasons = static_cast<int>(Reason::incomplete) + 1;
+constexpr int kReasons = static_cast<int>(Reason::not_converged) + 1;
 
 TEST(Reason, CodesAndSentencesAreDistinct) {
   std::set<std::string> codes;

@@ -1,0 +1,194 @@
+// Seed 002: patches through a grid, closest points, error maps, pitch.
+
+#include "comp/evaluation/error_map.hpp"
+#include "comp/evaluation/pitch.hpp"
+#include "comp/surfaces/closest_point.hpp"
+#include "comp/units.hpp"
+#include "tests/cases/handlers.hpp"
+#include "tests/reference/face_gear.hpp"
+
+namespace volcomp::cases {
+namespace {
+
+template <class List>
+json list_of(const List& values) {
+  json out = json::array();
+  for (const auto& value : values)
+    out.push_back(value);
+  return out;
+}
+
+// --- patches
+
+Parametrisation parametrisation_of(const json& name) {
+  if (name == "chord") return Parametrisation::chord;
+  return name == "centripetal" ? Parametrisation::centripetal : Parametrisation::uniform;
+}
+
+SplinePatch patch_of(const json& in) {
+  std::vector<Vec3> points;
+  for (const json& row : in.at("grid")) {
+    for (const json& point : row)
+      points.push_back(vector3(point));
+  }
+  SplinePatch patch;
+  require(SplinePatch::through(points, parametrisation_of(in.at("parametrisation")), patch));
+  return patch;
+}
+
+json control_points(const SplinePatch& patch) {
+  json rows = json::array();
+  for (std::size_t row = 0; row < kGridRows; ++row) {
+    json list = json::array();
+    for (std::size_t column = 0; column < kGridColumns; ++column)
+      list.push_back(to_json(patch.control(row, column)));
+    rows.push_back(list);
+  }
+  return rows;
+}
+
+json places_on(const SplinePatch& patch, const json& uv, const Vec3& outward) {
+  json out;
+  for (const json& place : uv) {
+    const PatchPoint p = patch.at(number(place.at(0)), number(place.at(1)));
+    out["S"].push_back(to_json(p.point));
+    out["Su"].push_back(to_json(p.du));
+    out["Sv"].push_back(to_json(p.dv));
+    out["Suu"].push_back(to_json(p.duu));
+    out["Suv"].push_back(to_json(p.duv));
+    out["Svv"].push_back(to_json(p.dvv));
+    out["normal"].push_back(to_json(normal_of(p, outward)));
+  }
+  return out;
+}
+
+json closest_on(const SplinePatch& patch, const json& points, const Vec3& outward) {
+  json out;
+  for (const json& q : points) {
+    ClosestPoint c;
+    require(closest_point(patch, vector3(q), outward, c));
+    out["u"].push_back(c.u);
+    out["v"].push_back(c.v);
+    out["foot"].push_back(to_json(c.foot));
+    out["signed_distance"].push_back(c.distance);
+  }
+  return out;
+}
+
+json bspline(const json& in) {
+  const SplinePatch patch = patch_of(in);
+  const Vec3 outward = vector3(in.at("normal_ref"));
+  return {{"param_u", list_of(patch.profile().parameters())},
+          {"param_v", list_of(patch.width().parameters())},
+          {"knots_u", list_of(patch.profile().knots())},
+          {"knots_v", list_of(patch.width().knots())},
+          {"control", control_points(patch)},
+          {"eval", places_on(patch, in.at("uv"), outward)},
+          {"closest", closest_on(patch, in.at("Q"), outward)}};
+}
+
+// --- maps: distances from the flank are the reference's, what is made of them the library's
+
+reference::FaceGear face_gear_of(const json& in) {
+  reference::FaceGear gear;
+  gear.shaper_teeth = number(in.at("Ns"));
+  gear.teeth = number(in.at("N2"));
+  gear.module = number(in.at("m"));
+  gear.pressure_angle = number(in.at("alpha_deg")) * kPi / 180.0;
+  return gear;
+}
+
+json rows_of(const ErrorMap& map) {
+  json rows = json::array();
+  for (std::size_t row = 0; row < kGridRows; ++row) {
+    json list = json::array();
+    for (std::size_t column = 0; column < kGridColumns; ++column)
+      list.push_back(map.at(row, column));
+    rows.push_back(list);
+  }
+  return rows;
+}
+
+json error_map(const json& in) {
+  const reference::FaceGear gear = face_gear_of(in.at("gear"));
+  const int side = in.at("side").get<int>();
+  std::vector<double> cells;
+  for (const json& row : in.at("ball_centres")) {
+    for (const json& centre : row) {
+      const Vec3 q = vector3(centre);
+      cells.push_back(reference::distance(gear, q, side, reference::nearest_slot(gear, q)) -
+                      number(in.at("r")));
+    }
+  }
+  ErrorMap map;
+  require(ErrorMap::from(cells, map));
+  json out{{"deviation_mm", rows_of(map)}};
+  double centre = 0.0;
+  require(zero_at_centre(map, centre));
+  const CellStatistics all = statistics_of(map);
+  out["zeroed_mm"] = rows_of(map);
+  out["zero_rotation_rad"] = side * centre / gear.arm();
+  out["max_abs_um"] = kUmPerMm * all.largest;
+  out["pv_um"] = kUmPerMm * all.range();
+  for (std::size_t column = 0; column < kGridColumns; ++column)
+    out["profile_pv_rows2_6_um"].push_back(
+        kUmPerMm * statistics_of(map, kProfileRows, {column, column}).range());
+  return out;
+}
+
+// --- pitch
+
+ToothAngles angles_of(const json& in) {
+  ToothAngles angles;
+  require(ToothAngles::of(in.at("N2").get<int>(), angles));
+  int tooth = 0;
+  if (in.contains("delta_rad")) {
+    for (const json& delta : in.at("delta_rad"))
+      require(angles.record(tooth++, -1, number(delta), 1.0));
+    return angles;
+  }
+  const reference::FaceGear gear = face_gear_of(in.at("gear"));
+  const int side = in.at("side").get<int>();
+  for (const json& centre : in.at("ball_centres")) {
+    const double deviation =
+        reference::distance(gear, vector3(centre), side, 0) - number(in.at("r"));
+    require(angles.record(tooth++, side, deviation, gear.arm()));
+  }
+  return angles;
+}
+
+json pitch(const json& in) {
+  const ToothAngles round = angles_of(in);
+  const Span<const double> angles = round.angles();
+  const double um = kUmPerMm * number(in.at("r1"));
+  json out;
+  if (!in.contains("delta_rad")) out["delta_rad"] = list_of(angles);
+  std::vector<double> single(angles.size());
+  require(single_pitches(angles, single, um));
+  PitchDeviations d;
+  require(evaluate_pitch(angles, d, um));
+  out["fpt_um"] = single;
+  out["fpt_max_um"] = d.single_signed;
+  out["Fp_um"] = d.total;
+  const std::size_t k8 = largest_pitch_span(angles.size());
+  double largest = 0.0;
+  for (std::size_t k = 1; k <= k8; ++k) {
+    double sum = 0.0;
+    require(cumulative_pitch(angles, k, sum, um));
+    largest = std::max(largest, sum);
+    if (k == 2 || k == 3 || k == k8) out["Fpk_um"][std::to_string(k)] = sum;
+  }
+  out["k8"] = k8;
+  out["Fpk_max_upto_k8_um"] = largest;
+  return out;
+}
+
+}  // namespace
+
+void add_s2_maps(Handlers& handlers) {
+  handlers["s2.bspline"] = bspline;
+  handlers["s2.error_map"] = error_map;
+  handlers["s2.pitch"] = pitch;
+}
+
+}  // namespace volcomp::cases
