@@ -2,7 +2,9 @@
 // The point of a patch nearest to a given one, and the signed distance from it. Seed 002 section 6.
 //
 // Newton's method is the one to use. The paper's subdivision stands beside it for comparison: it
-// takes two hundred times as many evaluations and returns a distance without sign.
+// takes ten times as many evaluations, returns a distance without sign, and may lose the nearest
+// point: in the nodes of the paper's Table 3 it is up to 0.14 µm off with 10 × 10 cells, 20 µm with
+// 4 × 4.
 
 #include "comp/surfaces/spline_patch.hpp"
 
