@@ -17,5 +17,6 @@ void add_device_files_command(CLI::App& app, int& code);
 void add_can_commands(CLI::App& app, int& code);
 void add_replay_command(CLI::App& app, int& code);
 void add_bus_load_command(CLI::App& app, int& code);
+void add_compare_command(CLI::App& app, int argc, char** argv, int& code);
 
 }  // namespace volcomp::sim

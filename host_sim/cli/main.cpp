@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   volcomp::sim::add_can_commands(app, code);
   volcomp::sim::add_replay_command(app, code);
   volcomp::sim::add_bus_load_command(app, code);
+  volcomp::sim::add_compare_command(app, argc, argv, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -12,6 +11,7 @@
 #include <fmt/ostream.h>
 
 #include "comp/units.hpp"
+#include "host_sim/data/csv_cells.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
@@ -50,39 +50,13 @@ struct Reading {
   ErrorMotion value = ErrorMotion::Zero();
 };
 
-std::string_view trim(std::string_view s) {
-  while (!s.empty() && (s.front() == ' ' || s.front() == '\t'))
-    s.remove_prefix(1);
-  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r'))
-    s.remove_suffix(1);
-  return s;
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(trim(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-// Cells may hold anything; only their printable beginning is quoted back.
-std::string quoted(std::string_view cell) {
-  std::string text;
-  for (const char c : cell.substr(0, 40))
-    text += (c >= ' ' && c <= '~') ? c : '?';
-  return '"' + text + '"';
-}
-
 class Reader {
  public:
-  Reader(std::istream& stream, std::string name) : stream_(stream), name_(std::move(name)) {}
+  Reader(std::istream& stream, const std::string& name) : lines_(stream, name) {}
 
   RunsFile read() {
     std::string line;
-    while (next(line)) {
+    while (lines_.next(line)) {
       if (columns_.empty()) {
         read_header(line);
       } else {
@@ -92,26 +66,14 @@ class Reader {
         place(readings_.back());
       }
     }
-    if (columns_.empty()) throw UserError(name_ + ": the file is empty");
-    if (readings_.empty()) throw UserError(name_ + ": there is no reading after the header");
+    if (columns_.empty()) throw UserError(lines_.name() + ": the file is empty");
+    if (readings_.empty())
+      throw UserError(lines_.name() + ": there is no reading after the header");
     return finish();
   }
 
  private:
-  [[noreturn]] void fail(const std::string& text) const {
-    throw UserError(fmt::format("{}:{}: {}", name_, line_, text));
-  }
-
-  // Next line with content.
-  bool next(std::string& line) {
-    while (std::getline(stream_, line)) {
-      ++line_;
-      if (line_ == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);
-      const std::string_view content = trim(line);
-      if (!content.empty() && content.front() != '#') return true;
-    }
-    return false;
-  }
+  [[noreturn]] void fail(const std::string& text) const { lines_.fail(text); }
 
   Unit unit_of(std::string_view cell, std::string_view& label) const {
     const std::size_t open = cell.find('[');
@@ -120,8 +82,8 @@ class Reader {
       fail(fmt::format("column {} needs its unit in brackets, for instance [um] or [urad]",
                        quoted(cell)));
     }
-    label = trim(cell.substr(0, open));
-    const std::string_view name = trim(cell.substr(open + 1, close - open - 1));
+    label = trimmed(cell.substr(0, open));
+    const std::string_view name = trimmed(cell.substr(open + 1, close - open - 1));
     for (const Unit& unit : kUnits) {
       if (name == unit.name) return unit;
     }
@@ -148,7 +110,7 @@ class Reader {
 
   void read_header(std::string_view line) {
     std::array<int, 9> seen{};  // target, run, direction, six channels
-    for (const std::string_view cell : split(line)) {
+    for (const std::string_view cell : cells_of(line)) {
       Column column;
       if (cell == "run") {
         column.kind = Column::Kind::run;
@@ -173,20 +135,8 @@ class Reader {
     }
   }
 
-  double parse(std::string_view cell) const {
-    double value = 0.0;
-    const char* begin = cell.data();
-    const char* end = begin + cell.size();
-    if (begin != end && *begin == '+') ++begin;
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    if (error == std::errc::result_out_of_range)
-      fail(fmt::format("{} is out of range", quoted(cell)));
-    if (error != std::errc{} || stop != end) fail(fmt::format("{} is not a number", quoted(cell)));
-    return value;
-  }
-
   Reading read_reading(std::string_view line) const {
-    const std::vector<std::string_view> cells = split(line);
+    const std::vector<std::string_view> cells = cells_of(line);
     if (cells.size() != columns_.size()) {
       fail(fmt::format("{} cells instead of {}", cells.size(), columns_.size()));
     }
@@ -195,11 +145,11 @@ class Reader {
       const Column& c = columns_[i];
       switch (c.kind) {
         case Column::Kind::target:
-          r.target = parse(cells[i]) * c.factor;
+          r.target = lines_.number(cells[i]) * c.factor;
           if (!std::isfinite(r.target)) fail("a target position must be finite [not_finite]");
           break;
         case Column::Kind::run: {
-          const double run = parse(cells[i]);
+          const double run = lines_.number(cells[i]);
           if (!(run >= 1.0 && run <= 1e6) || std::floor(run) < run)
             fail("'run' must be a whole number from 1");
           r.run = static_cast<long>(run);
@@ -211,7 +161,7 @@ class Reader {
           r.up = cells[i] == "up";
           break;
         case Column::Kind::channel:
-          r.value(static_cast<Eigen::Index>(c.channel)) = parse(cells[i]) * c.factor;
+          r.value(static_cast<Eigen::Index>(c.channel)) = lines_.number(cells[i]) * c.factor;
           break;
       }
     }
@@ -236,7 +186,7 @@ class Reader {
 
   RunsFile finish() const {
     RunsFile file;
-    file.name = name_;
+    file.name = lines_.name();
     file.letter = letter_;
     file.positions = positions_;
     for (const auto& [key, values] : runs_) {
@@ -245,18 +195,16 @@ class Reader {
         if (value) run.push_back(*value);
       }
       if (run.size() != positions_.size()) {
-        throw UserError(fmt::format("{}: run {} {} has {} of {} targets [run_length]", name_,
-                                    key.second, key.first ? "up" : "down", run.size(),
-                                    positions_.size()));
+        throw UserError(fmt::format("{}: run {} {} has {} of {} targets [run_length]",
+                                    lines_.name(), key.second, key.first ? "up" : "down",
+                                    run.size(), positions_.size()));
       }
       (key.first ? file.up : file.down).push_back(run);
     }
     return file;
   }
 
-  std::istream& stream_;
-  std::string name_;
-  std::size_t line_ = 0;
+  CsvLines lines_;
   char letter_ = '\0';
   bool target_is_angle_ = false;
   std::vector<Column> columns_;

@@ -1,0 +1,40 @@
+#pragma once
+// Lines of a CSV file as cells, and cells as numbers: what the readers of measured data share.
+
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace volcomp::sim {
+
+// Without blanks at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+[[nodiscard]] std::vector<std::string_view> cells_of(std::string_view line);
+
+// Cells may hold anything; only their printable beginning is quoted back.
+[[nodiscard]] std::string quoted(std::string_view cell);
+
+// The lines of a file that have content: not empty, not a comment (#).
+class CsvLines {
+ public:
+  CsvLines(std::istream& stream, std::string name) : stream_(stream), name_(std::move(name)) {}
+
+  bool next(std::string& line);
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  // Throws UserError("NAME:LINE: text").
+  [[noreturn]] void fail(const std::string& text) const;
+
+  // A cell as a number, "nan" and "inf" among them; fails with `what` before the cell.
+  [[nodiscard]] double number(std::string_view cell, const std::string& what = {}) const;
+
+ private:
+  std::istream& stream_;
+  std::string name_;
+  std::size_t line_ = 0;
+};
+
+}  // namespace volcomp::sim
