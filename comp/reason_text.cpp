@@ -110,6 +110,32 @@ const char* code(Reason reason) {
       return "parent_not_identified";
     case Reason::wrong_flank:
       return "wrong_flank";
+    case Reason::bad_gear:
+      return "bad_gear";
+    case Reason::inside_gear_base:
+      return "inside_gear_base";
+    case Reason::no_regular_flank:
+      return "no_regular_flank";
+    case Reason::below_involute:
+      return "below_involute";
+    case Reason::undercut:
+      return "undercut";
+    case Reason::in_fillet:
+      return "in_fillet";
+    case Reason::above_tip:
+      return "above_tip";
+    case Reason::bad_point:
+      return "bad_point";
+    case Reason::two_flanks:
+      return "two_flanks";
+    case Reason::opposite_flank:
+      return "opposite_flank";
+    case Reason::ball_in_metal:
+      return "ball_in_metal";
+    case Reason::no_contact:
+      return "no_contact";
+    case Reason::frame_not_fixed:
+      return "frame_not_fixed";
     case Reason::outlier:
       return "outlier";
     case Reason::incomplete:
@@ -158,6 +184,44 @@ const char* sentence(Reason reason) {
     case Reason::wrong_flank:
       return "The point is more than 0.5 mm off the flank; another tooth or side was probably "
              "touched.";
+    case Reason::bad_gear:
+      return "The gear cannot be made like this or not be used between these radii; correct "
+             "the field, the gear in use stays.";
+    case Reason::inside_gear_base:
+      return "The point lies inside the base radius of the gear; the frame or the gear is the "
+             "wrong one.";
+    case Reason::no_regular_flank:
+      return "There is no regular flank at this radius and depth, it is cut away there; "
+             "measure farther out or nearer to the tip.";
+    case Reason::below_involute:
+      return "The foot of the point lies before the beginning of the involute; measure nearer "
+             "to the tip.";
+    case Reason::undercut:
+      return "The foot of the point lies on the part of the surface that is cut away; measure "
+             "farther out.";
+    case Reason::in_fillet:
+      return "The foot of the point lies in the fillet that the tip of the shaper cuts; the "
+             "value is not one of the flank.";
+    case Reason::above_tip:
+      return "The foot of the point lies beyond the edge of the tip; the value is not one of "
+             "the flank.";
+    case Reason::bad_point:
+      return "The touch cannot be judged: slot, side, radius of the ball, gate or position are "
+             "unusable.";
+    case Reason::two_flanks:
+      return "The ball touches both flanks of the slot; it is too big to measure here.";
+    case Reason::opposite_flank:
+      return "The opposite flank of the slot was touched; retract, and do not count the point "
+             "for either side.";
+    case Reason::ball_in_metal:
+      return "The centre of the ball would be inside the metal; frame or slot is wrong, do not "
+             "go on.";
+    case Reason::no_contact:
+      return "The ball is not at a flank; the probe triggered in the air or has lost its "
+             "stylus.";
+    case Reason::frame_not_fixed:
+      return "The points do not fix the frame; touch both sides of at least three slots, or "
+             "ask for the rotation about the axis only.";
     case Reason::outlier:
       return "A point deviates too much from the fit; the result was not taken over.";
     case Reason::incomplete:

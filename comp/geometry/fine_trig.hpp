@@ -1,9 +1,13 @@
 #pragma once
-// Sine and cosine of an angle in 2^-40 turn in double, without libm: the same bits on every target.
+// Sine and cosine of an angle in 2^-40 turn, square root and arc tangent in double, without libm:
+// the same bits on every target.
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 
 #include "comp/geometry/double3.hpp"
 #include "comp/units.hpp"
@@ -58,6 +62,91 @@ inline double units_within_a_turn(double angle) {
   const double turns = angle / kRadPerTurn;
   const auto whole = static_cast<std::int32_t>(turns + (turns < 0.0 ? -0.5 : 0.5));
   return (turns - static_cast<double>(whole)) * static_cast<double>(kUnitsPerTurn);
+}
+
+namespace detail {
+
+// √x for x in 1e-30…1e30. The root of the float is right to 2^-24; its square is exact in double,
+// and so is what is missing from x. Of that, d = x/s² − 1, the series of √(1 + d) needs two terms:
+// the third is below 2^-70.
+inline double root_of_usual(double x) {
+  const auto s = static_cast<double>(std::sqrt(static_cast<float>(x)));
+  const double square = s * s;
+  const double d = (x - square) / square;
+  return s + s * d * (0.5 - 0.125 * d);
+}
+
+inline double power_of_two(int exponent) {  // −1022…1023
+  const auto bits = static_cast<std::uint64_t>(exponent + 1023) << 52U;
+  double value = 0.0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+// √x for any finite x > 0: half the exponent, and the root of what is left, 1…4.
+inline double root_of_any(double x) {
+  constexpr double kTiny = 0x1p-1000;
+  const bool tiny = x < kTiny;  // subnormal, perhaps
+  const double normal = tiny ? x * 0x1p108 : x;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &normal, sizeof bits);
+  const int exponent = static_cast<int>(bits >> 52U) - 1023;
+  const int half = (exponent + 1024) / 2 - 512;
+  const double root = root_of_usual(normal * power_of_two(-2 * half)) * power_of_two(half);
+  return tiny ? root * 0x1p-54 : root;
+}
+
+// arctan t = t − t³/3 + t⁵/5 …, |t| ≤ 0.204: the first term left out is below 2e-17 of the first.
+// Pairs are summed side by side.
+inline double arc_of_small(double t) {
+  const double z = t * t;
+  const double zz = z * z;
+  const double z4 = zz * zz;
+  const double a = (-1.0 / 3.0 + z * (1.0 / 5.0)) + zz * (-1.0 / 7.0 + z * (1.0 / 9.0));
+  const double b = (-1.0 / 11.0 + z * (1.0 / 13.0)) + zz * (-1.0 / 15.0 + z * (1.0 / 17.0));
+  const double c = (-1.0 / 19.0 + z * (1.0 / 21.0)) + zz * (-1.0 / 23.0 + z * (1.0 / 25.0));
+  return t * z * (a + z4 * (b + z4 * c));  // without the leading t
+}
+
+}  // namespace detail
+
+// √x, at most one unit in the last place off; 0 of 0, infinity of infinity, NaN of anything else
+// that is not positive. Interrupt-safe.
+inline double fine_root(double x) {
+  if (x > 1e-30 && x < 1e30) return detail::root_of_usual(x);
+  if (x > 0.0) return x <= std::numeric_limits<double>::max() ? detail::root_of_any(x) : x;
+  return x < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x;
+}
+
+// The angle of (x, y) from +x, −π…π, relative error ≤ 4e-16; 0 of (0, 0). Coordinates up to 1e300,
+// and not both below 1e-290. The smaller over the larger coordinate is turned back by 0, atan 13/32
+// or 45°, whichever is nearest; what is left goes into the series. Interrupt-safe.
+inline double fine_arc_tangent(double y, double x) {
+  struct Turn {
+    double tangent;
+    double angle;       // rounded,
+    double rest;        // and what is lost by that
+    double complement;  // π/2 − angle, likewise
+    double complement_rest;
+  };
+  constexpr Turn kNone{0.0, 0.0, 0.0, 0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+  constexpr Turn kMiddle{0.40625, 0x1.8b24d394a1b25p-2, 0x1.b6d0ba3748fa8p-56, 0x1.2f56805f1a64fp+0,
+                         -0x1.4d472d7231f8dp-56};
+  constexpr Turn kEighth{1.0, 0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55, 0x1.921fb54442d18p-1,
+                         0x1.1a62633145c07p-55};
+  const double ax = x < 0.0 ? -x : x;
+  const double ay = y < 0.0 ? -y : y;
+  const bool steep = ay > ax;
+  const double low = steep ? ax : ay;
+  const double high = steep ? ay : ax;
+  if (!(high > 0.0)) return x + y;  // 0, or NaN
+  const Turn& turn = low < 0.195 * high ? kNone : (low < 0.664 * high ? kMiddle : kEighth);
+  const double t = (low - turn.tangent * high) / (high + turn.tangent * low);
+  const double rest = detail::arc_of_small(t);
+  const double angle = steep ? turn.complement - (t + (rest - turn.complement_rest))
+                             : turn.angle + (t + (rest + turn.rest));
+  const double half = x < 0.0 ? kPi - (angle - 0x1.1a62633145c07p-53) : angle;
+  return y < 0.0 ? -half : half;
 }
 
 }  // namespace volcomp

@@ -14,5 +14,6 @@ void add_s1_tables(Handlers& handlers);
 void add_s1_compensation(Handlers& handlers);
 void add_s1_bad_input(Handlers& handlers);
 void add_s2_maps(Handlers& handlers);
+void add_s2_face(Handlers& handlers);
 
 }  // namespace volcomp::cases

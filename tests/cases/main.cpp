@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
         files.push_back(argument);
       }
     }
+    volcomp::cases::add_s2_face(handlers);
     volcomp::cases::Tally tally;
     for (const std::string& file : files)
       volcomp::cases::run_file(file, handlers, only, tally);

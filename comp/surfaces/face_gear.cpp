@@ -1,0 +1,137 @@
+#include "comp/surfaces/face_gear.hpp"
+
+#include <cmath>
+
+#include "comp/surfaces/face_kernel.hpp"
+#include "comp/units.hpp"
+
+namespace volcomp {
+namespace {
+
+constexpr double kDegree = kPi / 180.0;
+constexpr int kHalvings = 60;
+
+Status refuse_field(const char* field, double value) {
+  Where where;
+  where.field = field;
+  where.value = value;
+  where.has_value = true;
+  return refuse(Reason::bad_gear, where);
+}
+
+// NaN is never within.
+bool within(double value, double low, double high) { return value >= low && value <= high; }
+
+// What the other fields are computed from.
+Status check_given(const FaceGear& g) {
+  if (g.shaper_teeth < 5) return refuse_field("shaper_teeth", g.shaper_teeth);
+  if (g.teeth <= g.shaper_teeth || g.teeth > kMaxFaceGearTeeth)
+    return refuse_field("teeth", g.teeth);
+  if (!within(g.module, 0.01, 100.0)) return refuse_field("module", g.module);
+  if (!within(g.pressure_angle, 10.0 * kDegree, 35.0 * kDegree))
+    return refuse_field("pressure_angle", g.pressure_angle);
+  if (!within(g.addendum, 0.01, 2.0)) return refuse_field("addendum", g.addendum);
+  if (!within(g.shaper_addendum, 0.01, 2.0))
+    return refuse_field("shaper_addendum", g.shaper_addendum);
+  const TipRelief& relief = g.relief;
+  if (!within(relief.amount, 0.0, 0.2 * g.module))
+    return refuse_field("relief.amount", relief.amount);
+  if (!(relief.amount > 0.0)) return {};
+  if (!within(relief.length, 0.1 * g.module, 10.0 * g.module))
+    return refuse_field("relief.length", relief.length);
+  if (!std::isfinite(relief.begin)) return refuse_field("relief.begin", relief.begin);
+  return {};
+}
+
+void set_constants(FaceGear& g) {
+  const double pitch_cosine = std::cos(g.pressure_angle);
+  g.ratio = static_cast<double>(g.shaper_teeth) / g.teeth;
+  g.r_ps = 0.5 * g.module * g.shaper_teeth;
+  g.r_bs = g.r_ps * pitch_cosine;
+  g.r_pitch = 0.5 * g.module * g.teeth;
+  g.arm = g.r_pitch * pitch_cosine;
+  g.theta0 = kPi / (2.0 * g.shaper_teeth) + std::tan(g.pressure_angle) - g.pressure_angle;
+  const double tip = (g.r_ps + g.shaper_addendum * g.module) / g.r_bs;
+  g.theta_tip = std::sqrt((tip - 1.0) * (tip + 1.0));
+  g.z_tip = g.r_ps - g.addendum * g.module;
+}
+
+// The undercut reaches higher the nearer to the axis; here it begins at the fillet.
+void find_undercut(FaceGear& g) {
+  double low = 0.0;
+  double high = 1.4;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double beta = 0.5 * (low + high);
+    (undercut_roll(g, beta) < g.theta_tip ? low : high) = beta;
+  }
+  g.undercut_beta = 0.5 * (low + high);
+  const double c = std::cos(g.undercut_beta);
+  const double t = g.r_bs * (g.theta_tip * c - std::sin(g.undercut_beta));
+  g.undercut_radius = std::hypot(g.arm / c, t);
+}
+
+// Where a slot is as wide as a pitch at the tips. Slots get wider outwards.
+void find_pointing(FaceGear& g) {
+  double low = g.undercut_radius;
+  double high = 3.0 * g.arm;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double radius = 0.5 * (low + high);
+    (half_slot_angle(g, radius, g.z_tip) < kPi / g.teeth ? low : high) = radius;
+  }
+  g.pointing_radius = 0.5 * (low + high);
+}
+
+}  // namespace
+
+Status derive(FaceGear& gear) {
+  FaceGear g = gear;
+  if (const Status s = check_given(g); !s.ok()) return s;
+  set_constants(g);
+  find_undercut(g);
+  find_pointing(g);
+  if (within(g.r_in, 0.0, 0.0)) g.r_in = g.undercut_radius;
+  if (within(g.r_out, 0.0, 0.0)) g.r_out = g.pointing_radius;
+  if (!within(g.r_in, g.undercut_radius, g.pointing_radius)) return refuse_field("r_in", g.r_in);
+  if (!within(g.r_out, g.r_in, g.pointing_radius)) return refuse_field("r_out", g.r_out);
+  gear = g;
+  return {};
+}
+
+double undercut_roll(const FaceGear& gear, double beta) {
+  const double q = 2.0 / (gear.ratio * std::cos(beta));
+  return 0.5 * std::tan(beta) * (1.0 + std::sqrt(1.0 + q * q));
+}
+
+double half_slot_angle(const FaceGear& gear, double rho, double z) {
+  FaceSection section;
+  if (cut_flank(gear, rho * rho, z, section) != Reason::ok)
+    return std::numeric_limits<double>::quiet_NaN();
+  return std::atan2(section.t, gear.arm * section.inverse_cosine) - section.slot_turn;
+}
+
+double tooth_thickness(const FaceGear& gear, double rho, double z) {
+  return 2.0 * rho * (kPi / gear.teeth - half_slot_angle(gear, rho, z));
+}
+
+FaceGear face_gear_of_table_1() {
+  FaceGear gear;
+  gear.shaper_teeth = 22;
+  gear.teeth = 142;
+  gear.module = 3.9;
+  gear.pressure_angle = 25.0 * kDegree;
+  gear.r_in = 253.5;
+  gear.r_out = 305.0;
+  return derive(gear).ok() ? gear : FaceGear{};
+}
+
+FaceGear face_gear_of_table_3() {
+  FaceGear gear;
+  gear.shaper_teeth = 25;
+  gear.teeth = 86;
+  gear.module = 4.0;
+  gear.pressure_angle = 25.0 * kDegree;
+  gear.relief = {0.060, 48.4, 2.4};
+  return derive(gear).ok() ? gear : FaceGear{};
+}
+
+}  // namespace volcomp

@@ -1,0 +1,39 @@
+#include "comp/surfaces/face_touch.hpp"
+
+#include "comp/surfaces/face_relief.hpp"
+
+namespace volcomp {
+namespace {
+
+Reason verdict_on(const FaceTouch& touch, const FaceProbing& probing) {
+  const double r = probing.ball_radius;
+  const auto touched = [&](double distance) {
+    return distance >= r - probing.gate && distance <= r + probing.gate;
+  };
+  const bool here = touched(touch.distance);
+  const bool there = touched(touch.other);
+  if (here && there) return Reason::two_flanks;
+  if (here && touch.foot.reason == Reason::ok) return Reason::ok;
+  if (there) return Reason::opposite_flank;
+  if (touch.distance < r - probing.gate || touch.other < r - probing.gate)
+    return Reason::ball_in_metal;
+  return here ? Reason::bad_point : Reason::no_contact;
+}
+
+}  // namespace
+
+FaceTouch judge_touch(const FaceGear& gear, const FaceFlank& flank, const FaceProbing& probing,
+                      const Vec3& q) {
+  FaceTouch touch;
+  const FaceFeet feet = distances_in_slot(gear, flank, q);
+  touch.foot = feet.here;
+  if (!has_distance(touch.foot.reason)) return touch;
+  touch.distance = relieved_distance(gear, touch.foot);
+  touch.other = relieved_distance(gear, feet.opposite);
+  touch.deviation = touch.distance - probing.ball_radius;
+  if (!(probing.ball_radius > 0.0) || !(probing.gate > 0.0)) return touch;
+  touch.verdict = verdict_on(touch, probing);
+  return touch;
+}
+
+}  // namespace volcomp
