@@ -5,6 +5,8 @@
 
 #include <Eigen/SVD>
 
+#include "comp/calibration/fold_row.hpp"
+
 namespace volcomp {
 namespace {
 
@@ -32,20 +34,6 @@ Status check(Span<const Vec3> position, Span<const Vec3> displacement) {
   return {};
 }
 
-// Turns a further row into an upper triangle, so that triangleᵀ triangle grows by rowᵀ row (Givens
-// rotations).
-void fold_in(Mat3& triangle, Eigen::RowVector3d row) {
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const double length = std::hypot(triangle(i, i), row(i));
-    if (!(length > 0.0)) continue;
-    const double c = triangle(i, i) / length;
-    const double s = row(i) / length;
-    const Eigen::RowVector3d kept = triangle.row(i);
-    triangle.row(i) = c * kept + s * row;
-    row = c * row - s * kept;
-  }
-}
-
 // The singular values come from the positions themselves: squared in an inertia matrix, a line of
 // targets would drown in rounding.
 Targets look_at(Span<const Vec3> position, Span<const Vec3> displacement) {
@@ -57,7 +45,7 @@ Targets look_at(Span<const Vec3> position, Span<const Vec3> displacement) {
   }
   Mat3 triangle = Mat3::Zero();
   for (const Vec3& p : position)
-    fold_in(triangle, (p - t.centroid).transpose());
+    fold_row<3>(triangle, (p - t.centroid).transpose());
   const Eigen::JacobiSVD<Mat3> svd(triangle, Eigen::ComputeFullV);
   t.spread = svd.singularValues();
   t.principal = svd.matrixV();

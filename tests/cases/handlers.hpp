@@ -15,5 +15,6 @@ void add_s1_compensation(Handlers& handlers);
 void add_s1_bad_input(Handlers& handlers);
 void add_s2_maps(Handlers& handlers);
 void add_s2_face(Handlers& handlers);
+void add_s2_frame(Handlers& handlers);
 
 }  // namespace volcomp::cases

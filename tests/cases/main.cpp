@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
       }
     }
     volcomp::cases::add_s2_face(handlers);
+    volcomp::cases::add_s2_frame(handlers);
     volcomp::cases::Tally tally;
     for (const std::string& file : files)
       volcomp::cases::run_file(file, handlers, only, tally);
