@@ -1,0 +1,92 @@
+#include "comp/surfaces/face_grid.hpp"
+
+#include <cmath>
+
+namespace volcomp {
+namespace {
+
+constexpr int kHalvings = 60;
+constexpr int kMostSteps = 30;
+constexpr double kEdge = 0.15;    // modules
+constexpr double kMargin = 0.05;  // of the face width
+
+// Depth of a row; `part` 0…1 from the first column to the last.
+double depth_of(const FaceGridPlan& plan, std::size_t row, double part) {
+  const std::size_t fixed = plan.tip_depths.size();
+  if (row < fixed) return plan.tip_depths[row];
+  const double root = plan.first_root_depth + part * (plan.last_root_depth - plan.first_root_depth);
+  const double from = plan.tip_depths[fixed - 1];
+  const auto step = static_cast<double>(row - fixed + 1);
+  return from + (root - from) * step / static_cast<double>(kFaceGridRows - fixed);
+}
+
+// The point of the flank with this x at this depth.
+Reason find_node(const FaceGear& gear, double x, double z, FaceParameters& at) {
+  FaceSection section;
+  double rho = x;
+  for (int step = 0; step < kMostSteps; ++step) {
+    if (const Reason r = cut_flank(gear, rho * rho, z, section); r != Reason::ok) return r;
+    at = {section.roll, section.beta};
+    const double next = x / std::cos(half_slot_angle(gear, rho, z));
+    if (std::abs(next - rho) <= 1e-14 * rho) return Reason::ok;
+    rho = next;
+  }
+  return Reason::no_regular_flank;
+}
+
+}  // namespace
+
+FaceGridPlan face_grid_of_table_3() { return {162.5, 182.5, {46.6, 47.5, 48.4}, 51.285, 54.3142}; }
+
+double fillet_depth(const FaceGear& gear, double x) {
+  double low = 0.0;
+  double high = 1.4;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double beta = 0.5 * (low + high);
+    (face_point(gear, {}, {gear.theta_tip, beta}).point.x() < x ? low : high) = beta;
+  }
+  return face_point(gear, {}, {gear.theta_tip, low}).point.z();
+}
+
+FaceGridPlan plan_face_grid(const FaceGear& gear) {
+  const double margin = kMargin * (gear.r_out - gear.r_in);
+  const double edge = kEdge * gear.module;
+  FaceGridPlan plan;
+  plan.first_x = gear.r_in + margin;
+  plan.last_x = gear.r_out - margin;
+  plan.first_root_depth = fillet_depth(gear, plan.first_x) - edge;
+  plan.last_root_depth = fillet_depth(gear, plan.last_x) - edge;
+  for (std::size_t row = 0; row < plan.tip_depths.size(); ++row)
+    plan.tip_depths[row] = gear.z_tip + edge * (1.0 + 1.5 * static_cast<double>(row));
+  return plan;
+}
+
+Status make_face_grid(const FaceGear& gear, const FaceGridPlan& plan, FaceGrid& out) {
+  FaceGrid grid;
+  for (std::size_t row = 0; row < kFaceGridRows; ++row) {
+    for (std::size_t column = 0; column < kFaceGridColumns; ++column) {
+      const double part = static_cast<double>(column) / static_cast<double>(kFaceGridColumns - 1);
+      const double x = plan.first_x + part * (plan.last_x - plan.first_x);
+      const double z = depth_of(plan, row, part);
+      if (!std::isfinite(x) || !std::isfinite(z)) return refuse(Reason::not_finite);
+      FaceGridNode& node = grid[row][column];
+      Reason reason = find_node(gear, x, z, node.at);
+      if (reason == Reason::ok) {
+        const Vec3 generated = face_point(gear, {}, node.at).point;
+        reason = distance_from_face(gear, {}, generated).reason;
+      }
+      if (reason != Reason::ok) {
+        Where where;
+        where.index = static_cast<int>(row * kFaceGridColumns + column);
+        return refuse(reason, where);
+      }
+      const FacePoint on = relieved_face_point(gear, {}, node.at);
+      node.point = on.point;
+      node.normal = on.normal;
+    }
+  }
+  out = grid;
+  return {};
+}
+
+}  // namespace volcomp
