@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "comp/evaluation/face_gear_grade.hpp"
+#include "comp/surfaces/spline_patch.hpp"
 #include "host_sim/data/map_csv.hpp"
 #include "host_sim/data/user_error.hpp"
 

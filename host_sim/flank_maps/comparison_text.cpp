@@ -12,10 +12,12 @@ namespace {
 
 using nlohmann::json;
 
+// A value that is printed with one decimal: no "-0.0".
+double tenths(double value) { return std::abs(value) < 0.05 ? 0.0 : value; }
+
 std::string cell_text(const ErrorMap& map, std::size_t row, std::size_t column) {
   if (!map.has(row, column)) return fmt::format("{:>6}", "-");
-  const double value = map.at(row, column);
-  return fmt::format("{:6.1f}", std::abs(value) < 0.05 ? 0.0 : value);
+  return fmt::format("{:6.1f}", tenths(map.at(row, column)));
 }
 
 std::string margin_text(const CellStatistics& s) {
@@ -81,8 +83,9 @@ std::string frame_text(const FlankComparison& c) {
         "  {:<44} {:3.0f} %, rms {:.2f} -> {:.2f} um; X {:.1f} Y {:.1f} Z {:.1f} um, about X "
         "{:.0f} "
         "Y {:.0f} Z {:.0f} urad\n",
-        f.what, 100.0 * s.explained, s.rms_before, s.rms_after, s.shift.x(), s.shift.y(),
-        s.shift.z(), 1e3 * s.turn.x(), 1e3 * s.turn.y(), 1e3 * s.turn.z());
+        f.what, 100.0 * s.explained, s.rms_before, s.rms_after, tenths(s.shift.x()),
+        tenths(s.shift.y()), tenths(s.shift.z()), 1e3 * s.turn.x(), 1e3 * s.turn.y(),
+        1e3 * s.turn.z());
   }
   return text;
 }
