@@ -31,7 +31,7 @@ Newton largest_root(double ratio, double square, double z) {
     if (!(w >= kFlattest && w <= kSteepest)) break;
     // What a further step would still change is half of the second derivative, at most 6 w², times
     // the square of this one over the slope: nothing.
-    if (6.0 * w2 * change * change <= 1e-17 * slope) return {w, step, true};
+    if (6.0 * w2 * change * change <= 4e-16 * slope) return {w, step, true};
   }
   return {w, kMaxFaceSteps, false};
 }
