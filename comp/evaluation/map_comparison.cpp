@@ -59,7 +59,7 @@ Status check(Span<const ComparedFlank> flanks) {
 // Rotations in units of length at the mean radius, so that all unknowns weigh alike.
 class FrameModel {
  public:
-  FrameModel(Span<const ComparedFlank> flanks, const FrameFreedom& freedom) : freedom_(freedom) {
+  FrameModel(Span<const ComparedFlank> flanks, const FrameMotions& freedom) : freedom_(freedom) {
     double sum = 0.0;
     double count = 0.0;
     each_cell(flanks, [&](const Cell& cell) {
@@ -83,11 +83,11 @@ class FrameModel {
   [[nodiscard]] double radius() const { return radius_; }
 
  private:
-  FrameFreedom freedom_;
+  FrameMotions freedom_;
   double radius_ = 1.0;
 };
 
-int unknowns_of(const FrameFreedom& freedom, std::size_t flanks) {
+int unknowns_of(const FrameMotions& freedom, std::size_t flanks) {
   int count = freedom.constants ? static_cast<int>(flanks) : 0;
   for (const bool free : freedom.motion)
     count += free ? 1 : 0;
@@ -133,7 +133,7 @@ Status compare_maps(const ErrorMap& first, const ErrorMap& second, MapDifference
   return {};
 }
 
-Status frame_share(Span<const ComparedFlank> flanks, const FrameFreedom& freedom, FrameShare& out) {
+Status frame_share(Span<const ComparedFlank> flanks, const FrameMotions& freedom, FrameShare& out) {
   if (const Status s = check(flanks); !s.ok()) return s;
   const FrameModel model(flanks, freedom);
   Normal normal = Normal::Zero();

@@ -23,13 +23,13 @@ Status compare_maps(const ErrorMap& first, const ErrorMap& second, MapDifference
 
 // Which small motions of a frame take part, and whether each flank may also have a constant of its
 // own: what zeroing has left behind.
-struct FrameFreedom {
+struct FrameMotions {
   std::array<bool, 6> motion{};  // X, Y, Z, about X, Y, Z; the frame of the gear
   bool constants = false;
 };
-inline constexpr FrameFreedom kShiftInXz{{true, false, true, false, false, false}, true};
-inline constexpr FrameFreedom kWholeFrame{{true, true, true, true, true, true}, false};
-inline constexpr FrameFreedom kTurnAboutAxis{{false, false, false, false, false, true}, false};
+inline constexpr FrameMotions kShiftInXz{{true, false, true, false, false, false}, true};
+inline constexpr FrameMotions kWholeFrame{{true, true, true, true, true, true}, false};
+inline constexpr FrameMotions kTurnAboutAxis{{false, false, false, false, false, true}, false};
 
 // The difference of one flank, and the nominal flank it was measured on: kGridCells points.
 struct ComparedFlank {
@@ -55,6 +55,6 @@ struct FrameShare {
 // points. `flanks`: one or two. Refused: too_few_points (count of flanks), length_mismatch (index
 // of the flank), not_finite (index) for a nominal point, too_few_points (count of cells) for fewer
 // cells than unknowns.
-Status frame_share(Span<const ComparedFlank> flanks, const FrameFreedom& freedom, FrameShare& out);
+Status frame_share(Span<const ComparedFlank> flanks, const FrameMotions& freedom, FrameShare& out);
 
 }  // namespace volcomp

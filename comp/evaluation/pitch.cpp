@@ -57,7 +57,7 @@ double before(Span<const double> position, std::size_t k) {
 }  // namespace
 
 Status ToothAngles::of(int teeth, ToothAngles& out) {
-  if (teeth < 2 || teeth > static_cast<int>(kMaxFaceGearTeeth)) return bad_setting("teeth", teeth);
+  if (teeth < 2 || teeth > static_cast<int>(kMaxPitchTeeth)) return bad_setting("teeth", teeth);
   out.teeth_ = static_cast<std::size_t>(teeth);
   out.angle_.fill(std::numeric_limits<double>::quiet_NaN());
   return {};

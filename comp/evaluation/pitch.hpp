@@ -16,12 +16,12 @@
 
 namespace volcomp {
 
-inline constexpr std::size_t kMaxFaceGearTeeth = 256;
+inline constexpr std::size_t kMaxPitchTeeth = 256;
 
 // One round of a face gear as it is probed, tooth by tooth, angles in rad.
 class ToothAngles {
  public:
-  // Nothing measured yet. Refused: bad_setting 'teeth' unless 2…kMaxFaceGearTeeth.
+  // Nothing measured yet. Refused: bad_setting 'teeth' unless 2…kMaxPitchTeeth.
   static Status of(int teeth, ToothAngles& out);
 
   // The ball on tooth k, turned back to slot 0, stood off the nominal flank by `deviation` (signed
@@ -33,7 +33,7 @@ class ToothAngles {
   [[nodiscard]] Span<const double> angles() const { return {angle_.data(), teeth_}; }
 
  private:
-  std::array<double, kMaxFaceGearTeeth> angle_{};
+  std::array<double, kMaxPitchTeeth> angle_{};
   std::size_t teeth_ = 0;
 };
 

@@ -43,7 +43,7 @@ struct FaceGear {
   double pointing_radius = 0.0;  // teeth are pointed from here outwards
 };
 
-inline constexpr int kMaxFaceGearTeeth = 1000;
+inline constexpr int kMaxFaceGearTeeth = 256;
 
 // Fills in what follows from the given values. Refused, the gear stays as it is: bad_gear with the
 // field and its value. N_s ≥ 5, N_s < N_2 ≤ kMaxFaceGearTeeth, pressure angle 10° to 35°, addenda

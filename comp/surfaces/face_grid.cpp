@@ -17,7 +17,7 @@ double depth_of(const FaceGridPlan& plan, std::size_t row, double part) {
   const double root = plan.first_root_depth + part * (plan.last_root_depth - plan.first_root_depth);
   const double from = plan.tip_depths[fixed - 1];
   const auto step = static_cast<double>(row - fixed + 1);
-  return from + (root - from) * step / static_cast<double>(kFaceGridRows - fixed);
+  return from + (root - from) * step / static_cast<double>(kGridRows - fixed);
 }
 
 // The point of the flank with this x at this depth.
@@ -63,9 +63,9 @@ FaceGridPlan plan_face_grid(const FaceGear& gear) {
 
 Status make_face_grid(const FaceGear& gear, const FaceGridPlan& plan, FaceGrid& out) {
   FaceGrid grid;
-  for (std::size_t row = 0; row < kFaceGridRows; ++row) {
-    for (std::size_t column = 0; column < kFaceGridColumns; ++column) {
-      const double part = static_cast<double>(column) / static_cast<double>(kFaceGridColumns - 1);
+  for (std::size_t row = 0; row < kGridRows; ++row) {
+    for (std::size_t column = 0; column < kGridColumns; ++column) {
+      const double part = static_cast<double>(column) / static_cast<double>(kGridColumns - 1);
       const double x = plan.first_x + part * (plan.last_x - plan.first_x);
       const double z = depth_of(plan, row, part);
       if (!std::isfinite(x) || !std::isfinite(z)) return refuse(Reason::not_finite);
@@ -77,7 +77,7 @@ Status make_face_grid(const FaceGear& gear, const FaceGridPlan& plan, FaceGrid& 
       }
       if (reason != Reason::ok) {
         Where where;
-        where.index = static_cast<int>(row * kFaceGridColumns + column);
+        where.index = static_cast<int>(row * kGridColumns + column);
         return refuse(reason, where);
       }
       const FacePoint on = relieved_face_point(gear, {}, node.at);

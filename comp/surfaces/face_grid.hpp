@@ -6,11 +6,9 @@
 #include <cstddef>
 
 #include "comp/surfaces/face_flank.hpp"
+#include "comp/surfaces/measuring_grid.hpp"
 
 namespace volcomp {
-
-inline constexpr std::size_t kFaceGridRows = 7;      // 0 at the tip
-inline constexpr std::size_t kFaceGridColumns = 15;  // 0 innermost
 
 // Where the generated points lie: columns at equal steps of x, the gear axis to the middle of slot
 // 0; rows 0 to 2 at fixed depths, the last at a depth that grows linearly with x, the others at
@@ -39,10 +37,10 @@ struct FaceGridNode {
   Vec3 point;         // relieved, flank of side +1 in slot 0
   Vec3 normal;
 };
-using FaceGrid = std::array<std::array<FaceGridNode, kFaceGridColumns>, kFaceGridRows>;
+using FaceGrid = std::array<std::array<FaceGridNode, kGridColumns>, kGridRows>;
 
 // For other flanks: from_flank() of points and normals. Refused: not_finite, and with the index
-// (row · kFaceGridColumns + column) inside_gear_base, no_regular_flank, or the reason a point is
+// (row · kGridColumns + column) inside_gear_base, no_regular_flank, or the reason a point is
 // not on the flank for.
 Status make_face_grid(const FaceGear& gear, const FaceGridPlan& plan, FaceGrid& out);
 

@@ -94,9 +94,11 @@ void add_compare_command(CLI::App& app, int argc, char** argv, int& code) {
       ->required()
       ->expected(2, 4);
   command->add_option("--names", a->names, "What to call the two measurements")->expected(2);
-  command->add_option("--grid", a->options.grid,
-                      "CSV file of the nominal points (row,column,X,Y,Z, mm, side +1): says how "
-                      "much of the difference is a frame");
+  command
+      ->add_option("--gear", a->options.gear,
+                   "Whose flanks, for how much of the difference is a frame: table1 or table3 of "
+                   "the paper, a TOML file, or \"\" to leave it out")
+      ->capture_default_str();
   add_choices(*command, *a);
   command->add_option("--rows", a->rows, "First and last row of the profile deviation")
       ->expected(2)

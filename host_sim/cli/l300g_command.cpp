@@ -1,6 +1,5 @@
 // volcomp run l300g
 
-#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -39,17 +38,6 @@ int run_l300g_command(const L300gArguments& arguments) {
   write_pages(arguments, l300g_document(result, arguments.command, describe(arguments.node)));
   write_programs(arguments.gcode_folder, result);
   return l300g_verdict(result).ok ? 0 : 1;
-}
-
-template <class Choice>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& value,
-                        const std::map<std::string, Choice>& words, const std::string& what) {
-  std::string list;
-  for (const auto& [word, choice] : words)
-    list += (list.empty() ? "" : "|") + word;
-  return app.add_option(name, value, fmt::format("{}: {}", what, list))
-      ->transform(CLI::Transformer(words, CLI::ignore_case).description(""))
-      ->default_str(words.begin()->first);
 }
 
 }  // namespace

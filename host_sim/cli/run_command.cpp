@@ -109,6 +109,7 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
     code = run_xyfz_command(*a);
   });
   add_l300g_command(*run, a->command, code);
+  add_face_gear_command(*run, a->command, code);
 }
 
 }  // namespace volcomp::sim

@@ -1,9 +1,11 @@
 #pragma once
 // What the scenarios of volcomp run have in common: where the node is, where the figures go.
 
+#include <map>
 #include <memory>
 #include <string>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -33,6 +35,18 @@ std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node);
 
 void write_figures(const RunArguments& arguments, nlohmann::json figures);
 void write_pages(const RunArguments& arguments, const nlohmann::json& document);
+
+// An option that takes one of these words; the first is its default in the help text.
+template <class Choice>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& value,
+                        const std::map<std::string, Choice>& words, const std::string& what) {
+  std::string list;
+  for (const auto& [word, choice] : words)
+    list += (list.empty() ? "" : "|") + word;
+  return app.add_option(name, value, fmt::format("{}: {}", what, list))
+      ->transform(CLI::Transformer(words, CLI::ignore_case).description(""))
+      ->default_str(words.begin()->first);
+}
 
 // `scenario(progress)` with a bar on the terminal, and the bus brought to its end.
 template <class Scenario>

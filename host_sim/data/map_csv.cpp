@@ -13,7 +13,6 @@ namespace volcomp::sim {
 namespace {
 
 constexpr const char* kMapHeader = "row,c1,...,c15";
-constexpr const char* kGridHeader = "row,column,X,Y,Z";
 
 std::vector<std::string> map_columns() {
   std::vector<std::string> names{"row"};
@@ -39,12 +38,13 @@ std::size_t index_of(const CsvLines& lines, std::string_view cell, const char* w
   return static_cast<std::size_t>(value) - 1;
 }
 
-double finite(const CsvLines& lines, std::string_view cell, const std::string& where,
-              const char* hint) {
+double finite(const CsvLines& lines, std::string_view cell, const std::string& where) {
   const double value = lines.number(cell, where + ": ");
   if (!std::isfinite(value))
     lines.fail(
-        fmt::format("{}: {} is no measured value{} [not_finite]", where, quoted(cell), hint));
+        fmt::format("{}: {} is no measured value; a cell that was not measured is left empty "
+                    "[not_finite]",
+                    where, quoted(cell)));
   return value;
 }
 
@@ -54,14 +54,6 @@ std::vector<std::string_view> whole_line(const CsvLines& lines, const std::strin
   std::vector<std::string_view> cells = cells_of(line);
   if (cells.size() != count) lines.fail(fmt::format("{} cells instead of {}", cells.size(), count));
   return cells;
-}
-
-template <class Read>
-auto from_file(const std::filesystem::path& path, const Read& read) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw UserError(path.string() + ": cannot be opened");
-  return read(stream, path.string());
 }
 
 }  // namespace
@@ -81,8 +73,7 @@ ErrorMap read_map(std::istream& stream, const std::string& name) {
       if (cells[column + 1].empty()) continue;
       map.set(
           row, column,
-          finite(lines, cells[column + 1], fmt::format("row {}, column {}", row + 1, column + 1),
-                 "; a cell that was not measured is left empty"));
+          finite(lines, cells[column + 1], fmt::format("row {}, column {}", row + 1, column + 1)));
     }
   }
   const auto absent = std::find(seen.begin(), seen.end(), false);
@@ -92,34 +83,22 @@ ErrorMap read_map(std::istream& stream, const std::string& name) {
   return map;
 }
 
-GridPoints read_grid(std::istream& stream, const std::string& name) {
-  CsvLines lines(stream, name);
-  check_header(lines, {"row", "column", "X", "Y", "Z"}, kGridHeader);
-  GridPoints points;
-  std::array<bool, kGridCells> seen{};
-  std::string line;
-  while (lines.next(line)) {
-    const auto cells = whole_line(lines, line, 5);
-    const std::size_t row = index_of(lines, cells[0], "row", kGridRows);
-    const std::size_t column = index_of(lines, cells[1], "column", kGridColumns);
-    const std::string where = fmt::format("row {}, column {}", row + 1, column + 1);
-    const std::size_t index = grid_index(row, column);
-    if (seen.at(index)) lines.fail(where + " is there twice");
-    seen.at(index) = true;
-    for (std::size_t k = 0; k < 3; ++k)
-      points.at(index)(static_cast<Eigen::Index>(k)) = finite(lines, cells[k + 2], where, "");
-  }
-  const auto absent = std::find(seen.begin(), seen.end(), false);
-  if (absent != seen.end()) {
-    const auto index = static_cast<std::size_t>(absent - seen.begin());
-    throw UserError(fmt::format("{}: the point of row {}, column {} is missing", name,
-                                index / kGridColumns + 1, index % kGridColumns + 1));
-  }
-  return points;
+ErrorMap read_map_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path))
+    throw UserError(path.string() + ": cannot be opened");
+  return read_map(stream, path.string());
 }
 
-ErrorMap read_map_file(const std::filesystem::path& path) { return from_file(path, read_map); }
-
-GridPoints read_grid_file(const std::filesystem::path& path) { return from_file(path, read_grid); }
+std::string map_csv(const ErrorMap& map) {
+  std::string text = fmt::format("{}\n", fmt::join(map_columns(), ","));
+  for (std::size_t row = 0; row < kGridRows; ++row) {
+    text += std::to_string(row + 1);
+    for (std::size_t column = 0; column < kGridColumns; ++column)
+      text += map.has(row, column) ? fmt::format(",{:.4f}", map.at(row, column)) : ",";
+    text += "\n";
+  }
+  return text;
+}
 
 }  // namespace volcomp::sim

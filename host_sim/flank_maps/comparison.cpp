@@ -9,6 +9,7 @@
 #include "comp/surfaces/spline_patch.hpp"
 #include "host_sim/data/map_csv.hpp"
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/flank_maps/gear_choice.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -71,16 +72,15 @@ std::optional<GradedProfile> graded(const std::vector<FlankPair>& flanks, std::s
 
 // The nominal flank of a side, in the order of the maps. The grid's own order is that of Table 3:
 // tip first, inner end first.
-Surface nominal_flank(const CompareOptions& options, const GridPoints& points, int side) {
-  Surface plus;
-  require(surface_of(points, -Vec3::UnitY(), plus), options.grid);
+Surface nominal_flank(const CompareOptions& options, const FaceGrid& grid, int side) {
   Surface ordered;
   for (std::size_t row = 0; row < kGridRows; ++row) {
     for (std::size_t column = 0; column < kGridColumns; ++column) {
       const std::size_t from_row = options.row_1_is_tip ? row : kGridRows - 1 - row;
       const std::size_t from_column =
           options.column_1_is_inner ? column : kGridColumns - 1 - column;
-      SurfacePoint p = plus.at(grid_index(from_row, from_column));
+      const FaceGridNode& node = grid.at(from_row).at(from_column);
+      SurfacePoint p{node.point, node.normal};
       p.point.y() *= side;
       p.normal.y() *= side;
       ordered.at(grid_index(row, column)) = p;
@@ -90,14 +90,16 @@ Surface nominal_flank(const CompareOptions& options, const GridPoints& points, i
 }
 
 void look_for_frames(FlankComparison& c) {
-  const GridPoints points = read_grid_file(c.options.grid);
+  const GearChoice choice = choose_face_gear(c.options.gear);
+  FaceGrid grid;
+  require(make_face_grid(choice.gear, choice.plan, grid), c.options.gear);
   std::vector<Surface> nominal;
   for (const FlankPair& pair : c.flanks)
-    nominal.push_back(nominal_flank(c.options, points, pair.side));
+    nominal.push_back(nominal_flank(c.options, grid, pair.side));
   std::vector<ComparedFlank> flanks;
   for (std::size_t f = 0; f < c.flanks.size(); ++f)
     flanks.push_back({&c.flanks[f].difference.difference, nominal[f]});
-  const std::array<std::pair<const char*, FrameFreedom>, 3> kinds{
+  const std::array<std::pair<const char*, FrameMotions>, 3> kinds{
       {{"shift in X and Z, a constant for each flank", kShiftInXz},
        {"all six motions", kWholeFrame},
        {"turn about the gear axis", kTurnAboutAxis}}};
@@ -130,7 +132,7 @@ FlankComparison compare_flanks(const CompareOptions& options) {
   c.rms_um = std::sqrt(squares / count);
   for (std::size_t k = 0; k < 2; ++k)
     c.profile.at(k) = graded(c.flanks, k);
-  if (!options.grid.empty()) look_for_frames(c);
+  if (!options.gear.empty()) look_for_frames(c);
   return c;
 }
 

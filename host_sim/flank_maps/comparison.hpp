@@ -22,7 +22,7 @@ enum class Zeroing { as_given, centre, mean };
 struct CompareOptions {
   std::vector<std::string> files;  // first and second map of the left flank, then of the right
   std::array<std::string, 2> names{"first", "second"};
-  std::string grid;               // nominal points; empty: nothing can be said about frames
+  std::string gear = "table3";    // whose flanks (gear_choice.hpp); empty: frames are left out
   int left_side = 1;              // which side of the slot is called left
   bool plus_is_metal = true;      // the sign of the maps; results are + = excess material
   bool row_1_is_tip = true;       // else root

@@ -137,7 +137,7 @@ json provenance(const FlankComparison& c, const std::string& command) {
       list.push_back({fmt::format("{} flank, {}", pair.name, c.options.names.at(k)),
                       pair.measured.at(k).file});
   }
-  if (!c.options.grid.empty()) list.push_back({"nominal points", c.options.grid});
+  if (!c.options.gear.empty()) list.push_back({"gear", c.options.gear});
   list.push_back({"conventions", conventions_of(c.options)});
   return list;
 }

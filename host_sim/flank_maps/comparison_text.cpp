@@ -74,8 +74,7 @@ std::string profile_text(const FlankComparison& c) {
 }
 
 std::string frame_text(const FlankComparison& c) {
-  if (c.frame.empty())
-    return "frame: not looked for; it needs the nominal points of the gear (--grid FILE)\n";
+  if (c.frame.empty()) return "frame: not looked for; it needs the gear (--gear)\n";
   std::string text = "frame: how much of the difference a small motion of it explains\n";
   for (const FrameFinding& f : c.frame) {
     const FrameShare& s = f.share;

@@ -16,10 +16,10 @@ expect 0 'left flank (side +1): OMM - GMC' "${both[@]}"
 expect 0 'OMM: 5.8 um, right flank, column 8: grade 5' "${both[@]}"
 expect 0 'worse than grade 5' "${both[@]}" --rows 1 7
 expect 0 'unchecked' "${both[@]}"
-expect 0 '--grid FILE' "${both[@]}"
-expect 0 '66 %, rms 2.14 -> 1.25 um; X -41.3 Y 0.0 Z 4.1 um' "${both[@]}" --grid "$tables/grid_mm.csv"
-expect 0 '68 %, rms 2.14 -> 1.22 um' "${both[@]}" --grid "$tables/grid_mm.csv"
-expect 0 'X 41.3 Y 0.0 Z -4.1 um' "${both[@]}" --grid "$tables/grid_mm.csv" --plus-is space
+expect 0 'frame: not looked for' "${both[@]}" --gear ''
+expect 0 '66 %, rms 2.14 -> 1.25 um; X -41.3 Y 0.0 Z 4.1 um' "${both[@]}"
+expect 0 '68 %, rms 2.14 -> 1.22 um' "${both[@]}"
+expect 0 'X 41.3 Y 0.0 Z -4.1 um' "${both[@]}" --plus-is space
 expect 0 'left = side -1; row 1 = root, column 1 = outer' "${both[@]}" --left-is -1 --row-1 root --column-1 outer
 expect 0 'largest 5.0 um at row 7, column 4' "$volcomp" compare "${left[@]}" --zero centre
 expect 0 'zeroed by the mean' "$volcomp" compare "${left[@]}" --zero mean
@@ -27,7 +27,7 @@ expect 0 'zeroed by the mean' "$volcomp" compare "${left[@]}" --zero mean
 # A verdict, files, and figures for other programs.
 expect 0 'PASS' "${both[@]}" --limit 5.01
 expect 1 'FAIL' "${both[@]}" --limit 4.9
-expect 0 'largest' "${both[@]}" --grid "$tables/grid_mm.csv" --report "$work/report" --json "$work/figures.json"
+expect 0 'largest' "${both[@]}" --report "$work/report" --json "$work/figures.json"
 for file in report/report.html report/report.json figures.json; do
   [ -s "$work/$file" ] || { echo "FAILED: $file is missing"; failed=1; }
 done
@@ -77,12 +77,10 @@ head -c 300 /dev/urandom >"$bad"
 refused 'bad.csv'
 for path in "$work/none.csv" "$work"; do
   expect 2 'cannot be opened' "$volcomp" compare "$path" "${left[1]}"
-  expect 2 'cannot be opened' "$volcomp" compare "${left[@]}" --grid "$path"
+  expect 2 'cannot be opened' "$volcomp" compare "${left[@]}" --gear "$path"
 done
-sed '9s/,[^,]*$/,here/' "$tables/grid_mm.csv" >"$bad"
-expect 2 'bad.csv:9: row 1, column 7: "here" is not a number' "$volcomp" compare "${left[@]}" --grid "$bad"
-sed '9d' "$tables/grid_mm.csv" >"$bad"
-expect 2 'the point of row 1, column 7 is missing' "$volcomp" compare "${left[@]}" --grid "$bad"
+printf 'teeth = 86\n' >"$bad"
+expect 2 "shaper_teeth" "$volcomp" compare "${left[@]}" --gear "$bad"
 expect 2 '3 maps given' "$volcomp" compare "${left[@]}" "${right[0]}"
 expect 2 'MAPS' "$volcomp" compare "${left[0]}"
 expect 2 '--left-is' "$volcomp" compare "${left[@]}" --left-is 0

@@ -29,7 +29,7 @@ struct BothFlanks {
   std::array<Grid, 2> nominal{reference::table_3_grid(reference::FaceGear{}, 1),
                               reference::table_3_grid(reference::FaceGear{}, -1)};
 
-  [[nodiscard]] FrameShare share(const FrameFreedom& freedom) const {
+  [[nodiscard]] FrameShare share(const FrameMotions& freedom) const {
     const std::array<ComparedFlank, 2> flanks{
         {{&difference[0].difference, nominal[0]}, {&difference[1].difference, nominal[1]}}};
     FrameShare share;
@@ -92,7 +92,7 @@ TEST(FrameShare, ATurnAndAConstantOfOneFlankAreTheSame) {
   const Grid grid = reference::table_3_grid(reference::FaceGear{});
   const MapDifference d = difference_of(0);
   const std::array<ComparedFlank, 1> flank{{{&d.difference, grid}}};
-  FrameFreedom freedom = kTurnAboutAxis;
+  FrameMotions freedom = kTurnAboutAxis;
   freedom.constants = true;
   FrameShare s;
   ASSERT_TRUE(frame_share(flank, freedom, s).ok());

@@ -1,0 +1,85 @@
+// volcomp run face-gear
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/run_options.hpp"
+#include "host_sim/data/map_csv.hpp"
+#include "host_sim/data/whole_file.hpp"
+#include "host_sim/scenarios/face_gear/figures.hpp"
+#include "host_sim/scenarios/face_gear/report.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct FaceGearArguments : RunArguments {
+  FaceGearOptions options;
+  std::string map_folder;  // empty: none
+};
+
+// As volcomp compare reads them.
+void write_maps(const std::filesystem::path& folder, const FaceGearResult& run) {
+  if (folder.empty()) return;
+  create_folder(folder);
+  const auto compensated = static_cast<std::size_t>(FaceStage::compensated);
+  for (const FlankMap& flank : run.inspection.at(compensated).maps)
+    write_whole_file(folder / fmt::format("slot{}_{}_um.csv", flank.flank.slot + 1,
+                                          kFaceSideNames[flank.flank.side > 0 ? 0 : 1]),
+                     map_csv(flank.map));
+}
+
+int run_face_gear_command(const FaceGearArguments& arguments) {
+  ScenarioBus bus(arguments.node);
+  FaceGearOptions options = arguments.options;
+  options.machine = machine_of(arguments, "yk7280");
+  options.make_axes = bus.axes();
+  options.cycle_hz = arguments.node.cycle_hz;
+  const FaceGearResult run = run_watched(
+      &bus, [&options](const Progress& progress) { return run_face_gear(options, progress); });
+  fmt::print("{}transport: {}\n", face_gear_summary(run), describe(arguments.node));
+  write_figures(arguments, face_gear_figures(run));
+  write_pages(arguments, face_gear_document(run, arguments.command, describe(arguments.node)));
+  write_maps(arguments.map_folder, run);
+  return face_gear_verdict(run).ok ? 0 : 1;
+}
+
+}  // namespace
+
+void add_face_gear_command(CLI::App& run, const std::string& command, int& code) {
+  CLI::App* face_gear = run.add_subcommand(
+      "face-gear",
+      "Face gear on its machine: find its frame, map its flanks, measure the pitch of all teeth");
+  auto a = std::make_shared<FaceGearArguments>();
+  a->command = command;
+  a->node.can = "loopback";
+  a->node.cycle_hz = kBusCycleOfFive_hz;
+  FaceGearOptions& options = a->options;
+  face_gear
+      ->add_option("--gear", options.gear,
+                   "The gear: table1 or table3 of the paper, or a TOML file")
+      ->capture_default_str();
+  face_gear
+      ->add_option("--flanks", options.flanks,
+                   "Pairs of flanks to map, evenly over the gear; the pitch is of all teeth")
+      ->check(CLI::Range(1, kMaxFaceGearTeeth))
+      ->capture_default_str();
+  add_choice<FormTruth>(*face_gear, "--truth", options.form,
+                        {{"tables", FormTruth::tables}, {"synthetic", FormTruth::synthetic}},
+                        "Form of the simulated flanks, that of the paper's Tables 7 and 8 or a "
+                        "smooth one");
+  face_gear->add_option("--seed", options.seed, "Seed of the errors of machine and gear")
+      ->capture_default_str();
+  face_gear
+      ->add_option("--can", a->node.can,
+                   fmt::format("Bus: loopback (node in this process), {}", kLinkForms))
+      ->capture_default_str();
+  face_gear->add_option("--maps", a->map_folder,
+                        "Folder for the error maps as CSV, for volcomp compare");
+  add_output_options(*face_gear, *a);
+  add_bus_options(*face_gear, a->node);
+  face_gear->callback([a, &code] { code = run_face_gear_command(*a); });
+}
+
+}  // namespace volcomp::sim

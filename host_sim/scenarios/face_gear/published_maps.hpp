@@ -1,0 +1,19 @@
+#pragma once
+// The error maps the paper prints: one pair of flanks, measured twice (seed 002 section 10).
+
+#include <cstdint>
+
+#include "comp/evaluation/error_map.hpp"
+
+namespace volcomp::sim {
+
+enum class PublishedMap : std::uint8_t {
+  machine,  // Tables 5 and 6: on the machine
+  centre,   // Tables 7 and 8: on a gear measuring centre
+};
+
+// `side`: 0 left, 1 right. µm. The sign, which end of a row or column is which, and which flank is
+// "left" are not printed: excess is taken as positive, row 1 as tip, column 1 as inside.
+[[nodiscard]] ErrorMap published_map(PublishedMap from, std::size_t side);
+
+}  // namespace volcomp::sim
