@@ -2,14 +2,15 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "comp/evaluation/pseudo_inverse.hpp"
 
 namespace volcomp {
 namespace {
 
 constexpr int kUnknowns = 6 + static_cast<int>(kMaxComparedFlanks);
-constexpr double kVoid = 1e-10;  // eigenvalues below this, of the largest, are rounding
+constexpr double kVoid = 1e-10;  // eigenvalues of the normal matrix below this share are rounding
 
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
@@ -94,25 +95,6 @@ int unknowns_of(const FrameMotions& freedom, std::size_t flanks) {
   return count;
 }
 
-struct Solution {
-  Unknowns x = Unknowns::Zero();
-  int rank = 0;
-};
-
-// The shortest of the least-squares solutions.
-Solution pseudo_solve(const Normal& normal, const Unknowns& right) {
-  const Eigen::SelfAdjointEigenSolver<Normal> eigen(normal);
-  const Unknowns& values = eigen.eigenvalues();
-  Solution s;
-  for (Eigen::Index i = 0; i < kUnknowns; ++i) {
-    if (!(values(i) > kVoid * values(kUnknowns - 1))) continue;
-    const auto direction = eigen.eigenvectors().col(i);
-    s.x += direction * (direction.dot(right) / values(i));
-    ++s.rank;
-  }
-  return s;
-}
-
 }  // namespace
 
 Status compare_maps(const ErrorMap& first, const ErrorMap& second, MapDifference& out) {
@@ -152,7 +134,7 @@ Status frame_share(Span<const ComparedFlank> flanks, const FrameMotions& freedom
   if (cells == 0 || cells < unknowns_of(freedom, flanks.size()))
     return refuse(Reason::too_few_points, where);
 
-  const Solution solution = pseudo_solve(normal, right);
+  const LeastSquares<kUnknowns> solution = pseudo_solve<kUnknowns>(normal, right, kVoid);
   FrameShare share;
   double after = 0.0;
   each_cell(flanks, [&](const Cell& cell) {

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "comp/evaluation/pseudo_inverse.hpp"
 
 namespace volcomp {
 namespace {
 
 constexpr int kTerms = static_cast<int>(kMaxMapTerms);
-constexpr double kVoid = 1e-10;  // pivots smaller than this, of the largest, mean nothing
+constexpr double kVoid = 1e-10;  // eigenvalues of the normal matrix below this share are rounding
 
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 using Normal = Eigen::Matrix<double, kTerms, kTerms>;
@@ -67,16 +67,15 @@ Status fit_map(const ErrorMap& map, int degree, MapPolynomial& out) {
   const auto cells = static_cast<double>(kGridCells - map.missing());
   for (int i = terms_of(degree); i < kTerms; ++i)
     normal(i, i) = cells;  // terms that do not take part stay zero
-  const Eigen::LDLT<Normal> solver(normal);
-  const auto pivots = solver.vectorD();
-  if (!(pivots.minCoeff() > kVoid * pivots.maxCoeff())) {
+  const LeastSquares<kTerms> solution = pseudo_solve<kTerms>(normal, right, kVoid);
+  if (solution.rank < kTerms) {
     Where where;
     where.count = static_cast<int>(cells);
     return refuse(Reason::surface_not_determined, where);
   }
   MapPolynomial fit;
   fit.degree = degree;
-  Eigen::Map<Terms>(fit.coefficient.data()) = solver.solve(right);
+  Eigen::Map<Terms>(fit.coefficient.data()) = solution.x;
   double squares = 0.0;
   each_cell(map, [&](double x, double y, double value) {
     const double left = value - fit.at(x, y);

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 namespace volcomp {
 namespace {
@@ -12,9 +11,9 @@ namespace {
 // The nodes along one direction of the grid: `lines` polylines of N points each.
 struct Polylines {
   Span<const Vec3> points;
-  std::size_t lines;
-  std::size_t line_step;  // from one line to the next
-  std::size_t node_step;  // from one node of a line to the next
+  std::size_t lines = 0;
+  std::size_t line_step = 0;  // from one line to the next
+  std::size_t node_step = 0;  // from one node of a line to the next
 
   [[nodiscard]] std::size_t index(std::size_t line, std::size_t node) const {
     return line * line_step + node * node_step;
@@ -76,16 +75,36 @@ Status check(Span<const Vec3> points) {
 template <std::size_t N>
 using Collocation = Eigen::Matrix<double, static_cast<int>(N), static_cast<int>(N)>;
 
-// Coefficients of the functions = inverse · values in the nodes.
 template <std::size_t N>
-Collocation<N> inverse_collocation(const SplineBasis<N>& basis) {
+Collocation<N> collocation(const SplineBasis<N>& basis) {
   Collocation<N> matrix = Collocation<N>::Zero();
   for (std::size_t k = 0; k < N; ++k) {
     const BasisValues b = basis.at(basis.parameters()[k]);
     for (std::size_t i = 0; i < 4; ++i)
       matrix(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(b.first + i)) = b.value[i];
   }
-  return Eigen::PartialPivLU<Collocation<N>>(matrix).inverse();
+  return matrix;
+}
+
+// Coefficients of the functions = inverse · values in the nodes. Gauss and Jordan without
+// exchanging rows: a collocation matrix of B-splines is totally positive, so its pivots are
+// positive and nothing grows (de Boor and Pinkus 1977).
+template <std::size_t N>
+Collocation<N> inverse_collocation(const SplineBasis<N>& basis) {
+  Collocation<N> rest = collocation(basis);
+  Collocation<N> inverse = Collocation<N>::Identity();
+  for (Eigen::Index k = 0; k < rest.rows(); ++k) {
+    const double pivot = rest(k, k);
+    rest.row(k) /= pivot;
+    inverse.row(k) /= pivot;
+    for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+      if (i == k) continue;
+      const double factor = rest(i, k);
+      rest.row(i) -= factor * rest.row(k);
+      inverse.row(i) -= factor * inverse.row(k);
+    }
+  }
+  return inverse;
 }
 
 // Σ_j matrix(i, j) · values[j], for the nodes of one line.

@@ -34,9 +34,10 @@ struct PatchPoint {
 
 class SplinePatch {
  public:
-  // `points`: kGridCells, row by row, mm, any frame. Inverts both collocation matrices: not for
-  // the trigger task. Refused, with `out` as it was: length_mismatch (count), not_finite (index),
-  // coincident (index of the point) where a parametrisation by length finds no length.
+  // `points`: kGridCells, row by row, mm, any frame. Inverts both collocation matrices, on 8 KB of
+  // stack: not for the trigger task. Refused, with `out` as it was: length_mismatch (count),
+  // not_finite (index), coincident (index of the point) where a parametrisation by length finds no
+  // length.
   static Status through(Span<const Vec3> points, Parametrisation parametrisation, SplinePatch& out);
 
   // u, v within 0…1. Fixed number of operations.
@@ -58,8 +59,8 @@ class SplinePatch {
 [[nodiscard]] Vec3 normal_of(const PatchPoint& place, const Vec3& outward);
 
 // Points and normals in the nodes of a grid of points, for instance of one that came as a table.
-// `outward`: any direction out of the material. Refused as SplinePatch::through; zero_normal
-// (index).
+// `outward`: any direction out of the material. 16 KB of stack. Refused as SplinePatch::through;
+// zero_normal (index).
 Status surface_of(Span<const Vec3> points, const Vec3& outward, Span<SurfacePoint> out);
 
 }  // namespace volcomp
