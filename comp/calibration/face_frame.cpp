@@ -1,5 +1,6 @@
 #include "comp/calibration/face_frame.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -148,10 +149,9 @@ Status check(Span<const FaceTouchPoint> points, const FaceFrameSettings& setting
 }
 
 bool both_sides(Span<const FaceTouchPoint> points) {
-  for (const FaceTouchPoint& p : points) {
-    if (p.flank.side * points[0].flank.side < 0.0) return true;
-  }
-  return false;
+  return std::any_of(points.begin(), points.end(), [&](const FaceTouchPoint& p) {
+    return p.flank.side * points[0].flank.side < 0.0;
+  });
 }
 
 Status not_fixed(int rank) {

@@ -64,6 +64,11 @@ inline double units_within_a_turn(double angle) {
   return (turns - static_cast<double>(whole)) * static_cast<double>(kUnitsPerTurn);
 }
 
+// Of an angle in radians, |angle| < 1e9.
+inline FineSineCosine fine_sine_cosine_rad(double angle) {
+  return fine_sine_cosine(units_within_a_turn(angle));
+}
+
 namespace detail {
 
 // √x for x in 1e-30…1e30. The root of the float is right to 2^-24; its square is exact in double,

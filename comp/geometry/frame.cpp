@@ -33,7 +33,7 @@ Mat3 axis_rotation(Axis axis, double angle) {
   const auto i = static_cast<Eigen::Index>(axis);
   const Eigen::Index j = (i + 1) % 3;
   const Eigen::Index k = (i + 2) % 3;
-  const FineSineCosine t = fine_sine_cosine(units_within_a_turn(angle));
+  const FineSineCosine t = fine_sine_cosine_rad(angle);
   Mat3 m = Mat3::Identity();
   m(j, j) = t.cosine;
   m(j, k) = -t.sine;

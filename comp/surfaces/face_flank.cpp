@@ -5,8 +5,6 @@
 namespace volcomp {
 namespace {
 
-FineSineCosine sine_cosine_of(double angle) { return fine_sine_cosine(units_within_a_turn(angle)); }
-
 Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -22,10 +20,9 @@ ReliefAt relief_at(const TipRelief& relief, double z) {
   return {relief.amount * along * along, -twice * along, twice / relief.length};
 }
 
-FaceTriad::FaceTriad(const FaceGear& gear, const FaceParameters& at)
-    : beta_sine(0.0), beta_cosine(0.0), turn_sine_(0.0), turn_cosine_(0.0) {
-  const FineSineCosine beta = sine_cosine_of(at.beta);
-  const FineSineCosine turn = sine_cosine_of(gear.ratio * (at.theta - gear.theta0 - at.beta));
+FaceTriad::FaceTriad(const FaceGear& gear, const FaceParameters& at) {
+  const FineSineCosine beta = fine_sine_cosine_rad(at.beta);
+  const FineSineCosine turn = fine_sine_cosine_rad(gear.ratio * (at.theta - gear.theta0 - at.beta));
   beta_sine = beta.sine;
   beta_cosine = beta.cosine;
   turn_sine_ = turn.sine;

@@ -36,12 +36,12 @@ class FaceTriad {
   [[nodiscard]] Vec3 to_gear(const Vec3& v) const;    // from components along e1, e2, n
   [[nodiscard]] Vec3 from_gear(const Vec3& v) const;  // the inverse
 
-  double beta_sine;
-  double beta_cosine;
+  double beta_sine = 0.0;
+  double beta_cosine = 1.0;
 
  private:
-  double turn_sine_;  // of the gear turn φ_2
-  double turn_cosine_;
+  double turn_sine_ = 0.0;  // of the gear turn φ_2
+  double turn_cosine_ = 1.0;
 };
 
 // Of the generated flank.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "comp/geometry/fine_trig.hpp"
 #include "comp/surfaces/face_kernel.hpp"
 #include "comp/units.hpp"
 
@@ -44,15 +45,16 @@ Status check_given(const FaceGear& g) {
 }
 
 void set_constants(FaceGear& g) {
-  const double pitch_cosine = std::cos(g.pressure_angle);
+  const FineSineCosine alpha = fine_sine_cosine_rad(g.pressure_angle);
   g.ratio = static_cast<double>(g.shaper_teeth) / g.teeth;
   g.r_ps = 0.5 * g.module * g.shaper_teeth;
-  g.r_bs = g.r_ps * pitch_cosine;
+  g.r_bs = g.r_ps * alpha.cosine;
   g.r_pitch = 0.5 * g.module * g.teeth;
-  g.arm = g.r_pitch * pitch_cosine;
-  g.theta0 = kPi / (2.0 * g.shaper_teeth) + std::tan(g.pressure_angle) - g.pressure_angle;
+  g.arm = g.r_pitch * alpha.cosine;
+  const double involute = alpha.sine / alpha.cosine - g.pressure_angle;
+  g.theta0 = kPi / (2.0 * g.shaper_teeth) + involute;
   const double tip = (g.r_ps + g.shaper_addendum * g.module) / g.r_bs;
-  g.theta_tip = std::sqrt((tip - 1.0) * (tip + 1.0));
+  g.theta_tip = fine_root((tip - 1.0) * (tip + 1.0));
   g.z_tip = g.r_ps - g.addendum * g.module;
 }
 
@@ -65,9 +67,10 @@ void find_undercut(FaceGear& g) {
     (undercut_roll(g, beta) < g.theta_tip ? low : high) = beta;
   }
   g.undercut_beta = 0.5 * (low + high);
-  const double c = std::cos(g.undercut_beta);
-  const double t = g.r_bs * (g.theta_tip * c - std::sin(g.undercut_beta));
-  g.undercut_radius = std::hypot(g.arm / c, t);
+  const FineSineCosine beta = fine_sine_cosine_rad(g.undercut_beta);
+  const double u = g.arm / beta.cosine;
+  const double t = g.r_bs * (g.theta_tip * beta.cosine - beta.sine);
+  g.undercut_radius = fine_root(u * u + t * t);
 }
 
 // Where a slot is as wide as a pitch at the tips. Slots get wider outwards.
@@ -98,15 +101,16 @@ Status derive(FaceGear& gear) {
 }
 
 double undercut_roll(const FaceGear& gear, double beta) {
-  const double q = 2.0 / (gear.ratio * std::cos(beta));
-  return 0.5 * std::tan(beta) * (1.0 + std::sqrt(1.0 + q * q));
+  const FineSineCosine at = fine_sine_cosine_rad(beta);
+  const double q = 2.0 / (gear.ratio * at.cosine);
+  return 0.5 * (at.sine / at.cosine) * (1.0 + fine_root(1.0 + q * q));
 }
 
 double half_slot_angle(const FaceGear& gear, double rho, double z) {
   FaceSection section;
   if (cut_flank(gear, rho * rho, z, section) != Reason::ok)
     return std::numeric_limits<double>::quiet_NaN();
-  return std::atan2(section.t, gear.arm * section.inverse_cosine) - section.slot_turn;
+  return fine_arc_tangent(section.t, gear.arm * section.inverse_cosine) - section.slot_turn;
 }
 
 double tooth_thickness(const FaceGear& gear, double rho, double z) {

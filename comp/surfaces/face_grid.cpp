@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "comp/geometry/fine_trig.hpp"
+
 namespace volcomp {
 namespace {
 
@@ -20,18 +22,29 @@ double depth_of(const FaceGridPlan& plan, std::size_t row, double part) {
   return from + (root - from) * step / static_cast<double>(kGridRows - fixed);
 }
 
-// The point of the flank with this x at this depth.
-Reason find_node(const FaceGear& gear, double x, double z, FaceParameters& at) {
+// Where the flank has this x at this depth. The slot is narrow: the radius settles at once.
+Reason find_parameters(const FaceGear& gear, double x, double z, FaceParameters& at) {
   FaceSection section;
   double rho = x;
   for (int step = 0; step < kMostSteps; ++step) {
     if (const Reason r = cut_flank(gear, rho * rho, z, section); r != Reason::ok) return r;
     at = {section.roll, section.beta};
-    const double next = x / std::cos(half_slot_angle(gear, rho, z));
+    const double next = x / fine_sine_cosine_rad(half_slot_angle(gear, rho, z)).cosine;
     if (std::abs(next - rho) <= 1e-14 * rho) return Reason::ok;
     rho = next;
   }
   return Reason::no_regular_flank;
+}
+
+Reason find_node(const FaceGear& gear, double x, double z, FaceGridNode& node) {
+  if (!std::isfinite(x) || !std::isfinite(z)) return Reason::not_finite;
+  if (const Reason r = find_parameters(gear, x, z, node.at); r != Reason::ok) return r;
+  const Vec3 generated = face_point(gear, {}, node.at).point;
+  if (const Reason r = distance_from_face(gear, {}, generated).reason; r != Reason::ok) return r;
+  const FacePoint on = relieved_face_point(gear, {}, node.at);
+  node.point = on.point;
+  node.normal = on.normal;
+  return Reason::ok;
 }
 
 }  // namespace
@@ -67,22 +80,11 @@ Status make_face_grid(const FaceGear& gear, const FaceGridPlan& plan, FaceGrid& 
     for (std::size_t column = 0; column < kGridColumns; ++column) {
       const double part = static_cast<double>(column) / static_cast<double>(kGridColumns - 1);
       const double x = plan.first_x + part * (plan.last_x - plan.first_x);
-      const double z = depth_of(plan, row, part);
-      if (!std::isfinite(x) || !std::isfinite(z)) return refuse(Reason::not_finite);
-      FaceGridNode& node = grid[row][column];
-      Reason reason = find_node(gear, x, z, node.at);
-      if (reason == Reason::ok) {
-        const Vec3 generated = face_point(gear, {}, node.at).point;
-        reason = distance_from_face(gear, {}, generated).reason;
-      }
-      if (reason != Reason::ok) {
-        Where where;
-        where.index = static_cast<int>(row * kGridColumns + column);
-        return refuse(reason, where);
-      }
-      const FacePoint on = relieved_face_point(gear, {}, node.at);
-      node.point = on.point;
-      node.normal = on.normal;
+      const Reason reason = find_node(gear, x, depth_of(plan, row, part), grid[row][column]);
+      if (reason == Reason::ok) continue;
+      Where where;
+      where.index = static_cast<int>(row * kGridColumns + column);
+      return refuse(reason, where);
     }
   }
   out = grid;

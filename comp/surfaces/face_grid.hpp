@@ -39,9 +39,9 @@ struct FaceGridNode {
 };
 using FaceGrid = std::array<std::array<FaceGridNode, kGridColumns>, kGridRows>;
 
-// For other flanks: from_flank() of points and normals. Refused: not_finite, and with the index
-// (row · kGridColumns + column) inside_gear_base, no_regular_flank, or the reason a point is
-// not on the flank for.
+// For other flanks: from_flank() of points and normals. Refused with the index (row ·
+// kGridColumns + column) of the first: not_finite, inside_gear_base, no_regular_flank, or the
+// reason a point is not on the flank for.
 Status make_face_grid(const FaceGear& gear, const FaceGridPlan& plan, FaceGrid& out);
 
 }  // namespace volcomp

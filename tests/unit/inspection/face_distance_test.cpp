@@ -26,7 +26,7 @@ TEST(FaceDistance, IsTheLeastDistance) {
   for (const FaceGear& gear : {face_gear_of_table_1(), small_face_gear()}) {
     const FaceGrid grid = grid_of(gear, plan_face_grid(gear));
     for (const double offset : {0.05, 0.5, 1.5}) {
-      for (std::size_t column = 0; column < kFaceGridColumns; column += 7) {
+      for (std::size_t column = 0; column < kGridColumns; column += 7) {
         const FaceGridNode& node = grid[3][column];
         const Vec3 q = node.point + offset * (node.normal + Vec3(0.02, 0.02, -0.03));
         const double searched = searched_distance(q, node.at, [&](double theta, double beta) {
@@ -85,7 +85,7 @@ TEST(FaceDistance, NeedsNoNominalPoint) {
   const FaceGrid grid = grid_of(gear, face_grid_of_table_3());
   const auto largest_error = [&](double beside) {
     double largest = 0.0;
-    for (std::size_t row = 0; row < kFaceGridRows; ++row) {
+    for (std::size_t row = 0; row < kGridRows; ++row) {
       const FaceGridNode& node = grid[row][7];
       const FacePartials d = face_partials(gear, {}, node.at);
       // Across the teeth, on a point of the flank that much to the side of the nominal one.
@@ -108,7 +108,7 @@ TEST(FaceReliefDistance, IsTheLeastDistance) {
   const FaceGear gear = face_gear_of_table_3();
   const FaceGrid grid = grid_of(gear, face_grid_of_table_3());
   for (std::size_t row = 0; row < 2; ++row) {
-    for (std::size_t column = 0; column < kFaceGridColumns; column += 7) {
+    for (std::size_t column = 0; column < kGridColumns; column += 7) {
       const FaceGridNode& node = grid[row][column];
       const Vec3 q = node.point + 0.5 * (node.normal + Vec3(0.02, 0.02, -0.03));
       const double searched = searched_distance(q, node.at, [&](double theta, double beta) {

@@ -28,8 +28,8 @@ class FaceFrameTest : public ::testing::Test {
   [[nodiscard]] Points whole_flanks(std::initializer_list<int> sides) const {
     Points points;
     for (const int side : sides) {
-      for (std::size_t row = 0; row < kFaceGridRows; ++row) {
-        for (std::size_t column = 0; column < kFaceGridColumns; ++column)
+      for (std::size_t row = 0; row < kGridRows; ++row) {
+        for (std::size_t column = 0; column < kGridColumns; ++column)
           add(points, side, 0, row, column);
       }
     }

@@ -29,8 +29,8 @@ TEST(FaceGear, ToothThicknessInTheMiddleOfTheFace) {
 TEST(FaceGear, SlotsAreAsWideAsTheShaperSweeps) {
   for (const FaceGear& gear : {face_gear_of_table_1(), face_gear_of_table_3(), small_face_gear()}) {
     const FaceGrid grid = grid_of(gear, plan_face_grid(gear));
-    for (std::size_t row = 0; row < kFaceGridRows; row += 2) {
-      for (std::size_t column = 0; column < kFaceGridColumns; column += 7) {
+    for (std::size_t row = 0; row < kGridRows; row += 2) {
+      for (std::size_t column = 0; column < kGridColumns; column += 7) {
         const FaceParameters at = grid[row][column].at;
         const Vec3 p = generated_point(gear, at.theta, at.beta);
         const double rho = std::hypot(p.x(), p.y());
