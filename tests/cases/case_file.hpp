@@ -3,7 +3,6 @@
 
 #include <functional>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -42,10 +41,8 @@ struct Tally {
   std::vector<Failure> failed;
 };
 
-// Runs the cases of a file, those of the kinds in `only` if there are any; throws
-// std::runtime_error if the file itself is unusable.
-void run_file(const std::string& path, const Handlers& handlers, const std::set<std::string>& only,
-              Tally& tally);
+// Runs every case of a file; throws std::runtime_error if the file itself is unusable.
+void run_file(const std::string& path, const Handlers& handlers, Tally& tally);
 
 // Numbers may be the strings "nan", "inf", "-inf".
 [[nodiscard]] double number(const json& value);

@@ -1,10 +1,7 @@
-// volcomp_cases FILE... [--only KIND]...: runs reference cases through the library, all of them or
-// those of these kinds. Exit 1 if any failed, 2 if a file is unusable.
+// volcomp_cases FILE...: runs reference cases through the library. Exit 1 if any failed, 2 if a
+// file is unusable.
 
 #include <exception>
-#include <set>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,8 +10,7 @@
 int main(int argc, char** argv) {
   try {
     if (argc < 2) {
-      fmt::print(stderr,
-                 "usage: volcomp_cases FILE... [--only KIND]...   (format volcomp-cases-1)\n");
+      fmt::print(stderr, "usage: volcomp_cases FILE...   (format volcomp-cases-1)\n");
       return 2;
     }
     volcomp::cases::Handlers handlers;
@@ -25,22 +21,12 @@ int main(int argc, char** argv) {
     volcomp::cases::add_s1_tables(handlers);
     volcomp::cases::add_s1_compensation(handlers);
     volcomp::cases::add_s1_bad_input(handlers);
-    volcomp::cases::add_s2_maps(handlers);
-    std::vector<std::string> files;
-    std::set<std::string> only;
-    for (int i = 1; i < argc; ++i) {
-      const std::string argument = argv[i];
-      if (argument == "--only" && i + 1 < argc) {
-        only.insert(argv[++i]);
-      } else {
-        files.push_back(argument);
-      }
-    }
     volcomp::cases::add_s2_face(handlers);
     volcomp::cases::add_s2_frame(handlers);
+    volcomp::cases::add_s2_maps(handlers);
     volcomp::cases::Tally tally;
-    for (const std::string& file : files)
-      volcomp::cases::run_file(file, handlers, only, tally);
+    for (int i = 1; i < argc; ++i)
+      volcomp::cases::run_file(argv[i], handlers, tally);
 
     std::string last_id;
     int failed = 0;
