@@ -1,5 +1,6 @@
 #include "host_sim/scenarios/face_gear/flank_charts.hpp"
 
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -24,33 +25,36 @@ std::string flank_title(const FlankMap& flank) {
                      flank.flank.slot + 1);
 }
 
-// From the axis of the gear outwards, and from the tip towards the root.
+// From the axis of the gear outwards, and from the tip towards the root; rows are drawn as one
+// curve with gaps.
 json topography_of(const FaceGearResult& run, const FlankMap& flank) {
-  json series = json::array();
+  json radius = json::array();
+  json nominal = json::array();
+  json measured = json::array();
   for (std::size_t r = 0; r < kGridRows; ++r) {
-    std::vector<double> radius;
-    std::vector<double> nominal;
-    json measured = json::array();
     for (std::size_t c = 0; c < kGridColumns; ++c) {
       const Vec3& p = run.grid[r][c].point;
+      const double below_tip = run.gear.z_tip - p.z();
       radius.push_back(std::hypot(p.x(), p.y()));
-      nominal.push_back(run.gear.z_tip - p.z());
+      nominal.push_back(below_tip);
       measured.push_back(flank.map.has(r, c)
-                             ? json(nominal.back() + kMagnification * flank.map.at(r, c) / kUmPerMm)
+                             ? json(below_tip + kMagnification * flank.map.at(r, c) / kUmPerMm)
                              : json(nullptr));
     }
-    json drawn = series_of("nominal", radius, nominal);
-    drawn["name"] = fmt::format("row {} nominal", r + 1);
-    drawn["style"] = "dashed";
-    series.push_back(drawn);
-    series.push_back({{"name", fmt::format("row {}", r + 1)}, {"x", radius}, {"y", measured}});
+    radius.push_back(radius.back());
+    nominal.push_back(nullptr);
+    measured.push_back(nullptr);
   }
   return {{"type", "lines"},
           {"id", fmt::format("topography-{}", kFaceSideNames[flank.flank.side > 0 ? 0 : 1])},
           {"title", flank_title(flank)},
           {"x", axis_label("distance from the gear axis", "mm")},
-          {"y", axis_label("height below the tips", "mm")},
-          {"series", series}};
+          {"y", axis_label("height above the tips", "mm")},
+          {"series",
+           {{{"name", "nominal"}, {"style", "dashed"}, {"x", radius}, {"y", nominal}},
+            {{"name", fmt::format("measured, {:g} : 1", kMagnification)},
+             {"x", radius},
+             {"y", measured}}}}};
 }
 
 json heat_map_of(const FlankMap& flank) {
