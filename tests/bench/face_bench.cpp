@@ -1,0 +1,70 @@
+// A touch of a face gear, from the centre of the ball to the verdict.
+
+#include <array>
+#include <cmath>
+
+#include <benchmark/benchmark.h>
+
+#include "comp/surfaces/face_grid.hpp"
+#include "comp/surfaces/face_relief.hpp"
+#include "comp/surfaces/face_touch.hpp"
+
+namespace volcomp::bench {
+namespace {
+
+// Balls on all points of a flank.
+struct Balls {
+  FaceGear gear = face_gear_of_table_3();
+  FaceFlank flank;
+  std::array<Vec3, kFaceGridRows * kFaceGridColumns> centre;
+
+  Balls() {
+    FaceGrid grid;
+    if (!choose_flank(gear, -1, 40, flank).ok()) return;
+    if (!make_face_grid(gear, face_grid_of_table_3(), grid).ok()) return;
+    for (std::size_t k = 0; k < centre.size(); ++k) {
+      const FaceGridNode& node = grid[k / kFaceGridColumns][k % kFaceGridColumns];
+      centre[k] = from_flank(flank, node.point + 0.5 * node.normal);
+    }
+  }
+};
+
+// Each waits for the one before, as a touch waits for its latch.
+template <class Distance>
+void one_after_the_other(benchmark::State& state, const Distance& distance) {
+  const Balls balls;
+  std::size_t k = 0;
+  double last = 0.0;
+  for (auto _ : state) {
+    const Vec3& q = balls.centre[k];
+    last = distance(balls, Vec3(q.x(), q.y(), q.z() + 1e-300 * last));
+    benchmark::DoNotOptimize(last);
+    k = k + 1 < balls.centre.size() ? k + 1 : 0;
+  }
+  if (!std::isfinite(last)) state.SkipWithError("refused");
+}
+
+void face_distance(benchmark::State& state) {
+  one_after_the_other(state, [](const Balls& balls, const Vec3& q) {
+    return distance_from_face(balls.gear, balls.flank, q).distance;
+  });
+}
+
+void face_touch(benchmark::State& state) {
+  one_after_the_other(state, [](const Balls& balls, const Vec3& q) {
+    return judge_touch(balls.gear, balls.flank, {0.5, 0.1}, q).deviation;
+  });
+}
+
+void face_relief_exact(benchmark::State& state) {
+  one_after_the_other(state, [](const Balls& balls, const Vec3& q) {
+    return distance_from_relieved_face(balls.gear, balls.flank, q).distance;
+  });
+}
+
+BENCHMARK(face_distance);
+BENCHMARK(face_touch);
+BENCHMARK(face_relief_exact);
+
+}  // namespace
+}  // namespace volcomp::bench
