@@ -49,7 +49,8 @@ struct FaceSection {
 inline constexpr int kMaxFaceSteps = 12;
 
 // `rho_squared` > 0, finite. ok, inside_gear_base (within 1.0005 C), no_regular_flank: there the
-// equation has no root, or none with 0.02 < β ≤ 1.4.
+// equation has no root, or none with 0.02 < β ≤ 1.4. At most kMaxFaceSteps of Newton's method, and
+// 4 within half a millimetre of the points that are measured.
 [[nodiscard]] Reason cut_flank(const FaceGear& gear, double rho_squared, double z,
                                FaceSection& out);
 

@@ -98,6 +98,7 @@ TEST(FaceDistance, NeedsNoNominalPoint) {
     return largest;
   };
   EXPECT_GT(largest_error(0.5), 1e-4);
+  EXPECT_LT(largest_error(0.1), 2.2e-4);
   EXPECT_NEAR(largest_error(0.1) / largest_error(0.04), 6.25, 0.2);
   EXPECT_NEAR(largest_error(0.5) / largest_error(0.1), 25.0, 2.0);
 }

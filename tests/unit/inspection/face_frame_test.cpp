@@ -170,7 +170,6 @@ TEST_F(FaceFrameTest, NoiseComesThroughAsTheCovarianceSays) {
     EXPECT_NEAR(std::sqrt(squares(i) / kFits) / (kSigma * sd(i)), 1.0, 0.3) << i;
 }
 
-// Six coordinates fitted to one slot take form errors for a pose.
 TEST_F(FaceFrameTest, CoordinatesThatAreNotLookedForKeepStill) {
   for (const FrameFreedom freedom :
        {FrameFreedom::shift, FrameFreedom::plane, FrameFreedom::shift_turn}) {
