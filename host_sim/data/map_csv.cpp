@@ -76,10 +76,10 @@ ErrorMap read_map(std::istream& stream, const std::string& name) {
           finite(lines, cells[column + 1], fmt::format("row {}, column {}", row + 1, column + 1)));
     }
   }
-  const auto absent = std::find(seen.begin(), seen.end(), false);
-  if (absent != seen.end())
-    throw UserError(
-        fmt::format("{}: row {} of {} is missing", name, absent - seen.begin() + 1, kGridRows));
+  for (std::size_t row = 0; row < kGridRows; ++row) {
+    if (!seen.at(row))
+      throw UserError(fmt::format("{}: row {} of {} is missing", name, row + 1, kGridRows));
+  }
   return map;
 }
 
