@@ -56,7 +56,7 @@ struct GradedProfile {
 };
 
 struct FrameFinding {
-  const char* what;
+  const char* what = nullptr;
   FrameShare share;
 };
 
