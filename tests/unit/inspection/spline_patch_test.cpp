@@ -173,7 +173,8 @@ TEST(SurfaceOf, TheNormalsOfAGridAreThoseOfTheFlank) {
   std::array<SurfacePoint, kGridCells> surface;
   ASSERT_TRUE(surface_of(points, -Vec3::UnitY(), surface).ok());
   for (std::size_t i = 0; i < kGridCells; ++i)
-    EXPECT_LT((surface[i].normal - wanted[i].normal).norm(), 8e-4) << i;  // worst in the corner at the root
+    EXPECT_LT((surface[i].normal - wanted[i].normal).norm(), 8e-4)
+        << i;  // worst in the corner at the root
 }
 
 // --- refusals
