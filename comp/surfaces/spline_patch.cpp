@@ -177,22 +177,4 @@ Vec3 normal_of(const PatchPoint& place, const Vec3& outward) {
   return cross.dot(outward) < 0.0 ? Vec3(-cross / length) : Vec3(cross / length);
 }
 
-Status surface_of(Span<const Vec3> points, const Vec3& outward, Span<SurfacePoint> out) {
-  if (out.size() != kGridCells) return refuse(Reason::length_mismatch);
-  SplinePatch patch;
-  if (const Status s = SplinePatch::through(points, Parametrisation::uniform, patch); !s.ok())
-    return s;
-  std::array<SurfacePoint, kGridCells> surface;
-  for (std::size_t i = 0; i < kGridCells; ++i) {
-    const double u = patch.profile().parameters()[i / kGridColumns];
-    const double v = patch.width().parameters()[i % kGridColumns];
-    surface[i] = {points[i], normal_of(patch.at(u, v), outward)};
-    Where where;
-    where.index = static_cast<int>(i);
-    if (surface[i].normal.isZero()) return refuse(Reason::zero_normal, where);
-  }
-  std::copy(surface.begin(), surface.end(), out.begin());
-  return {};
-}
-
 }  // namespace volcomp

@@ -58,9 +58,4 @@ class SplinePatch {
 // Unit normal on the side of the patch that `outward` points to; zero where the patch degenerates.
 [[nodiscard]] Vec3 normal_of(const PatchPoint& place, const Vec3& outward);
 
-// Points and normals in the nodes of a grid of points, for instance of one that came as a table.
-// `outward`: any direction out of the material. 16 KB of stack. Refused as SplinePatch::through;
-// zero_normal (index).
-Status surface_of(Span<const Vec3> points, const Vec3& outward, Span<SurfacePoint> out);
-
 }  // namespace volcomp

@@ -90,7 +90,10 @@ Surface nominal_flank(const CompareOptions& options, const FaceGrid& grid, int s
 }
 
 void look_for_frames(FlankComparison& c) {
-  const GearChoice choice = choose_face_gear(c.options.gear);
+  GearChoice choice = choose_face_gear(c.options.gear);
+  // Relief turns a few normals a little; the figures of seed 002 are for generated flanks.
+  choice.gear.relief = {};
+  require(derive(choice.gear), c.options.gear);
   FaceGrid grid;
   require(make_face_grid(choice.gear, choice.plan, grid), c.options.gear);
   std::vector<Surface> nominal;

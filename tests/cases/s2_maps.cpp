@@ -1,11 +1,13 @@
 // Seed 002: patches through a grid, closest points, error maps, pitch.
 
+#include <cmath>
+
 #include "comp/evaluation/error_map.hpp"
 #include "comp/evaluation/pitch.hpp"
 #include "comp/surfaces/closest_point.hpp"
 #include "comp/units.hpp"
 #include "tests/cases/handlers.hpp"
-#include "tests/reference/face_gear.hpp"
+#include "tests/cases/s2_face_case.hpp"
 
 namespace volcomp::cases {
 namespace {
@@ -87,15 +89,18 @@ json bspline(const json& in) {
           {"closest", closest_on(patch, in.at("Q"), outward)}};
 }
 
-// --- maps: distances from the flank are the reference's, what is made of them the library's
+// --- maps
 
-reference::FaceGear face_gear_of(const json& in) {
-  reference::FaceGear gear;
-  gear.shaper_teeth = number(in.at("Ns"));
-  gear.teeth = number(in.at("N2"));
-  gear.module = number(in.at("m"));
-  gear.pressure_angle = number(in.at("alpha_deg")) * kPi / 180.0;
-  return gear;
+// Of a ball from a flank, without its radius; the nearest slot where the case names none.
+double deviation_of(const FaceGear& gear, const json& in, const json& centre, bool nearest) {
+  const Vec3 q = vector3(centre);
+  const double pitches = std::atan2(q.y(), q.x()) * gear.teeth / (2.0 * kPi);
+  const int slot = nearest ? static_cast<int>(std::lround(pitches)) : 0;
+  FaceFlank flank;
+  require(choose_flank(gear, in.at("side").get<int>(), (slot + gear.teeth) % gear.teeth, flank));
+  const FaceFoot foot = distance_from_face(gear, flank, q);
+  if (!has_distance(foot.reason)) require(refuse(foot.reason));
+  return foot.distance - number(in.at("r"));
 }
 
 json rows_of(const ErrorMap& map) {
@@ -110,15 +115,12 @@ json rows_of(const ErrorMap& map) {
 }
 
 json error_map(const json& in) {
-  const reference::FaceGear gear = face_gear_of(in.at("gear"));
+  const FaceGear gear = face_gear_of(in.at("gear"));
   const int side = in.at("side").get<int>();
   std::vector<double> cells;
   for (const json& row : in.at("ball_centres")) {
-    for (const json& centre : row) {
-      const Vec3 q = vector3(centre);
-      cells.push_back(reference::distance(gear, q, side, reference::nearest_slot(gear, q)) -
-                      number(in.at("r")));
-    }
+    for (const json& centre : row)
+      cells.push_back(deviation_of(gear, in, centre, true));
   }
   ErrorMap map;
   require(ErrorMap::from(cells, map));
@@ -127,7 +129,7 @@ json error_map(const json& in) {
   require(zero_at_centre(map, centre));
   const CellStatistics all = statistics_of(map);
   out["zeroed_mm"] = rows_of(map);
-  out["zero_rotation_rad"] = side * centre / gear.arm();
+  out["zero_rotation_rad"] = side * centre / gear.arm;
   out["max_abs_um"] = kUmPerMm * all.largest;
   out["pv_um"] = kUmPerMm * all.range();
   for (std::size_t column = 0; column < kGridColumns; ++column)
@@ -147,12 +149,11 @@ ToothAngles angles_of(const json& in) {
       require(angles.record(tooth++, -1, number(delta), 1.0));
     return angles;
   }
-  const reference::FaceGear gear = face_gear_of(in.at("gear"));
+  const FaceGear gear = face_gear_of(in.at("gear"));
   const int side = in.at("side").get<int>();
   for (const json& centre : in.at("ball_centres")) {
-    const double deviation =
-        reference::distance(gear, vector3(centre), side, 0) - number(in.at("r"));
-    require(angles.record(tooth++, side, deviation, gear.arm()));
+    const double deviation = deviation_of(gear, in, centre, false);
+    require(angles.record(tooth++, side, deviation, gear.arm));
   }
   return angles;
 }

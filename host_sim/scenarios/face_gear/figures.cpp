@@ -133,7 +133,7 @@ Verdict face_gear_verdict(const FaceGearResult& run) {
   const MapError& all = run.map_error[2];
   const double pitch = pitch_disagreement_um(run, FaceStage::compensated);
   Verdict v;
-  v.ok = all.rms <= kMapAgreement_um && all.rms <= frame.rms && frame.rms <= one.rms &&
+  v.ok = all.rms <= kMapAgreement_um && all.rms <= std::min(one.rms, frame.rms) &&
          pitch <= 2.0 * scale_step_um(run);  // of the highest tooth and of the lowest
   v.text = fmt::format(
       "Maps are {:.2f} um rms from the gear with the frame of one ball, {:.2f} with that of {} "

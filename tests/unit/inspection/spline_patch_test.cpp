@@ -167,16 +167,6 @@ TEST(SplinePatch, BetweenItsNodesTheRelievedFlankIsWithinAMicronAndAQuarter) {
   EXPECT_LT(std::sqrt(squares / count), 0.3 * kMicron);
 }
 
-TEST(SurfaceOf, TheNormalsOfAGridAreThoseOfTheFlank) {
-  const auto wanted = reference::table_3_grid(FaceGear{});
-  const auto points = reference::points_of(wanted);
-  std::array<SurfacePoint, kGridCells> surface;
-  ASSERT_TRUE(surface_of(points, -Vec3::UnitY(), surface).ok());
-  for (std::size_t i = 0; i < kGridCells; ++i)
-    EXPECT_LT((surface[i].normal - wanted[i].normal).norm(), 8e-4)
-        << i;  // worst in the corner at the root
-}
-
 // --- refusals
 
 TEST(BadPatch, WantsAllPointsOfTheGrid) {
@@ -207,8 +197,6 @@ TEST(BadPatch, ALineWithoutLengthHasNoChordParameters) {
   const std::vector<Vec3> one_place(kGridCells, Vec3(1.0, 2.0, 3.0));
   EXPECT_EQ(SplinePatch::through(one_place, Parametrisation::centripetal, patch).reason,
             Reason::coincident);
-  std::array<SurfacePoint, kGridCells> surface;
-  EXPECT_EQ(surface_of(one_place, Vec3::UnitY(), surface).reason, Reason::zero_normal);
 }
 
 }  // namespace

@@ -1,0 +1,243 @@
+// A face gear on the simulated YK7280: the simulations of seed 002 section 11, and the whole
+// procedure by touches over the bus.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "comp/calibration/face_frame.hpp"
+#include "comp/evaluation/map_comparison.hpp"
+#include "comp/surfaces/face_grid.hpp"
+#include "comp/units.hpp"
+#include "host_sim/commissioning/identification.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/instruments/noise.hpp"
+#include "host_sim/scenarios/face_gear/figures.hpp"
+#include "host_sim/scenarios/face_gear/published_maps.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+// --- section 11, in numbers alone
+
+constexpr double kBall_mm = 0.5;
+
+FaceGear generated_gear() {
+  FaceGear gear = face_gear_of_table_3();
+  gear.relief = {};
+  require(derive(gear), "gear");
+  return gear;
+}
+
+FaceGrid grid_of(const FaceGear& gear) {
+  FaceGrid grid;
+  require(make_face_grid(gear, face_grid_of_table_3(), grid), "grid");
+  return grid;
+}
+
+FaceFlank flank_on(const FaceGear& gear, int side, int slot = 0) {
+  FaceFlank flank;
+  require(choose_flank(gear, side, slot, flank), "flank");
+  return flank;
+}
+
+// The map of a flank of this form, with the balls moved before they are evaluated; zeroed, µm.
+template <class Move>
+ErrorMap measured(const FaceGear& gear, const ErrorMap& form, int side, const Move& move) {
+  const FaceGrid grid = grid_of(gear);
+  const FaceFlank flank = flank_on(gear, side);
+  ErrorMap map;
+  for (std::size_t r = 0; r < kGridRows; ++r) {
+    for (std::size_t c = 0; c < kGridColumns; ++c) {
+      const FaceGridNode& node = grid[r][c];
+      const Vec3 ball = node.point + (kBall_mm + form.at(r, c) / kUmPerMm) * node.normal;
+      const FaceFoot foot = distance_from_face(gear, flank, move(from_flank(flank, ball)));
+      map.set(r, c, kUmPerMm * (foot.distance - kBall_mm));
+    }
+  }
+  double removed = 0.0;
+  require(zero_at_centre(map, removed), "map");
+  return map;
+}
+
+ErrorMap difference(const ErrorMap& a, const ErrorMap& b) {
+  MapDifference d;
+  require(compare_maps(a, b, d), "maps");
+  return d.difference;
+}
+
+struct BothFlanks {
+  double squares = 0.0;
+  double largest = 0.0;
+  double with_printed = 0.0;  // scalar product with the printed OMM − GMC
+  double printed = 0.0;
+  double sum = 0.0;
+  double printed_sum = 0.0;
+  int cells = 0;
+
+  void add(double value, double beside) {
+    squares += value * value;
+    largest = std::max(largest, std::abs(value));
+    with_printed += value * beside;
+    printed += beside * beside;
+    sum += value;
+    printed_sum += beside;
+    ++cells;
+  }
+  [[nodiscard]] double rms() const { return std::sqrt(squares / cells); }
+  [[nodiscard]] double correlation() const {
+    const double n = cells;
+    return (with_printed - sum * printed_sum / n) /
+           std::sqrt((squares - sum * sum / n) * (printed - printed_sum * printed_sum / n));
+  }
+};
+
+template <class Move>
+BothFlanks against_truth(const Move& move) {
+  const FaceGear gear = generated_gear();
+  BothFlanks both;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const ErrorMap form = published_map(PublishedMap::centre, side);
+    const ErrorMap off = difference(measured(gear, form, kFaceSides[side], move), form);
+    const ErrorMap printed = difference(published_map(PublishedMap::machine, side), form);
+    for (std::size_t i = 0; i < kGridCells; ++i)
+      both.add(off.cells()[i], printed.cells()[i]);
+  }
+  return both;
+}
+
+TEST(FaceSimulation, WithoutAFrameErrorTheMapIsTheTruth) {
+  EXPECT_LT(against_truth([](const Vec3& ball) { return ball; }).largest, 1e-6);  // 1e-9 mm
+}
+
+TEST(FaceSimulation, AShiftOfTheFrameLooksLikeThePapersDifference) {
+  const BothFlanks off =
+      against_truth([](const Vec3& ball) -> Vec3 { return ball + Vec3(-41.3e-3, 0.0, 4.1e-3); });
+  EXPECT_NEAR(off.rms(), 1.60, 0.01);
+  EXPECT_NEAR(off.largest, 4.75, 0.05);
+  EXPECT_NEAR(std::abs(off.correlation()), 0.78, 0.01);
+}
+
+TEST(FaceSimulation, ATurnAboutTheGearAxisLeavesZeroedMapsAlone) {
+  const Mat3 minute = axis_rotation(Axis::z, kPi / 180.0 / 60.0);
+  EXPECT_LT(against_truth([&](const Vec3& ball) -> Vec3 { return minute * ball; }).largest, 1e-6);
+}
+
+// 0.5 µm of noise in thirty touches, 200 times.
+TEST(FaceSimulation, ThirtyTouchesShowTheFrameToAFifthOfAMicrometre) {
+  const FaceGear gear = generated_gear();
+  const FaceGrid grid = grid_of(gear);
+  constexpr int kDraws = 200;
+  Random random(5);
+  Eigen::Matrix<double, 6, 1> squares = Eigen::Matrix<double, 6, 1>::Zero();
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<FaceTouchPoint> points;
+    for (const int slot : {0, 28, 57}) {
+      for (const int side : kFaceSides) {
+        const FaceFlank flank = flank_on(gear, side, slot);
+        for (const auto& [r, c] : {std::pair{3, 7}, {1, 1}, {1, 13}, {5, 13}, {5, 1}}) {
+          const FaceGridNode& node =
+              grid.at(static_cast<std::size_t>(r)).at(static_cast<std::size_t>(c));
+          const double off = kBall_mm + random.normal(0.5e-3);
+          points.push_back({flank, from_flank(flank, node.point + off * node.normal)});
+        }
+      }
+    }
+    FaceFrameSettings settings;
+    settings.freedom = FrameFreedom::all;
+    settings.ball_radius = kBall_mm;
+    FaceFrame fit;
+    ASSERT_TRUE(fit_face_frame(gear, {points.data(), points.size()}, settings, {}, fit).ok());
+    const Eigen::AngleAxisd turn(fit.frame.R);
+    Eigen::Matrix<double, 6, 1> found;
+    found << fit.frame.t, gear.r_pitch * turn.angle() * turn.axis();
+    squares += (kUmPerMm * found).cwiseAbs2();
+  }
+  const Eigen::Matrix<double, 6, 1> sd = (squares / kDraws).cwiseSqrt();
+  const std::array<double, 6> wanted{0.18, 0.14, 0.21, 0.26, 0.32, 0.11};  // section 11
+  for (Eigen::Index k = 0; k < 6; ++k)
+    EXPECT_NEAR(sd(k), wanted[static_cast<std::size_t>(k)], 0.06) << k;
+}
+
+// --- by touches
+
+FaceGearResult run(const std::string& gear, FormTruth form, std::uint64_t seed) {
+  FaceGearOptions options;
+  options.machine = bundled_machine("yk7280");
+  options.gear = gear;
+  options.form = form;
+  options.seed = seed;
+  options.cycle_hz = 50.0;  // the slower, the fewer cycles; a touch does not wait for one
+  return run_face_gear(options, [](double, const std::string&) {});
+}
+
+const FaceGearResult& table_3() {
+  static const FaceGearResult result = run("table3", FormTruth::tables, 1);
+  return result;
+}
+
+TEST(FaceGear, TheWorkedExampleComesOutAsPrinted) {
+  EXPECT_NEAR(table_3().worked_example_deg, -81.857, 0.0017);
+}
+
+TEST(FaceGear, FrameAndCompensationBringTheMapsToTheGear) {
+  const auto& [one, frame, all] = table_3().map_error;
+  EXPECT_GT(one.rms, 1.0);
+  EXPECT_LT(frame.rms, 0.5 * one.rms);
+  EXPECT_LT(all.rms, 0.5 * frame.rms);
+  EXPECT_LT(all.max, 0.6);
+}
+
+// Out of centre by 43 µm: F_p of one ball is twice that along the pitch circle, less what the
+// direction of touching takes away.
+TEST(FaceGear, AGearOutOfCentreIsNoPitchError) {
+  const FaceGearResult& r = table_3();
+  for (std::size_t side = 0; side < 2; ++side) {
+    EXPECT_NEAR(r.inspection[0].pitch[side].figures.total, 2.0 * 43.0, 15.0);
+    EXPECT_NEAR(r.inspection[2].pitch[side].figures.total, r.true_pitch[side].figures.total, 3.0);
+    EXPECT_EQ(r.inspection[2].pitch[side].position.size(), 86U);
+  }
+}
+
+TEST(FaceGear, TheProfileOfTheTablesHasTheGradeOfTheMeasuringCentre) {
+  for (const FlankMap& map : table_3().inspection[2].maps)
+    EXPECT_TRUE(map.profile.has_value());
+  // 4.3 µm: the largest range of a column over rows 2 to 6 in Tables 7 and 8.
+  EXPECT_NE(grade_text(table_3().inspection[2]).find("grade 5"), std::string::npos);
+  EXPECT_TRUE(face_gear_verdict(table_3()).ok);
+}
+
+TEST(FaceGear, OtherGearsFormsAndSeedsPassToo) {
+  for (const std::uint64_t seed : {2U, 3U}) {
+    EXPECT_TRUE(face_gear_verdict(run("table1", FormTruth::synthetic, seed)).ok) << seed;
+    EXPECT_TRUE(face_gear_verdict(run("table3", FormTruth::synthetic, seed)).ok) << seed;
+  }
+}
+
+TEST(FaceGear, WhatThePaperSaysOfItsTables) {
+  for (const PaperStatement& s : paper_statements()) {
+    const double wanted = std::string(s.key) == "left_row5" ? 4.6 : s.stated;  // the tables say 4.6
+    EXPECT_NEAR(s.found, wanted, 1e-9) << s.what;
+  }
+}
+
+TEST(FaceGear, AFrameIsStaleAfterTheArmWasDeployedAnew) {
+  const MachineFile file = read_machine_file(bundled_machine("yk7280"));
+  const FaceGear gear = face_gear_of_table_3();
+  const FaceGrid grid = grid_of(gear);
+  const FaceHall hall{file, make_yk7280_truth(file, 1), gear, true_mounting(), {}, loopback_axes(),
+                      50.0};
+  const MachineTables tables = tables_of(identify_axes(hall.truth, file), file,
+                                         file.chain.description(), TableKind::none, kDefaultKnots);
+  FaceStation station(hall, tables, nominal_mounting());
+  FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
+  inspector.use(inspector.frame_from_one_ball());
+  station.deploy_arm();
+  EXPECT_THROW(static_cast<void>(inspector.map({1, 0})), UserError);
+  EXPECT_THROW(static_cast<void>(inspector.pitch(1)), UserError);
+  inspector.use(inspector.frame_from_one_ball());
+  EXPECT_EQ(inspector.map({1, 0}).map.missing(), 0U);
+}
+
+}  // namespace
+}  // namespace volcomp::sim
