@@ -136,6 +136,22 @@ const char* code(Reason reason) {
       return "no_contact";
     case Reason::frame_not_fixed:
       return "frame_not_fixed";
+    case Reason::no_involute_at_tip:
+      return "no_involute_at_tip";
+    case Reason::pointed_space:
+      return "pointed_space";
+    case Reason::wheel_too_large:
+      return "wheel_too_large";
+    case Reason::no_contact_line:
+      return "no_contact_line";
+    case Reason::breaks_helix:
+      return "breaks_helix";
+    case Reason::feed_mismatch:
+      return "feed_mismatch";
+    case Reason::pass_discarded:
+      return "pass_discarded";
+    case Reason::no_deviation:
+      return "no_deviation";
     case Reason::outlier:
       return "outlier";
     case Reason::incomplete:
@@ -222,6 +238,26 @@ const char* sentence(Reason reason) {
     case Reason::frame_not_fixed:
       return "The points do not fix the frame; touch both sides of at least three slots, or "
              "ask for the rotation about the axis only.";
+    case Reason::no_involute_at_tip:
+      return "The tip circle is not larger than the base circle; the flank has no involute up "
+             "to its tip.";
+    case Reason::pointed_space:
+      return "The two flanks of a space meet before the root circle.";
+    case Reason::wheel_too_large:
+      return "The wheel does not pass the bore of the gear; its radius must be below the tip "
+             "radius.";
+    case Reason::no_contact_line:
+      return "Wheel and flank do not touch where a contact is possible; the screw parameter or "
+             "the profile is wrong.";
+    case Reason::breaks_helix:
+      return "Z and C follow one helix; learning one of them alone would put its lag on the "
+             "flank.";
+    case Reason::feed_mismatch:
+      return "The offset table was learned at another feed rate, more than 2 % off.";
+    case Reason::pass_discarded:
+      return "More than 1 % of the samples of the pass are bad; the pass does not count.";
+    case Reason::no_deviation:
+      return "The deviation is not a positive number; there is no grade.";
     case Reason::outlier:
       return "A point deviates too much from the fit; the result was not taken over.";
     case Reason::incomplete:

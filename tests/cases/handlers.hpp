@@ -16,5 +16,7 @@ void add_s1_bad_input(Handlers& handlers);
 void add_s2_maps(Handlers& handlers);
 void add_s2_face(Handlers& handlers);
 void add_s2_frame(Handlers& handlers);
+void add_s3_flank(Handlers& handlers);
+void add_s3_geometry(Handlers& handlers);
 
 }  // namespace volcomp::cases
