@@ -24,13 +24,19 @@ struct Range {
   double high;
 };
 
-// Geometric mean of the row of `value`: lower end exclusive but in the first row, upper inclusive.
+// The row of `value`: lower end exclusive but in the first row, upper inclusive.
 template <std::size_t N>
-double row_mean(const std::array<double, N>& ends, double value) {
+GearRow::Range row_of(const std::array<double, N>& ends, double value) {
   std::size_t row = 0;
   while (row + 2 < N && value > ends[row + 1])
     ++row;
-  return std::sqrt(ends[row] * ends[row + 1]);
+  return {ends[row], ends[row + 1]};
+}
+
+template <std::size_t N>
+double row_mean(const std::array<double, N>& ends, double value) {
+  const GearRow::Range row = row_of(ends, value);
+  return std::sqrt(row.over * row.to);  // geometric
 }
 
 template <std::size_t N, std::size_t M>
@@ -98,6 +104,11 @@ double rounded(double um) {
 }
 
 }  // namespace
+
+GearRow gear_row(const GearSize& size) {
+  return {row_of(kDiameterRows, size.diameter), row_of(kModuleRows, size.module),
+          row_of(kWidthRows, size.width)};
+}
 
 int first_grade(GearStandard standard) { return standard == GearStandard::iso1328_1995 ? 0 : 1; }
 

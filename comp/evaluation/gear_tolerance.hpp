@@ -40,6 +40,19 @@ struct GearLimits {
   std::array<double, kGearDeviations> rounded{};  // as tables print them, µm
 };
 
+// The row of the tables of 1995 a gear falls into: above `over` (first row: from it on), up to and
+// including `to`, mm.
+struct GearRow {
+  struct Range {
+    double over = 0.0;
+    double to = 0.0;
+  };
+  Range diameter;
+  Range module;
+  Range width;
+};
+[[nodiscard]] GearRow gear_row(const GearSize& size);
+
 [[nodiscard]] int first_grade(GearStandard standard);
 [[nodiscard]] int last_grade(GearStandard standard);
 

@@ -16,7 +16,9 @@ void add_s1_bad_input(Handlers& handlers);
 void add_s2_maps(Handlers& handlers);
 void add_s2_face(Handlers& handlers);
 void add_s2_frame(Handlers& handlers);
+void add_s3_evaluation(Handlers& handlers);
 void add_s3_flank(Handlers& handlers);
 void add_s3_geometry(Handlers& handlers);
+void add_s3_learning(Handlers& handlers);
 
 }  // namespace volcomp::cases

@@ -24,8 +24,10 @@ int main(int argc, char** argv) {
     volcomp::cases::add_s2_face(handlers);
     volcomp::cases::add_s2_frame(handlers);
     volcomp::cases::add_s2_maps(handlers);
+    volcomp::cases::add_s3_evaluation(handlers);
     volcomp::cases::add_s3_flank(handlers);
     volcomp::cases::add_s3_geometry(handlers);
+    volcomp::cases::add_s3_learning(handlers);
     volcomp::cases::Tally tally;
     for (int i = 1; i < argc; ++i)
       volcomp::cases::run_file(argv[i], handlers, tally);

@@ -1,0 +1,62 @@
+// Seed 003: pitch and profile of internal gears, grades.
+
+#include "comp/evaluation/gear_grade.hpp"
+#include "comp/evaluation/internal_gear_deviations.hpp"
+#include "tests/cases/handlers.hpp"
+#include "tests/cases/s0_case.hpp"
+
+namespace volcomp::cases {
+namespace {
+
+json pitch_eval(const json& in) {
+  const std::vector<double> position = numbers(in.at("dev_um"));
+  std::vector<double> single(position.size());
+  PitchDeviations pitch;
+  double sector = 0.0;
+  require(evaluate_pitch(position, pitch));
+  require(single_pitch_deviations(position, single));
+  require(sector_pitch_deviation(position, in.at("k").get<std::size_t>(), sector));
+  return {{"fpt", single}, {"fp", pitch.single}, {"Fp", pitch.total}, {"Fpk", sector}};
+}
+
+json profile_eval(const json& in) {
+  const std::vector<double> roll = numbers(in.at("roll_mm"));
+  const std::vector<double> f = numbers(in.at("dev_um"));
+  TraceDeviations d;
+  require(evaluate_internal_profile(roll, f, d));
+  if (!in.at("internal").get<bool>()) d.slope = -d.slope;
+  return {{"Fa", d.total}, {"fHa", d.slope}, {"ffa", d.form}};
+}
+
+GearDeviation deviation_named(const std::string& name) {
+  if (name == "fp") return GearDeviation::single_pitch;
+  if (name == "Fp") return GearDeviation::total_pitch;
+  return name == "Fa" ? GearDeviation::profile : GearDeviation::lead;
+}
+
+json grade(const json& in) {
+  const auto standard =
+      in.at("std") == "1995" ? GearStandard::iso1328_1995 : GearStandard::iso1328_2013;
+  const GearSize size{number(in.at("d")), number(in.at("m")), number(in.at("b"))};
+  const GearDeviation deviation = deviation_named(in.at("kind"));
+  GearGrade g;
+  require(grade_gear(standard, LimitRounding::rounded, size, deviation,
+                     number(in.at("value_um")), g));
+  json limits = json::array();
+  for (int q = first_grade(standard); q <= last_grade(standard); ++q)
+    limits.push_back(
+        gear_limits(standard, size, q).rounded[static_cast<std::size_t>(deviation)]);
+  return {{"grade", g.grade ? json(*g.grade) : json(nullptr)},
+          {"limits_um", limits},
+          {"first_grade", first_grade(standard)}};
+}
+
+}  // namespace
+
+void add_s3_evaluation(Handlers& handlers) {
+  handlers["s3.pitch_eval"] = pitch_eval;
+  handlers["s3.profile_eval"] = profile_eval;
+  handlers["s3.grade"] = grade;
+}
+
+}  // namespace volcomp::cases
