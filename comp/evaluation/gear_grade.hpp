@@ -14,9 +14,9 @@ struct GearGrade {
   LimitRounding rounding = LimitRounding::rounded;
   GearDeviation deviation = GearDeviation::single_pitch;
   GearSize size{};
-  GearRow row{};              // of the 1995 tables; the edition of 2013 has none
+  GearRow row{};  // of the 1995 tables; the edition of 2013 has none
   double value_um = 0.0;
-  std::optional<int> grade;   // none: worse than the last
+  std::optional<int> grade;  // none: worse than the last
 };
 
 // Refused: not_finite, no_deviation (value) for a value that is not above 0, out_of_standard

@@ -82,7 +82,8 @@ class OffsetLearner {
       return step;
     }
     if (J < best) best_ = table_;
-    step.report = learning_update(rules_, sums, {table_.data(), nodes_}, {smoothed_.data(), nodes_});
+    step.report =
+        learning_update(rules_, sums, {table_.data(), nodes_}, {smoothed_.data(), nodes_});
     return step;
   }
 

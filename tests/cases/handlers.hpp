@@ -20,5 +20,6 @@ void add_s3_evaluation(Handlers& handlers);
 void add_s3_flank(Handlers& handlers);
 void add_s3_geometry(Handlers& handlers);
 void add_s3_learning(Handlers& handlers);
+void add_s3_table_file(Handlers& handlers);
 
 }  // namespace volcomp::cases

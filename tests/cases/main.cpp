@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
     volcomp::cases::add_s3_flank(handlers);
     volcomp::cases::add_s3_geometry(handlers);
     volcomp::cases::add_s3_learning(handlers);
+    volcomp::cases::add_s3_table_file(handlers);
     volcomp::cases::Tally tally;
     for (int i = 1; i < argc; ++i)
       volcomp::cases::run_file(argv[i], handlers, tally);

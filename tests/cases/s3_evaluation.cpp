@@ -1,5 +1,7 @@
 // Seed 003: pitch and profile of internal gears, grades.
 
+#include <algorithm>
+
 #include "comp/evaluation/gear_grade.hpp"
 #include "comp/evaluation/internal_gear_deviations.hpp"
 #include "tests/cases/handlers.hpp"
@@ -23,8 +25,10 @@ json profile_eval(const json& in) {
   const std::vector<double> roll = numbers(in.at("roll_mm"));
   const std::vector<double> f = numbers(in.at("dev_um"));
   TraceDeviations d;
-  require(evaluate_internal_profile(roll, f, d));
-  if (!in.at("internal").get<bool>()) d.slope = -d.slope;
+  const bool internal = in.at("internal").get<bool>();
+  const auto [low, high] = std::minmax_element(roll.begin(), roll.end());
+  require(internal ? evaluate_internal_profile(roll, f, d)
+                   : evaluate_trace(roll, f, {*low, *high}, d));
   return {{"Fa", d.total}, {"fHa", d.slope}, {"ffa", d.form}};
 }
 
@@ -40,12 +44,11 @@ json grade(const json& in) {
   const GearSize size{number(in.at("d")), number(in.at("m")), number(in.at("b"))};
   const GearDeviation deviation = deviation_named(in.at("kind"));
   GearGrade g;
-  require(grade_gear(standard, LimitRounding::rounded, size, deviation,
-                     number(in.at("value_um")), g));
+  require(
+      grade_gear(standard, LimitRounding::rounded, size, deviation, number(in.at("value_um")), g));
   json limits = json::array();
   for (int q = first_grade(standard); q <= last_grade(standard); ++q)
-    limits.push_back(
-        gear_limits(standard, size, q).rounded[static_cast<std::size_t>(deviation)]);
+    limits.push_back(gear_limits(standard, size, q).rounded[static_cast<std::size_t>(deviation)]);
   return {{"grade", g.grade ? json(*g.grade) : json(nullptr)},
           {"limits_um", limits},
           {"first_grade", first_grade(standard)}};

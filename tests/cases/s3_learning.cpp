@@ -110,9 +110,8 @@ json monitor(const json& in) {
     const FineSineCosine at = fine_sine_cosine(units_within_a_turn(angle));
     order.add(v, at.cosine, at.sine);
   }
-  json out{{"n", statistics.count()},    {"mean", statistics.mean()},
-           {"std", statistics.deviation()}, {"rms", statistics.rms()},
-           {"peak", statistics.peak()},  {"bad", statistics.bad()}};
+  json out{{"n", statistics.count()}, {"mean", statistics.mean()}, {"std", statistics.deviation()},
+           {"rms", statistics.rms()}, {"peak", statistics.peak()}, {"bad", statistics.bad()}};
   if (has_order) {
     out["order_amp"] = order.line().amplitude;
     out["order_phase"] = order.line().phase;

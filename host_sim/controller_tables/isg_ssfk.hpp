@@ -1,0 +1,31 @@
+#pragma once
+// Spindle pitch error compensation of the ISG kernel and Beckhoff TwinCAT CNC (kw.ssfk). Entries
+// are actual − setpoint = −offset, integers of 0.1 µm or 0.0001 degree, one column per direction.
+// Enabled by lr_param.ssfk (P-AXIS-00175). Seed 003 section 10.
+
+#include <string>
+#include <vector>
+
+#include "comp/status.hpp"
+
+namespace volcomp::sim {
+
+struct SsfkTable {
+  int axis_number = 1;          // kopf.log_achs_nr
+  std::string axis;             // kopf.log_achs_name
+  std::vector<double> nominal;  // ascending, mm or degree
+  std::vector<double> forward;  // t, added to the command, travelling up; mm or rad
+  std::vector<double> reverse;
+  bool rotary = false;
+};
+
+// Refused: bad_setting ("axis"), length_mismatch, what check_offsets() and check_nominal() refuse.
+Status write_ssfk(const SsfkTable& table, std::string& text);
+
+// Bilateral tables with setpoints. Throws UserError with the line.
+[[nodiscard]] SsfkTable read_ssfk(const std::string& text, bool rotary);
+
+// t at a position (mm or degree); `travel` is +1 or −1; the ends are held.
+[[nodiscard]] double offset_at(const SsfkTable& table, double position, int travel);
+
+}  // namespace volcomp::sim

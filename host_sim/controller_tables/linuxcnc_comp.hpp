@@ -1,0 +1,32 @@
+#pragma once
+// LinuxCNC screw compensation: lines `nominal forward reverse`. COMP_FILE_TYPE 0: both are
+// positions, the trim is nominal − value; 1: both are trims. A trim is added to the motor command
+// and taken out of the displayed feedback. Seed 003 section 10.
+
+#include <string>
+#include <vector>
+
+#include "comp/status.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr std::size_t kLinuxcncEntries = 256;
+
+struct LinuxcncComp {
+  int type = 1;                 // COMP_FILE_TYPE
+  std::vector<double> nominal;  // ascending, mm (degree for a rotary joint)
+  std::vector<double> forward;  // t, added to the command, travelling up
+  std::vector<double> reverse;
+};
+
+// Six decimals. Refused: bad_setting ("type"), length_mismatch, what check_offsets() and
+// check_nominal() refuse.
+Status write_linuxcnc(const LinuxcncComp& table, std::string& text);
+
+// Throws UserError with the line.
+[[nodiscard]] LinuxcncComp read_linuxcnc(const std::string& text, int type);
+
+// t at a position; `travel` is +1 or −1; the ends are held.
+[[nodiscard]] double offset_at(const LinuxcncComp& table, double position, int travel);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,64 @@
+// Seed 003: tables of controllers, to the letter; read back and written again.
+
+#include "host_sim/controller_tables/isg_ssfk.hpp"
+#include "host_sim/controller_tables/linuxcnc_comp.hpp"
+#include "host_sim/controller_tables/siemens_cec.hpp"
+#include "host_sim/controller_tables/siemens_enc_comp.hpp"
+#include "tests/cases/handlers.hpp"
+#include "tests/cases/s0_case.hpp"
+
+namespace volcomp::cases {
+namespace {
+
+std::string enc_comp(const json& in) {
+  const sim::EncCompTable table{in.at("axis"),         numbers(in.at("t")), number(in.at("min")),
+                                number(in.at("step")), in.at("modulo"),     in.at("rotary")};
+  std::string text;
+  require(sim::write_enc_comp(table, text));
+  require(sim::write_enc_comp(sim::read_enc_comp(text, table.rotary), text));
+  return text;
+}
+
+std::string cec(const json& in) {
+  const sim::CecTable table{in.at("table"),      in.at("input"),       in.at("output"),
+                            numbers(in.at("t")), number(in.at("min")), number(in.at("step")),
+                            in.at("direction"),  in.at("modulo"),      in.at("rotary"),
+                            in.at("sign")};
+  std::string text;
+  require(sim::write_cec(table, text));
+  require(sim::write_cec(sim::read_cec(text, table.rotary, table.sign), text));
+  return text;
+}
+
+std::string linuxcnc(const json& in) {
+  const sim::LinuxcncComp table{in.at("type"), numbers(in.at("nominal")), numbers(in.at("fwd")),
+                                numbers(in.at("rev"))};
+  std::string text;
+  require(sim::write_linuxcnc(table, text));
+  require(sim::write_linuxcnc(sim::read_linuxcnc(text, table.type), text));
+  return text;
+}
+
+std::string ssfk(const json& in) {
+  const sim::SsfkTable table{in.at("log_axis"),         in.at("name"),
+                             numbers(in.at("nominal")), numbers(in.at("fwd")),
+                             numbers(in.at("rev")),     in.at("rotary")};
+  std::string text;
+  require(sim::write_ssfk(table, text));
+  require(sim::write_ssfk(sim::read_ssfk(text, table.rotary), text));
+  return text;
+}
+
+json table_file(const json& in) {
+  const std::string format = in.at("format");
+  if (format == "siemens_enc_comp") return {{"text", enc_comp(in)}};
+  if (format == "siemens_cec") return {{"text", cec(in)}};
+  if (format == "linuxcnc") return {{"text", linuxcnc(in)}};
+  return {{"text", ssfk(in)}};
+}
+
+}  // namespace
+
+void add_s3_table_file(Handlers& handlers) { handlers["s3.table_file"] = table_file; }
+
+}  // namespace volcomp::cases
