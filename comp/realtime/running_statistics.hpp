@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "comp/geometry/fine_trig.hpp"
+
 namespace volcomp {
 
 class RunningStatistics {
@@ -23,6 +25,19 @@ class RunningStatistics {
     squares_ += off * (value - mean_);
     if (magnitude > peak_) peak_ = magnitude;
     return true;
+  }
+
+  // As if all samples had come here.
+  void merge(const RunningStatistics& other) {
+    bad_ += other.bad_;
+    if (other.n_ == 0) return;
+    const auto mine = static_cast<double>(n_);
+    const auto more = static_cast<double>(other.n_);
+    const double off = other.mean_ - mean_;
+    mean_ += off * more / (mine + more);
+    squares_ += other.squares_ + off * off * mine * more / (mine + more);
+    if (other.peak_ > peak_) peak_ = other.peak_;
+    n_ += other.n_;
   }
 
   [[nodiscard]] std::uint32_t count() const { return n_; }
@@ -46,78 +61,68 @@ class RunningStatistics {
   double peak_ = 0.0;
 };
 
-// c = 2/n Σ (v − mean) e^(−iθ): amplitude and phase of a part that repeats with the angle θ.
-struct SpectralLine {
-  double amplitude = 0.0;
-  double phase = 0.0;  // rad, of cos(θ + phase)
-};
+// A line of the spectrum is c = 2/n Σ (v − mean) e^(−iθ): what a signal repeats with an angle θ.
+// The two classes only sum; comp/evaluation/spectral_line.hpp makes amplitude and phase of the
+// sums.
 
 // A line in order: the angle belongs to a position (2π z / λ, a turn of C, a slot), so it may come
 // in any order and with gaps.
-class OrderLine {
- public:
+struct OrderLine {
+  std::uint32_t n = 0;
+  double sum = 0.0;
+  double cosines = 0.0;
+  double sines = 0.0;
+  double with_cosine = 0.0;
+  double with_sine = 0.0;
+
   // Interrupt-safe.
   void add(double value, double cosine, double sine) {
-    ++n_;
-    sum_ += value;
-    cosines_ += cosine;
-    sines_ += sine;
-    with_cosine_ += value * cosine;
-    with_sine_ += value * sine;
+    ++n;
+    sum += value;
+    cosines += cosine;
+    sines += sine;
+    with_cosine += value * cosine;
+    with_sine += value * sine;
   }
 
-  [[nodiscard]] std::uint32_t count() const { return n_; }
-  [[nodiscard]] SpectralLine line() const {
-    if (n_ == 0) return {};
-    const auto n = static_cast<double>(n_);
-    const double mean = sum_ / n;
-    const double re = 2.0 / n * (with_cosine_ - mean * cosines_);
-    const double im = -2.0 / n * (with_sine_ - mean * sines_);
-    return {std::hypot(re, im), std::atan2(im, re)};
+  // As if all samples had come here.
+  void merge(const OrderLine& other) {
+    n += other.n;
+    sum += other.sum;
+    cosines += other.cosines;
+    sines += other.sines;
+    with_cosine += other.with_cosine;
+    with_sine += other.with_sine;
   }
-
- private:
-  std::uint32_t n_ = 0;
-  double sum_ = 0.0;
-  double cosines_ = 0.0;
-  double sines_ = 0.0;
-  double with_cosine_ = 0.0;
-  double with_sine_ = 0.0;
 };
 
 // A line in time, by Goertzel's recursion: one multiplication per sample, samples equally spaced.
-class TimeLine {
- public:
-  TimeLine() = default;
-  // `turns_per_sample`: frequency over sampling rate, 0…0.5, ends excluded. Background.
-  explicit TimeLine(double turns_per_sample);
+struct TimeLine {
+  double angle = 0.0;  // per sample, rad; 0: the line is not used
+  double twice_cosine = 2.0;
+  double last = 0.0;
+  double before = 0.0;
+  double sum = 0.0;
+  std::uint32_t n = 0;
 
   // Interrupt-safe.
   void add(double value) {
-    const double s = value + twice_cosine_ * last_ - before_;
-    before_ = last_;
-    last_ = s;
-    sum_ += value;
-    ++n_;
+    const double s = value + twice_cosine * last - before;
+    before = last;
+    last = s;
+    sum += value;
+    ++n;
   }
-
-  [[nodiscard]] std::uint32_t count() const { return n_; }
-  // The mean is taken out. The phase is that of the first sample.
-  [[nodiscard]] SpectralLine line() const;
-
-  // As before the first sample.
-  void restart() {
-    n_ = 0;
-    last_ = before_ = sum_ = 0.0;
-  }
-
- private:
-  double angle_ = 0.0;  // per sample, rad
-  double twice_cosine_ = 2.0;
-  double last_ = 0.0;
-  double before_ = 0.0;
-  double sum_ = 0.0;
-  std::uint32_t n_ = 0;
 };
+
+// `turns_per_sample`: frequency over sampling rate, 0…0.5, ends excluded. Not the cosine of the C
+// library: what a tick computes with it has the same bits everywhere.
+inline TimeLine time_line(double turns_per_sample) {
+  TimeLine line;
+  line.angle = 2.0 * kPi * turns_per_sample;
+  line.twice_cosine =
+      2.0 * fine_sine_cosine(turns_per_sample * static_cast<double>(kUnitsPerTurn)).cosine;
+  return line;
+}
 
 }  // namespace volcomp

@@ -64,9 +64,11 @@ class OffsetLearner {
     if (nodes < 1) return refuse(Reason::too_few_knots, where);
     if (nodes > Nodes) return refuse(Reason::too_many_knots, where);
     if (const Status s = check_rules(rules); !s.ok()) return s;
-    *this = {};
     rules_ = rules;
+    guard_ = {};
     nodes_ = nodes;
+    table_.fill(0.0);
+    best_.fill(0.0);
     return {};
   }
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "comp/evaluation/spectral_line.hpp"
 #include "comp/geometry/fine_trig.hpp"
-#include "comp/realtime/running_statistics.hpp"
 #include "comp/tables/learning_guard.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
@@ -113,8 +113,8 @@ json monitor(const json& in) {
   json out{{"n", statistics.count()}, {"mean", statistics.mean()}, {"std", statistics.deviation()},
            {"rms", statistics.rms()}, {"peak", statistics.peak()}, {"bad", statistics.bad()}};
   if (has_order) {
-    out["order_amp"] = order.line().amplitude;
-    out["order_phase"] = order.line().phase;
+    out["order_amp"] = spectral_line(order).amplitude;
+    out["order_phase"] = spectral_line(order).phase;
   }
   return out;
 }
