@@ -1,0 +1,60 @@
+// The monitor of helical strokes gives the same bits with every compiler and on every board.
+
+#include <cstring>
+#include <memory>
+
+#include "comp/realtime/helix_instances.hpp"
+#include "tests/unit/realtime/fixed_numbers.hpp"
+
+namespace volcomp::test {
+namespace {
+
+TEST(HelixMonitorDigest, OfFixedStrokes) {
+  Fixed fixed;
+  Digest digest;
+  HelixMonitorSettings settings;
+  settings.turn_per_mm = 1.0 / 305.25;
+  settings.flank_per_rad = 74.25;
+  settings.flank_per_x = 0.325;
+  settings.z0_nm = -22'500'000;
+  settings.nodes = 181;
+  settings.time_line_hz = {50.0, 0, 0, 0};
+  settings.order_wavelength_mm = {2.5, 0, 0, 0};
+  const auto monitor = std::make_unique<GrinderMonitor>();
+  ASSERT_TRUE(monitor->configure(settings).ok());
+  const auto add = [&digest](double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    digest.add(static_cast<std::uint32_t>(bits), 4);
+    digest.add(static_cast<std::uint32_t>(bits >> 32U), 4);
+  };
+  for (int k = 0; k < 20'000; ++k) {
+    HelixFrame frame;
+    frame.sequence = static_cast<std::uint16_t>(k);
+    const std::int64_t z = -22'500'000 + (k % 4000) * 13'400;
+    frame.z = {z, z + fixed.integer(-200'000, 200'000),
+               static_cast<std::int32_t>(fixed.integer(0, 200'000)), true};
+    frame.x = {44'000'000, 44'000'000 + fixed.integer(-9'000, 9'000), 0, true};
+    const std::int64_t c = -z * 573;
+    frame.c = {c, c + fixed.integer(-90'000'000, 90'000'000), 0, fixed.integer(0, 999) != 0};
+    frame.slot = static_cast<std::uint16_t>(k / 4000);
+    frame.stroke = Direction::forward;
+    frame.in_face = k % 4000 < 3400;
+    monitor->tick(frame);
+    add(static_cast<double>(monitor->signals().sync_um));
+    add(static_cast<double>(monitor->signals().x_um));
+    digest.end_record();
+    if (!monitor->pass_waits()) continue;
+    EXPECT_TRUE(monitor->collect().ok());
+  }
+  const auto& spectra = monitor->totals().spectra(Direction::forward);
+  add(spectra.of(FlankSignal::sync).mean());
+  add(spectra.of(FlankSignal::sync).variance());
+  add(spectra.order[0].with_sine);
+  digest.end_record();
+  RecordProperty("digest", std::to_string(digest.value()));
+  EXPECT_EQ(digest.value(), 0U);
+}
+
+}  // namespace
+}  // namespace volcomp::test
