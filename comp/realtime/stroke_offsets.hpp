@@ -226,8 +226,8 @@ class StrokeOffsets {
   float offset(const StrokeState& state) {
     const Tables& t = buffer_[1U - spare_];
     const std::uint32_t last = t.pitch_nm * (t.nodes - 1U);
-    std::int64_t distance = static_cast<std::int64_t>(static_cast<std::uint64_t>(state.z_command) -
-                                                      static_cast<std::uint64_t>(t.z0_nm));
+    auto distance = static_cast<std::int64_t>(static_cast<std::uint64_t>(state.z_command) -
+                                              static_cast<std::uint64_t>(t.z0_nm));
     if (distance < 0 || distance > last || (state.slot >= t.slots && t.slots != 0)) {
       flag(kOutOfRange);
       count(out_of_table_);

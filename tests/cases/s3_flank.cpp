@@ -32,7 +32,7 @@ class AxisErrors {
 
  private:
   static ErrorMotion value(const json& in, double q) {
-    const ErrorMotion v = six(in.at("v"));
+    ErrorMotion v = six(in.at("v"));
     if (in.at("shape") == "const") return v;
     const double scale = number(in.at("scale"));
     if (in.at("shape") == "linear") return v * (q / scale);

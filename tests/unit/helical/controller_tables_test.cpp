@@ -99,9 +99,9 @@ TEST(Cec, GivesBackWhatWasWrittenInItsDirection) {
 
 TEST(Linuxcnc, BothTypesMeanTheSame) {
   Random random;
-  std::vector<double> nominal;
-  for (int k = 0; k < 40; ++k)
-    nominal.push_back(-20.0 + k + random.uniform(0.0, 0.4));
+  std::vector<double> nominal(40);
+  for (std::size_t k = 0; k < nominal.size(); ++k)
+    nominal[k] = static_cast<double>(k) - 20.0 + random.uniform(0.0, 0.4);
   const std::vector<double> up = random_offsets(random, 40, 0.05);
   const std::vector<double> down = random_offsets(random, 40, 0.05);
   for (const int type : {0, 1}) {
@@ -130,7 +130,8 @@ TEST(Ssfk, GivesBackWhatWasWrittenToATenthOfAMicrometre) {
     ASSERT_TRUE(write_ssfk(table, text).ok());
     const sim::SsfkTable back = sim::read_ssfk(text, rotary);
     const double half = rotary ? 0.5001e-4 * kDegree : 0.5001e-4;
-    for (double z = -12.0; z < 8.0; z += 0.7) {
+    for (int k = 0; k < 30; ++k) {
+      const double z = -12.0 + 0.7 * k;
       EXPECT_NEAR(offset_at(back, z, 1), offset_at(table, z, 1), half);
       EXPECT_NEAR(offset_at(back, z, -1), offset_at(table, z, -1), half);
     }
@@ -228,7 +229,10 @@ TEST(VolumetricFiles, AreTheModelUpToTheirRemainder) {
   Vec3 worst = Vec3::Zero();
   double squares = 0.0;
   for (int n = 0; n < 125; ++n) {
-    const Pose q{-100.0 + 50.0 * (n % 5), -100.0 + 50.0 * (n / 5 % 5), -100.0 + 50.0 * (n / 25)};
+    const std::array<int, 3> knot{n % 5, n / 5 % 5, n / 25};
+    Pose q{};
+    for (std::size_t a = 0; a < 3; ++a)
+      q[a] = -100.0 + 50.0 * knot[a];
     Vec3 left = model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
     for (std::size_t a = 0; a < own.size(); ++a)
       left(static_cast<Eigen::Index>(a)) += offset_at(own[a], q[a]);

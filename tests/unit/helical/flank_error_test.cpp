@@ -117,7 +117,8 @@ TEST(FlankFirstOrder, OfOneErrorIsWithinFiveNanometresOfTheEnvelope) {
       const ErrorSet errors = single_error(row.axis, row.channel);
       for (const double radius : {g.gear.r_tip, g.gear.r, g.gear.r + g.gear.module}) {
         const FlankPlace place{side, radius, 11.0};
-        const double exact = g.exact(place, profile, [&errors](const Pose&) { return errors; });
+        const double exact =
+            g.exact(place, profile, [&errors](const Pose&) -> const ErrorSet& { return errors; });
         worst = std::max(worst, std::abs(exact - g.first_order(place, errors)));
       }
     }
@@ -144,8 +145,8 @@ TEST(FlankFirstOrder, OfAllErrorsStaysCloseToTheEnvelope) {
     const FlankPlace place{i % 2 == 0 ? FlankSide::left : FlankSide::right,
                            random.uniform(g.gear.r_tip, g.gear.r + g.gear.module),
                            random.uniform(-0.5 * kFace, 0.5 * kFace)};
-    const double exact =
-        g.exact(place, i % 2 == 0 ? left : right, [&errors](const Pose&) { return errors; });
+    const double exact = g.exact(place, i % 2 == 0 ? left : right,
+                                 [&errors](const Pose&) -> const ErrorSet& { return errors; });
     off_nm.push_back(kNmPerMm * std::abs(exact - g.first_order(place, errors)));
   }
   std::sort(off_nm.begin(), off_nm.end());
@@ -172,7 +173,7 @@ TEST(FlankFirstOrder, MissesOnlyTheSecondOrder) {
       ErrorSet scaled = errors;
       for (ErrorMotion& e : scaled)
         e *= scale;
-      return g.exact(place, profile, [&scaled](const Pose&) { return scaled; }) -
+      return g.exact(place, profile, [&scaled](const Pose&) -> const ErrorSet& { return scaled; }) -
              g.first_order(place, scaled);
     };
     const double whole = off(1.0);

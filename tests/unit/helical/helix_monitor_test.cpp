@@ -43,7 +43,8 @@ class Stroke {
   template <class Errors>
   Status pass(std::uint16_t slot, Direction direction, const Errors& errors) {
     const double sign = direction == Direction::forward ? 1.0 : -1.0;
-    for (double t = 0.0; t * kFeed < 47.0; t += 1e-3) {
+    for (int k = 0; k * 1e-3 * kFeed < 47.0; ++k) {
+      const double t = 1e-3 * k;
       const double z = sign * (t * kFeed - 23.5);
       HelixFrame frame = frame_at(z, errors(t, z), sign);
       frame.slot = slot;
