@@ -6,7 +6,7 @@
 namespace volcomp {
 
 // 65 mm of stroke in steps of 0.25 mm, as seed 003 section 9 needs them, and gears of up to 128
-// teeth: 55 KB and 5 KB.
+// teeth: 33 KB and 5 KB.
 inline constexpr std::size_t kStrokeNodes = 261;
 inline constexpr std::size_t kGearSlots = 128;
 

@@ -27,6 +27,14 @@ double flank_deviation(const ContactInstant& instant, const LeftError& error) {
   return instant.n.dot(error.at(instant.P));
 }
 
+Status flank_sensitivity(const MachineChain& chain, const InternalGear& gear,
+                         const WheelSetup& setup, const FlankPlace& place, SensitivityRows& rows) {
+  ContactInstant at;
+  if (const Status s = contact_instant(gear, setup, place, at); !s.ok()) return s;
+  rows = left_error_sensitivity(chain, grinding_pose(gear, setup, at.stroke), at.P, at.n);
+  return {};
+}
+
 double synchronisation_error(const InternalGear& gear, double e_z, double e_c) {
   return e_c + e_z * gear.turn_per_mm;
 }

@@ -39,6 +39,11 @@ Status contact_instant(const InternalGear& gear, const WheelSetup& setup, const 
 // dn = n · (delta + eps × P), delta and eps at that instant.
 [[nodiscard]] double flank_deviation(const ContactInstant& instant, const LeftError& error);
 
+// The same as a gradient: dn is Σ rows[axis].dot(error motion of the axis), for one side and radius
+// a constant of the machine up to the turn of C. Refuses what contact_instant() refuses.
+Status flank_sensitivity(const MachineChain& chain, const InternalGear& gear,
+                         const WheelSetup& setup, const FlankPlace& place, SensitivityRows& rows);
+
 // --- synchronism of Z and C (seed 003 section 7)
 
 // e_s = e_C + e_Z / p, rad; errors as actual − original command, mm and rad. The part of both that

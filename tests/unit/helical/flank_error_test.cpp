@@ -91,6 +91,10 @@ TEST(FlankSensitivity, IsTheTableOfSection6) {
       return kUmPerMm * g.first_order({side, radius, z}, errors);
     };
     const double dn = um(FlankSide::left, g.gear.r, 0.0);
+    SensitivityRows rows;
+    ASSERT_TRUE(
+        flank_sensitivity(g.chain, g.gear, g.setup, {FlankSide::left, g.gear.r, 0.0}, rows).ok());
+    EXPECT_NEAR(kUmPerMm * rows[row.axis].dot(errors[row.axis]), dn, 1e-12);
     EXPECT_NEAR(dn, row.dn, kPrinted);
     EXPECT_NEAR(um(FlankSide::right, g.gear.r, 0.0), row.parity * dn, 1e-9);
     EXPECT_NEAR(um(FlankSide::left, form, 0.0) - um(FlankSide::left, tip, 0.0), row.prof,
@@ -127,10 +131,10 @@ TEST(FlankFirstOrder, OfOneErrorIsWithinFiveNanometresOfTheEnvelope) {
   EXPECT_LE(worst * kNmPerMm, 5.0);
 }
 
-// 5 µm and 50 µrad rms in all 24 at once. Most points lie within 10 nm, not all: what is left is
-// second order, products of two errors, and its tail is as long as theirs.
+// 5 µm and 50 µrad rms in all 24 at once. 95 of 100 points lie within 10 nm, not all: what is left
+// is second order, products of two errors, and its tail is as long as theirs.
 TEST(FlankFirstOrder, OfAllErrorsStaysCloseToTheEnvelope) {
-  constexpr int kTrials = 400;
+  constexpr int kTrials = 1000;
   const Grinding g;
   Random random;
   std::vector<double> off_nm;
@@ -156,7 +160,7 @@ TEST(FlankFirstOrder, OfAllErrorsStaysCloseToTheEnvelope) {
   for (const double part : {0.5, 0.9, 0.95, 0.99, 1.0})
     RecordProperty("nm_at_" + std::to_string(part), std::to_string(quantile(part)));
   EXPECT_LE(quantile(0.5), 3.0);
-  EXPECT_LE(quantile(0.9), 10.0);
+  EXPECT_LE(quantile(0.95), 10.0);
 }
 
 // Halving all errors quarters the distance: it is of second order and nothing else.
