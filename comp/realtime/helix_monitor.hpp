@@ -95,6 +95,8 @@ class HelixMonitor {
   [[nodiscard]] std::uint32_t outside() const { return outside_; }  // samples beyond the nodes
 
  private:
+  static constexpr std::uint32_t kMostMissed = 64;
+
   static void count(std::uint32_t& counter) {
     if (counter < UINT32_MAX) ++counter;
   }
@@ -152,11 +154,17 @@ class HelixMonitor {
 
   void record(const HelixFrame& frame, bool usable) {
     StrokePass<Nodes>& pass = pass_[filling_];
-    ++pass.frames;
-    if (!usable) ++pass.bad;
+    const std::uint32_t missed = tracker_.missed();
+    pass.frames += 1U + missed;
+    pass.bad += missed + (usable ? 0U : 1U);
     const auto sync = static_cast<double>(signals_.sync_um);
-    for (TimeLine& line : pass.time)
-      line.add(sync);  // a sample that is missing is the one before: time goes on
+    // A sample that is missing is the one after or before: time goes on. Where more are missing,
+    // the pass will not count.
+    const std::uint32_t times = 1U + (missed < kMostMissed ? missed : kMostMissed);
+    for (std::uint32_t i = 0; i < times; ++i) {
+      for (TimeLine& line : pass.time)
+        line.add(sync);
+    }
     if (!usable) return;
     pass.spectra.of(FlankSignal::sync).add(sync);
     pass.spectra.of(FlankSignal::lag_c).add(static_cast<double>(signals_.lag_c_um));

@@ -70,15 +70,18 @@ class HelixTracker {
       : gains_(gains), tick_ns_(tick_ns), most_skew_ns_(most_skew_ns) {}
 
   FrameUse take(const HelixFrame& frame, HelixSignals& signals) {
-    const bool follows = started_ && frame.sequence == static_cast<std::uint16_t>(sequence_ + 1U);
-    const FrameUse use = judge(frame, follows);
+    const auto steps = static_cast<std::uint16_t>(frame.sequence - last_.sequence);
+    missed_ = started_ && steps > 1 ? static_cast<std::uint16_t>(steps - 1U) : std::uint16_t{0};
+    const FrameUse use = judge(frame, steps == 1);
     if (use == FrameUse::used) evaluate(frame, signals);
     known_ = frame.x.valid && frame.z.valid && frame.c.valid;
     last_ = frame;
-    sequence_ = frame.sequence;
     started_ = true;
     return use;
   }
+
+  // Frames that were lost before the last one.
+  [[nodiscard]] std::uint16_t missed() const { return missed_; }
 
  private:
   [[nodiscard]] FrameUse judge(const HelixFrame& frame, bool follows) const {
@@ -131,7 +134,7 @@ class HelixTracker {
   std::int32_t tick_ns_ = 1'000'000;
   std::int32_t most_skew_ns_ = 0;
   HelixFrame last_{};
-  std::uint16_t sequence_ = 0;
+  std::uint16_t missed_ = 0;
   bool started_ = false;
   bool known_ = false;  // the last frame had all positions
 };

@@ -9,6 +9,10 @@ namespace {
 
 double clamped(double value, double most) { return std::min(std::max(value, -most), most); }
 
+bool enough(const LearningRules& rules, const NodeSums& node) {
+  return node.n > 0 && node.n >= rules.least_samples;
+}
+
 // One update under way.
 class Update {
  public:
@@ -23,11 +27,6 @@ class Update {
         return false;
     }
     return true;
-  }
-
-  [[nodiscard]] bool any_valid() const {
-    return std::any_of(nodes_.begin(), nodes_.end(),
-                       [this](const NodeSums& node) { return valid(node); });
   }
 
   // y_j = Σ h v m / Σ h v over the taps inside the table.
@@ -73,9 +72,7 @@ class Update {
   }
 
  private:
-  [[nodiscard]] bool valid(const NodeSums& node) const {
-    return node.n > 0 && node.n >= rules_.least_samples;
-  }
+  [[nodiscard]] bool valid(const NodeSums& node) const { return enough(rules_, node); }
   static double mean(const NodeSums& node) { return node.sum / static_cast<double>(node.n); }
 
   // The node under tap k when the middle tap is on j; nullptr beyond the ends.
@@ -149,7 +146,7 @@ LearningReport learning_update(const LearningRules& rules, Span<const NodeSums> 
     report.result = LearningResult::nonfinite;
     return report;
   }
-  if (!update.any_valid()) {
+  if (!any_node_valid(rules, nodes)) {
     report.result = LearningResult::nodata;
     return report;
   }
@@ -171,11 +168,16 @@ LearningReport learning_update(const LearningRules& rules, Span<const NodeSums> 
   return report;
 }
 
+bool any_node_valid(const LearningRules& rules, Span<const NodeSums> nodes) {
+  return std::any_of(nodes.begin(), nodes.end(),
+                     [&rules](const NodeSums& node) { return enough(rules, node); });
+}
+
 double rms_of_means(const LearningRules& rules, Span<const NodeSums> nodes) {
   double squares = 0.0;
   double count = 0.0;
   for (const NodeSums& node : nodes) {
-    if (node.n == 0 || node.n < rules.least_samples) continue;
+    if (!enough(rules, node)) continue;
     const double mean = node.sum / static_cast<double>(node.n);
     squares += mean * mean;
     count += 1.0;

@@ -64,6 +64,9 @@ struct LearningReport {
 LearningReport learning_update(const LearningRules& rules, Span<const NodeSums> nodes,
                                Span<double> table, Span<double> smoothed);
 
+// Whether any node has enough samples.
+[[nodiscard]] bool any_node_valid(const LearningRules& rules, Span<const NodeSums> nodes);
+
 // Root mean square of the node means, over nodes with enough samples: J of the guard, in the unit
 // of the table; NaN when there is none.
 [[nodiscard]] double rms_of_means(const LearningRules& rules, Span<const NodeSums> nodes);

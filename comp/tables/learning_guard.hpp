@@ -73,9 +73,14 @@ class OffsetLearner {
   }
 
   // One pass: `J` is the RMS on the flank (µm) with the table as it is, `sums` what the monitor
-  // saw. `sums.size()` must be size().
+  // saw. `sums.size()` must be size(). Without data, as when the machine ground in the other
+  // direction only, nothing is judged and nothing changes: nodata.
   LearnerStep step(double J, Span<const NodeSums> sums) {
     LearnerStep step;
+    if (!any_node_valid(rules_, sums)) {
+      step.report.result = LearningResult::nodata;
+      return step;
+    }
     const double best = guard_.best();
     step.action = guard_.judge(J);
     if (step.action == GuardAction::roll_back) {

@@ -236,6 +236,20 @@ TEST(HelixMonitorRefusal, PassWithMoreThanOnePercentBad) {
   EXPECT_EQ(stroke.monitor->totals().spectra(Direction::forward).of(FlankSignal::sync).count(), 0U);
 }
 
+// Frames that never came count like bad ones, although only one of them shows as a gap.
+TEST(HelixMonitorRefusal, PassWithAHole) {
+  Stroke stroke;
+  int k = 0;
+  stroke.spoil = [&k](HelixFrame&) {
+    ++k;
+    return k > 1000 && k <= 1050;
+  };
+  const Status status = stroke.pass(0, Direction::forward, kPerfect);
+  EXPECT_EQ(stroke.monitor->frames(FrameUse::gap), 1U);
+  EXPECT_EQ(status.reason, Reason::pass_discarded);
+  EXPECT_NEAR(status.where.value, 51.0 / 3359.0, 1e-4);
+}
+
 TEST(HelixMonitorRefusal, SlotsAndDirectionsThatDoNotExist) {
   Stroke stroke;
   EXPECT_STREQ(stroke.pass(kGearSlots, Direction::forward, kPerfect).where.field, "slot");

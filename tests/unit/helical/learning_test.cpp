@@ -148,6 +148,20 @@ TEST(LearningGuard, RestoresTheBestTableAfterWhatIsNotANumber) {
   EXPECT_DOUBLE_EQ(learner.rules().weight, 0.5);
 }
 
+// The table of the other direction: its J is none, but nothing is wrong with it.
+TEST(OffsetLearner, WithoutDataKeepsItsTable) {
+  Random random;
+  const Plant plant(random);
+  OffsetLearner<kNodes> learner = started(unsmoothed(0.5));
+  learn(learner, plant);
+  const double half = rms(plant.error(learner));
+  const std::vector<NodeSums> none(kNodes);
+  const LearnerStep step = learner.step(rms_of_means(learner.rules(), none), none);
+  EXPECT_EQ(step.action, GuardAction::keep);
+  EXPECT_EQ(step.report.result, LearningResult::nodata);
+  EXPECT_DOUBLE_EQ(rms(plant.error(learner)), half);
+}
+
 // One update of a table of zeros.
 struct Updated {
   Updated(const LearningRules& rules, const std::vector<NodeSums>& sums)
