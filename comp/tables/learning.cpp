@@ -31,23 +31,14 @@ class Update {
 
   // y_j = Σ h v m / Σ h v over the taps inside the table.
   [[nodiscard]] double smooth(std::size_t j) const {
-    constexpr double kLeastWeight = 0.5 - 1e-12;
-    if (!valid(nodes_[j])) return 0.0;
-    double sum = 0.0;
-    double weight = 0.0;
-    for (std::size_t k = 0; k < rules_.tap_count; ++k) {
-      const NodeSums* const node = neighbour(j, k);
-      if (node == nullptr || !valid(*node)) continue;
-      sum += rules_.taps[k] * mean(*node);
-      weight += rules_.taps[k];
-    }
-    return weight >= kLeastWeight ? sum / weight : 0.0;
+    const Kernel kernel = at(j);
+    return kernel.counts() ? kernel.sum / kernel.weight : 0.0;
   }
 
   // Whether the node moves: it has a y, and y is beyond its dead band.
   [[nodiscard]] bool moves(std::size_t j) const {
+    if (!at(j).counts()) return false;
     const NodeSums& node = nodes_[j];
-    if (!valid(node) || kernel_weight(j) < 0.5 - 1e-12) return false;
     const double m = mean(node);
     const auto n = static_cast<double>(node.n);
     const double variance = std::max(node.sum_squares / n - m * m, 0.0);
@@ -72,6 +63,14 @@ class Update {
   }
 
  private:
+  // The smoothing kernel on one node.
+  struct Kernel {
+    double sum = 0.0;     // Σ h v m
+    double weight = 0.0;  // Σ h v
+
+    [[nodiscard]] bool counts() const { return weight >= 0.5 - 1e-12; }
+  };
+
   [[nodiscard]] bool valid(const NodeSums& node) const { return enough(rules_, node); }
   static double mean(const NodeSums& node) { return node.sum / static_cast<double>(node.n); }
 
@@ -84,13 +83,17 @@ class Update {
     return &nodes_[j + k - half];
   }
 
-  [[nodiscard]] double kernel_weight(std::size_t j) const {
-    double weight = 0.0;
+  // Of no weight where the node itself is not valid.
+  [[nodiscard]] Kernel at(std::size_t j) const {
+    Kernel kernel;
+    if (!valid(nodes_[j])) return kernel;
     for (std::size_t k = 0; k < rules_.tap_count; ++k) {
       const NodeSums* const node = neighbour(j, k);
-      if (node != nullptr && valid(*node)) weight += rules_.taps[k];
+      if (node == nullptr || !valid(*node)) continue;
+      kernel.sum += rules_.taps[k] * mean(*node);
+      kernel.weight += rules_.taps[k];
     }
-    return weight;
+    return kernel;
   }
 
   const LearningRules& rules_;
