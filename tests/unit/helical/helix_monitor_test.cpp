@@ -12,7 +12,6 @@ namespace volcomp::test {
 namespace {
 
 constexpr double kFeed = 13.4;  // mm/s
-constexpr std::int32_t kTick_ns = 1'000'000;
 constexpr double kFlankPerX = 0.3246;
 
 HelixMonitorSettings paper_settings() {
