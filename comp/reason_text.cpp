@@ -132,8 +132,8 @@ const char* code(Reason reason) {
       return "opposite_flank";
     case Reason::ball_in_metal:
       return "ball_in_metal";
-    case Reason::no_contact:
-      return "no_contact";
+    case Reason::nothing_touched:
+      return "nothing_touched";
     case Reason::frame_not_fixed:
       return "frame_not_fixed";
     case Reason::no_involute_at_tip:
@@ -142,8 +142,8 @@ const char* code(Reason reason) {
       return "pointed_space";
     case Reason::wheel_too_large:
       return "wheel_too_large";
-    case Reason::no_contact_line:
-      return "no_contact_line";
+    case Reason::no_contact:
+      return "no_contact";
     case Reason::breaks_helix:
       return "breaks_helix";
     case Reason::feed_mismatch:
@@ -232,7 +232,7 @@ const char* sentence(Reason reason) {
     case Reason::ball_in_metal:
       return "The centre of the ball would be inside the metal; frame or slot is wrong, do not "
              "go on.";
-    case Reason::no_contact:
+    case Reason::nothing_touched:
       return "The ball is not at a flank; the probe triggered in the air or has lost its "
              "stylus.";
     case Reason::frame_not_fixed:
@@ -246,7 +246,7 @@ const char* sentence(Reason reason) {
     case Reason::wheel_too_large:
       return "The wheel does not pass the bore of the gear; its radius must be below the tip "
              "radius.";
-    case Reason::no_contact_line:
+    case Reason::no_contact:
       return "Wheel and flank do not touch where a contact is possible; the screw parameter or "
              "the profile is wrong.";
     case Reason::breaks_helix:

@@ -38,3 +38,16 @@ sources() {
 jobs_allowed() {
   printf '%s\n' "${VOLCOMP_JOBS:-$(nproc)}"
 }
+
+# build_preset PRESET [CMAKE_BUILD_ARGUMENT...]: one at a time for each preset, though two steps may run at once.
+build_preset() {
+  local preset=$1 log=build/log/configure-$1.txt lock
+  shift
+  need cmake ninja flock
+  mkdir -p build/log
+  exec {lock}> "build/log/$preset.lock"
+  flock "$lock"
+  cmake --preset "$preset" > "$log" 2>&1 || { cat "$log"; return 1; }
+  cmake --build --preset "$preset" -j "$(jobs_allowed)" "$@" {lock}>&-
+  exec {lock}>&-
+}

@@ -28,13 +28,10 @@ need python3 c++filt arm-none-eabi-g++ arm-none-eabi-objdump
 if [ "${1:-}" != --self-test ]; then
   need cmake ninja qemu-system-arm llvm-mca aarch64-linux-gnu-g++
   for board in m7 m4; do
-    cmake --preset "$board" > /dev/null
-    cmake --build --preset "$board" -j "$(jobs_allowed)" --target volcomp-node volcomp-servo volcomp-ticks volcomp-services volcomp-touches
+    build_preset "$board" --target volcomp-node volcomp-servo volcomp-ticks volcomp-services volcomp-touches
   done
-  cmake --preset host > /dev/null
-  cmake --build --preset host -j "$(jobs_allowed)" --target volcomp
+  build_preset host --target volcomp
   make_tables
-  cmake --preset a53 > /dev/null
-  cmake --build --preset a53 -j "$(jobs_allowed)" --target volcomp-node
+  build_preset a53 --target volcomp-node
 fi
 exec python3 toolchain/evidence "$@"

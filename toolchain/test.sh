@@ -16,7 +16,7 @@
 #   asan        built with clang, tests with the address and undefined-behaviour sanitizers
 #   coverage    what of the target code those tests have run; table in build/host-asan/coverage.txt
 #   boards      the firmware and its tests, executed in QEMU, and in the loop with the simulated machine
-#   evidence    sizes, stack and instructions of the images, measured, proven and compared with README
+#   evidence    sizes, stack and instructions of the images, measured, proven, compared with README; beside the next step
 #   tidy        clang-tidy
 #   cppcheck    cppcheck over comp, hal and firmware
 #   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 15) seconds
@@ -30,19 +30,10 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 
 readonly all_steps=(setup format scripts build test proofs can asan coverage boards evidence tidy cppcheck fuzz bench)
 readonly quick_steps=(format build test)
-# Waits for a virtual machine of one processor: it runs beside the step after it.
-readonly one_processor_step=can
+# Emulate one processor most of the time: each runs beside the step after it.
+readonly one_processor_steps=(can evidence)
 readonly code_folders=(comp hal firmware host_sim tests)
 readonly logs=build/log
-
-# build_preset PRESET [CMAKE_BUILD_ARGUMENT...]
-build_preset() {
-  local preset=$1 log=$logs/configure-$1.txt
-  shift
-  need cmake ninja
-  cmake --preset "$preset" > "$log" 2>&1 || { cat "$log"; return 1; }
-  cmake --build --preset "$preset" -j "$(jobs_allowed)" "$@"
-}
 
 # Shows failures, the summary and every hundredth test that passed.
 test_preset() {
@@ -233,7 +224,7 @@ number=0 failed_step='' beside=''
 for step in "${steps[@]}"; do
   number=$((number + 1))
   printf '\n[%s/%s] %s\n' "$number" "${#steps[@]}" "$step"
-  if [ "$step" = "$one_processor_step" ] && [ "$number" -lt "${#steps[@]}" ]; then
+  if [[ " ${one_processor_steps[*]} " == *" $step "* ]] && [ "$number" -lt "${#steps[@]}" ]; then
     begin_beside "$step"
     continue
   fi

@@ -102,8 +102,7 @@ Status single_pitches(Span<const double> position, Span<double> out, double scal
 
 Status cumulative_pitch(Span<const double> position, std::size_t k, double& out, double scale) {
   if (const Status s = check_round(position); !s.ok()) return s;
-  if (k < 1 || k > largest_pitch_span(position.size()))
-    return bad_setting("k", static_cast<double>(k));
+  if (k < 1 || k >= position.size()) return bad_setting("k", static_cast<double>(k));
   double largest = 0.0;
   for (std::size_t start = 0; start < position.size(); ++start) {
     const std::size_t end = (start + k) % position.size();

@@ -52,7 +52,8 @@ Status evaluate_pitch(Span<const double> position, PitchDeviations& out, double 
 // Refused: too_few_points, length_mismatch, not_finite (index) for an infinite value.
 Status single_pitches(Span<const double> position, Span<double> out, double scale = 1.0);
 
-// F_pk: the largest sum of k pitches in a row, wherever it starts; k within 1…largest_pitch_span.
+// F_pk: the largest sum of k pitches in a row, wherever it starts; k within 1…teeth − 1. Standards
+// look at k up to largest_pitch_span.
 // Refused as evaluate_pitch, and bad_setting 'k'.
 Status cumulative_pitch(Span<const double> position, std::size_t k, double& out,
                         double scale = 1.0);

@@ -55,7 +55,7 @@ Status generated_point(const WheelGeneration& generation, double rho,
   double b = window.high;
   double f_a = surface.condition(surface.at(a));
   double f_b = surface.condition(surface.at(b));
-  if (!(f_a * f_b < 0.0)) return refuse(Reason::no_contact_line);
+  if (!(f_a * f_b < 0.0)) return refuse(Reason::no_contact);
   GeneratedPoint g;
   double f = f_a;
   for (int i = 0; i < kMostSteps; ++i) {
@@ -72,7 +72,7 @@ Status generated_point(const WheelGeneration& generation, double rho,
     f_b = f;
     if (step < 1e-15 || !(std::abs(f) > 0.0)) break;
   }
-  if (!(std::abs(f) < kOnContact)) return refuse(Reason::no_contact_line);
+  if (!(std::abs(f) < kOnContact)) return refuse(Reason::no_contact);
   out = g;
   return {};
 }

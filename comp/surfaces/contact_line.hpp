@@ -27,7 +27,7 @@ struct GeneratedPoint {
   Vec3 normal;  // unit, out of the wheel, into the material
 };
 
-// The root in the window, by at most 60 bracketed steps. Refused: no_contact_line where the
+// The root in the window, by at most 60 bracketed steps. Refused: no_contact where the
 // condition does not change its sign: never the last iterate.
 Status generated_point(const WheelGeneration& generation, double rho,
                        const WheelProfile::At& profile, const ContactWindow& window,

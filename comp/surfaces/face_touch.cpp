@@ -17,7 +17,7 @@ Reason verdict_on(const FaceTouch& touch, const FaceProbing& probing) {
   if (there) return Reason::opposite_flank;
   if (touch.distance < r - probing.gate || touch.other < r - probing.gate)
     return Reason::ball_in_metal;
-  return here ? Reason::bad_point : Reason::no_contact;
+  return here ? Reason::bad_point : Reason::nothing_touched;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct FaceTouch {
   // opposite_flank   the other one is touched
   // ball_in_metal    nearer than radius − gate to either, or behind it
   // bad_point        the commanded one is touched where it is none (`foot.reason`)
-  // no_contact       neither
+  // nothing_touched  neither
   Reason verdict = Reason::bad_point;
   double distance = std::numeric_limits<double>::quiet_NaN();   // from the commanded flank, mm
   double other = std::numeric_limits<double>::quiet_NaN();      // from the opposite one, mm

@@ -27,7 +27,7 @@ Status wheel_gap(const WheelProfile& profile, const Frame& wheel, const SpaceFla
     t += step;
     if (!(std::abs(step) > kEnd_mm)) break;
   }
-  if (!(std::abs(step) <= 1e-9)) return refuse(Reason::no_contact_line);
+  if (!(std::abs(step) <= 1e-9)) return refuse(Reason::no_contact);
   gap = t;
   return {};
 }

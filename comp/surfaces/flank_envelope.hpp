@@ -17,7 +17,7 @@ namespace volcomp {
 
 // From a flank point along its normal to the surface of the wheel in this pose (wheel frame → gear
 // frame), mm; positive: the wheel leaves material. At most 30 Newton steps; refused:
-// no_contact_line where they do not end.
+// no_contact where they do not end.
 Status wheel_gap(const WheelProfile& profile, const Frame& wheel, const SpaceFlankPoint& flank,
                  double& gap);
 
@@ -65,7 +65,7 @@ Status least_gap(const Gap& gap, double centre, double& least) {
 
 // dn of the flank point of `instant` on the machine `chain` (an internal_grinder()) whose errors at
 // a pose are errors_at(pose), mm. `profile` must reach beyond the radius of the point. Refused:
-// no_contact_line.
+// no_contact.
 template <class ErrorsAt>
 Status exact_flank_deviation(const MachineChain& chain, const InternalGear& gear,
                              const WheelSetup& setup, const WheelProfile& profile,

@@ -56,7 +56,7 @@ Status flank_sensitivity(const MachineChain& chain, const InternalGear& gear,
 // --- validity: the wheel leaves the LOWER envelope of its positions
 
 // κ at a radius, 1/mm: a wheel that stands dz along the helix from where it touches a point stands
-// κ dz²/2 off it. Refuses what wheel_contact() refuses, no_contact_line.
+// κ dz²/2 off it. Refuses what wheel_contact() refuses, no_contact.
 Status contact_curvature(const InternalGear& gear, const WheelSetup& setup, FlankSide side,
                          double radius, double& kappa);
 

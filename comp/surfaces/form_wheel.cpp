@@ -72,7 +72,7 @@ Status wheel_contact(const InternalGear& gear, const WheelSetup& setup, FlankSid
   const Frame wheel = wheel_at_rest(setup);
   double z = 0.0;
   if (!solve_contact_height(gear, wheel, side, radius, z))
-    return refuse_value(Reason::no_contact_line, "radius", radius);
+    return refuse_value(Reason::no_contact, "radius", radius);
   WheelContact c;
   c.flank = space_flank_at(gear, side, radius, z);
   const Vec3 q = wheel.apply_inverse(c.flank.P);

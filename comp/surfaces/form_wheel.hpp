@@ -34,7 +34,7 @@ struct WheelContact {
   double phi = 0.0;       // around the wheel, 0…2π: the point is (ρ cos φ, y, −ρ sin φ)
 };
 
-// At most 60 secant steps. Refused: no_contact_line (value = radius) when they do not end within
+// At most 60 secant steps. Refused: no_contact (value = radius) when they do not end within
 // 1e-9 mm, not_finite, inside_base_circle.
 Status wheel_contact(const InternalGear& gear, const WheelSetup& setup, FlankSide side,
                      double radius, WheelContact& out);
@@ -60,7 +60,7 @@ struct WheelProfile {
 
 // The profile for the flank between two radii of the gear, r_low < r_high. 17 knots regenerate the
 // flank of the paper's gear within 0.1 nm. Refused: too_few_knots (< 2), too_many_knots,
-// no_contact_line and what wheel_contact() refuses.
+// no_contact and what wheel_contact() refuses.
 Status wheel_profile(const InternalGear& gear, const WheelSetup& setup, FlankSide side,
                      double r_low, double r_high, std::size_t knots, WheelProfile& out);
 

@@ -195,6 +195,15 @@ std::vector<double> SquarenessFile::line(std::size_t axis) const {
   return positions;
 }
 
+void MachineFile::expect_axes(const std::string& letters) const {
+  std::string found;
+  for (const AxisFile& axis : axes)
+    found += axis.letter;
+  if (found == letters) return;
+  throw UserError(fmt::format("{}: the axes must be {}, not {}", path, fmt::join(letters, " "),
+                              fmt::join(found, " ")));
+}
+
 std::size_t MachineFile::axis_index(char letter) const {
   for (std::size_t a = 0; a < axes.size(); ++a) {
     if (axes[a].letter == letter) return a;

@@ -71,6 +71,8 @@ struct MachineFile {
   std::optional<ProbeFile> probe;
 
   [[nodiscard]] std::size_t axis_index(char letter) const;  // throws UserError
+  // Throws UserError unless the NC axes are these, in this order.
+  void expect_axes(const std::string& letters) const;
 };
 
 // Throws UserError.

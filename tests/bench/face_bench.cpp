@@ -16,14 +16,14 @@ namespace {
 struct Balls {
   FaceGear gear = face_gear_of_table_3();
   FaceFlank flank;
-  std::array<Vec3, kFaceGridRows * kFaceGridColumns> centre;
+  std::array<Vec3, kGridRows * kGridColumns> centre;
 
   Balls() {
     FaceGrid grid;
     if (!choose_flank(gear, -1, 40, flank).ok()) return;
     if (!make_face_grid(gear, face_grid_of_table_3(), grid).ok()) return;
     for (std::size_t k = 0; k < centre.size(); ++k) {
-      const FaceGridNode& node = grid[k / kFaceGridColumns][k % kFaceGridColumns];
+      const FaceGridNode& node = grid[k / kGridColumns][k % kGridColumns];
       centre[k] = from_flank(flank, node.point + 0.5 * node.normal);
     }
   }

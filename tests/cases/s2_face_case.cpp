@@ -57,7 +57,7 @@ const char* face_name(Reason reason) {
       return "WRONG_FLANK";
     case Reason::ball_in_metal:
       return "INSIDE";
-    case Reason::no_contact:
+    case Reason::nothing_touched:
       return "NO_CONTACT";
     default:
       return "?";

@@ -4,6 +4,7 @@
 
 #include "comp/evaluation/gear_grade.hpp"
 #include "comp/evaluation/internal_gear_deviations.hpp"
+#include "comp/evaluation/pitch.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 
@@ -16,8 +17,8 @@ json pitch_eval(const json& in) {
   PitchDeviations pitch;
   double sector = 0.0;
   require(evaluate_pitch(position, pitch));
-  require(single_pitch_deviations(position, single));
-  require(sector_pitch_deviation(position, in.at("k").get<std::size_t>(), sector));
+  require(single_pitches(position, single));
+  require(cumulative_pitch(position, in.at("k").get<std::size_t>(), sector));
   return {{"fpt", single}, {"fp", pitch.single}, {"Fp", pitch.total}, {"Fpk", sector}};
 }
 

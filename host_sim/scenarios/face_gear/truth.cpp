@@ -4,8 +4,6 @@
 #include <cmath>
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "comp/units.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/instruments/noise.hpp"
@@ -127,11 +125,7 @@ double value_at(const ErrorMap& map, const GridPlace& place) {
 }  // namespace
 
 TrueMachine make_yk7280_truth(const MachineFile& file, std::uint64_t seed) {
-  std::string letters;
-  for (const AxisFile& axis : file.axes)
-    letters += axis.letter;
-  if (letters != "XYZC")
-    throw UserError(fmt::format("{}: the axes must be X Y Z C, not {}", file.path, letters));
+  file.expect_axes("XYZC");
   Random random(seed);
   TrueMachine machine;
   machine.chain = file.chain;

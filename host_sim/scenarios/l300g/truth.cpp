@@ -59,11 +59,7 @@ MachineChain with_arm(const MachineFile& file, double longer_mm) {
 
 TrueMachine make_l300g_truth(const MachineFile& file, const GrinderErrors& errors,
                              std::uint64_t seed) {
-  std::string letters;
-  for (const AxisFile& axis : file.axes)
-    letters += axis.letter;
-  if (letters != "XYBA")
-    throw UserError(fmt::format("{}: the axes must be X Y B A, not {}", file.path, letters));
+  file.expect_axes("XYBA");
   Random random(seed);
   TrueMachine machine;
   machine.chain = with_arm(file, errors.arm_mm);

@@ -78,11 +78,11 @@ TEST(FacePitch, CumulativePitchIsLookedForAllAround) {
   EXPECT_NEAR(sum, 7.0, 1e-9);
 }
 
-TEST(FacePitch, CumulativePitchEndsAtAnEighthOfTheRound) {
+TEST(FacePitch, CumulativePitchEndsBeforeTheRoundCloses) {
   EXPECT_EQ(largest_pitch_span(86), 10U);
   EXPECT_EQ(largest_pitch_span(5), 1U);
   double sum = 5.0;
-  const Status s = cumulative_pitch(eccentric(), 11, sum, kUm);
+  const Status s = cumulative_pitch(eccentric(), 86, sum, kUm);
   EXPECT_EQ(s.reason, Reason::bad_setting);
   EXPECT_STREQ(s.where.field, "k");
   EXPECT_EQ(cumulative_pitch(eccentric(), 0, sum, kUm).reason, Reason::bad_setting);

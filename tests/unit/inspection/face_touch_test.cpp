@@ -42,7 +42,7 @@ TEST_F(FaceTouchTest, TheGateIsInclusiveOnBothSides) {
   const FaceGridNode& node = grid[4][7];
   EXPECT_EQ(judge(ball(node, 0.3999)).verdict, Reason::ok);
   EXPECT_EQ(judge(ball(node, 0.2001)).verdict, Reason::ok);
-  EXPECT_EQ(judge(ball(node, 0.4001)).verdict, Reason::no_contact);
+  EXPECT_EQ(judge(ball(node, 0.4001)).verdict, Reason::nothing_touched);
   EXPECT_EQ(judge(ball(node, 0.1999)).verdict, Reason::ball_in_metal);
 }
 
@@ -68,7 +68,7 @@ TEST_F(FaceTouchTest, InTheMetal) {
 }
 
 TEST_F(FaceTouchTest, InTheAir) {
-  EXPECT_EQ(judge(from_flank(flank, {172.0, 0.0, 50.0})).verdict, Reason::no_contact);
+  EXPECT_EQ(judge(from_flank(flank, {172.0, 0.0, 50.0})).verdict, Reason::nothing_touched);
 }
 
 TEST_F(FaceTouchTest, BeyondTheTipTheFlankDoesNotCount) {
