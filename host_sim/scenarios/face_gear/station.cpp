@@ -81,9 +81,14 @@ void FaceStation::turn_to(int slot) {
   gear_.turn_table(random_.uniform(-0.5, 0.5) * kScaleStep_rad);
 }
 
+Pose FaceStation::above_tips(Pose at) const {
+  at[2] = pose_at({hall_.gear.r_pitch, 0.0, hall_.gear.z_tip - kAboveTips_mm})[2];
+  return at;
+}
+
 void FaceStation::retract() {
   if (clear_) return;
-  last_[2] += kAboveTips_mm + (believed_.apply({0.0, 0.0, hall_.gear.z_tip}).z() - last_[2]);
+  last_ = above_tips(last_);
   cell_->move_to(last_, kFeeds.rapid);
   clear_ = true;
 }
@@ -91,9 +96,7 @@ void FaceStation::retract() {
 // Over the slot, then down; along the flank where the ball is already there.
 void FaceStation::approach(const FlankName& flank, const Pose& from) {
   if (!clear_) return;
-  Pose above = from;
-  above[2] = pose_at({hall_.gear.r_pitch, 0.0, hall_.gear.z_tip - kAboveTips_mm})[2];
-  cell_->move_to(above, kFeeds.rapid);
+  cell_->move_to(above_tips(from), kFeeds.rapid);
   clear_ = false;
   last_flank_ = flank;
 }

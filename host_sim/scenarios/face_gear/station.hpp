@@ -52,6 +52,7 @@ class FaceStation {
 
  private:
   [[nodiscard]] Pose pose_at(const Vec3& in_gear) const;
+  [[nodiscard]] Pose above_tips(Pose at) const;
   void turn_to(int slot);
   void approach(const FlankName& flank, const Pose& from);
 
