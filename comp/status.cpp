@@ -4,6 +4,14 @@
 
 namespace volcomp {
 
+Status refuse_value(Reason reason, const char* field, double value) {
+  Where where;
+  where.field = field;
+  where.value = value;
+  where.has_value = true;
+  return refuse(reason, where);
+}
+
 const char* loading_sentence(Reason reason) {
   switch (reason) {
     case Reason::ok:

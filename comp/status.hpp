@@ -117,6 +117,9 @@ struct [[nodiscard]] Status {
 
 constexpr Status refuse(Reason reason, Where where = {}) { return {reason, where}; }
 
+// With the offending value of a field.
+Status refuse_value(Reason reason, const char* field, double value);
+
 // Stable machine-readable name, for instance "crc_mismatch".
 [[nodiscard]] const char* code(Reason reason);
 

@@ -26,18 +26,31 @@
 
 namespace volcomp {
 
-// R v
+// a b + c d
+VOLCOMP_SHARED inline double sum_of_products(double a, double b, double c, double d) {
+  return a * b + c * d;
+}
+
+// Of three numbers from `a` on, `step` apart, with v.
+VOLCOMP_SHARED inline double dot_of(const double* a, int step, const Vec3& v) {
+  return a[0] * v[0] + a[step] * v[1] + a[2 * step] * v[2];
+}
+
+// R v; matrices lie in columns
 VOLCOMP_SHARED inline Vec3 turned(const Mat3& R, const Vec3& v) {
-  return {R(0, 0) * v[0] + R(0, 1) * v[1] + R(0, 2) * v[2],
-          R(1, 0) * v[0] + R(1, 1) * v[1] + R(1, 2) * v[2],
-          R(2, 0) * v[0] + R(2, 1) * v[1] + R(2, 2) * v[2]};
+  const double* const a = R.data();
+  return {dot_of(a, 3, v), dot_of(a + 1, 3, v), dot_of(a + 2, 3, v)};
 }
 
 // Rᵀ v
 VOLCOMP_SHARED inline Vec3 turned_back(const Mat3& R, const Vec3& v) {
-  return {R(0, 0) * v[0] + R(1, 0) * v[1] + R(2, 0) * v[2],
-          R(0, 1) * v[0] + R(1, 1) * v[1] + R(2, 1) * v[2],
-          R(0, 2) * v[0] + R(1, 2) * v[1] + R(2, 2) * v[2]};
+  const double* const a = R.data();
+  return {dot_of(a, 1, v), dot_of(a + 3, 1, v), dot_of(a + 6, 1, v)};
+}
+
+// a × b
+VOLCOMP_SHARED inline Vec3 crossed(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 // A B
@@ -57,7 +70,7 @@ VOLCOMP_SHARED inline Vec3 added(const Vec3& v, double s, const Vec3& w) {
 // |v| to 1e-14, 0 below 1e-22, NaN of NaN: a step of Heron's method from the square root of a
 // float.
 VOLCOMP_SHARED inline double length(const Vec3& v) {
-  const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  const double square = dot_of(v.data(), 1, v);
   const auto root = static_cast<double>(std::sqrt(static_cast<float>(square)));
   return root > 0.0 ? 0.5 * (root + square / root) : root;
 }

@@ -101,19 +101,44 @@ inline double root_of_any(double x) {
   return tiny ? root * 0x1p-54 : root;
 }
 
+inline constexpr std::array<double, 12> kArcTerms{-1.0 / 3.0,  1.0 / 5.0,  -1.0 / 7.0,  1.0 / 9.0,
+                                                  -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0, 1.0 / 17.0,
+                                                  -1.0 / 19.0, 1.0 / 21.0, -1.0 / 23.0, 1.0 / 25.0};
+
+VOLCOMP_SHARED inline double four_terms(const double* k, double z, double zz) {
+  return (k[0] + z * k[1]) + zz * (k[2] + z * k[3]);
+}
+
 // arctan t = t − t³/3 + t⁵/5 …, |t| ≤ 0.204: the first term left out is below 2e-17 of the first.
 // Pairs are summed side by side.
 inline double arc_of_small(double t) {
   const double z = t * t;
   const double zz = z * z;
   const double z4 = zz * zz;
-  const double a = (-1.0 / 3.0 + z * (1.0 / 5.0)) + zz * (-1.0 / 7.0 + z * (1.0 / 9.0));
-  const double b = (-1.0 / 11.0 + z * (1.0 / 13.0)) + zz * (-1.0 / 15.0 + z * (1.0 / 17.0));
-  const double c = (-1.0 / 19.0 + z * (1.0 / 21.0)) + zz * (-1.0 / 23.0 + z * (1.0 / 25.0));
+  const double a = four_terms(kArcTerms.data(), z, zz);
+  const double b = four_terms(kArcTerms.data() + 4, z, zz);
+  const double c = four_terms(kArcTerms.data() + 8, z, zz);
   return t * z * (a + z4 * (b + z4 * c));  // without the leading t
 }
 
+// What an angle is turned back by.
+struct ArcTurn {
+  double tangent;
+  double angle;       // rounded,
+  double rest;        // and what is lost by that
+  double complement;  // π/2 − angle, likewise
+  double complement_rest;
+};
+inline constexpr ArcTurn kArcNone{0.0, 0.0, 0.0, 0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+inline constexpr ArcTurn kArcMiddle{0.40625, 0x1.8b24d394a1b25p-2, 0x1.b6d0ba3748fa8p-56,
+                                    0x1.2f56805f1a64fp+0, -0x1.4d472d7231f8dp-56};
+inline constexpr ArcTurn kArcEighth{1.0, 0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55,
+                                    0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55};
+
 }  // namespace detail
+
+// √x of x in 1e-30…1e30, as fine_root() has it, which a processor without double need not carry.
+inline double usual_root(double x) { return detail::root_of_usual(x); }
 
 // √x, at most one unit in the last place off; 0 of 0, infinity of infinity, NaN of anything else
 // that is not positive. Interrupt-safe.
@@ -127,25 +152,15 @@ inline double fine_root(double x) {
 // and not both below 1e-290. The smaller over the larger coordinate is turned back by 0, atan 13/32
 // or 45°, whichever is nearest; what is left goes into the series. Interrupt-safe.
 inline double fine_arc_tangent(double y, double x) {
-  struct Turn {
-    double tangent;
-    double angle;       // rounded,
-    double rest;        // and what is lost by that
-    double complement;  // π/2 − angle, likewise
-    double complement_rest;
-  };
-  constexpr Turn kNone{0.0, 0.0, 0.0, 0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
-  constexpr Turn kMiddle{0.40625, 0x1.8b24d394a1b25p-2, 0x1.b6d0ba3748fa8p-56, 0x1.2f56805f1a64fp+0,
-                         -0x1.4d472d7231f8dp-56};
-  constexpr Turn kEighth{1.0, 0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55, 0x1.921fb54442d18p-1,
-                         0x1.1a62633145c07p-55};
   const double ax = x < 0.0 ? -x : x;
   const double ay = y < 0.0 ? -y : y;
   const bool steep = ay > ax;
   const double low = steep ? ax : ay;
   const double high = steep ? ay : ax;
   if (!(high > 0.0)) return x + y;  // 0, or NaN
-  const Turn& turn = low < 0.195 * high ? kNone : (low < 0.664 * high ? kMiddle : kEighth);
+  const detail::ArcTurn& turn = low < 0.195 * high   ? detail::kArcNone
+                                : low < 0.664 * high ? detail::kArcMiddle
+                                                     : detail::kArcEighth;
   const double t = (low - turn.tangent * high) / (high + turn.tangent * low);
   const double rest = detail::arc_of_small(t);
   const double angle = steep ? turn.complement - (t + (rest - turn.complement_rest))

@@ -24,9 +24,7 @@ bool is_rotation(const Mat3& R) {
     const Vec3 defect = added(turned_back(R, R.col(k)), -1.0, Vec3::Unit(k));
     if (!(length(defect) <= kOrthonormal)) return false;
   }
-  const Vec3 x = R.col(0);
-  const Vec3 y = R.col(1);
-  return x.cross(y).dot(R.col(2)) > 0.0;
+  return dot_of(R.data() + 6, 1, crossed(R.col(0), R.col(1))) > 0.0;
 }
 
 Mat3 axis_rotation(Axis axis, double angle) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
+#include "comp/geometry/double3.hpp"
 
 namespace volcomp {
 
@@ -18,7 +18,7 @@ Vec3 jacobian_column(const MachineChain& chain, const Pose& q, const Vec3& tool_
       if (body != wanted) continue;
       const Vec3 direction = frame.R.col(static_cast<Eigen::Index>(joint.axis));
       const Vec3 column =
-          joint.kind == JointKind::prismatic ? direction : direction.cross(tip - frame.t);
+          joint.kind == JointKind::prismatic ? direction : crossed(direction, tip - frame.t);
       return branch_sign(joint.branch) * joint.sign * column;
     }
   }
@@ -37,7 +37,7 @@ struct Columns {
 // the normal of the plane of two, least squares are the exact solution's first two coordinates.
 double complete(Columns& columns, std::size_t n) {
   if (n < 2) return n == 0 ? 0.0 : 1.0;
-  const Vec3 normal = columns.unit[0].cross(columns.unit[1]);
+  const Vec3 normal = crossed(columns.unit[0], columns.unit[1]);
   if (n == 3) return std::abs(normal.dot(columns.unit[2]));
   const double sine = length(normal);
   columns.unit[2] = sine > 0.0 ? Vec3(normal / sine) : normal;
@@ -48,10 +48,10 @@ double complete(Columns& columns, std::size_t n) {
 std::array<double, 3> coordinates(const Columns& columns, std::size_t n, const Vec3& v) {
   const auto& [a, b, c] = columns.unit;
   if (n == 1) return {v.dot(a), 0.0, 0.0};
-  const Vec3 bc = b.cross(c);
+  const Vec3 bc = crossed(b, c);
   const double determinant = a.dot(bc);
-  return {v.dot(bc) / determinant, v.dot(c.cross(a)) / determinant,
-          v.dot(a.cross(b)) / determinant};
+  return {v.dot(bc) / determinant, v.dot(crossed(c, a)) / determinant,
+          v.dot(crossed(a, b)) / determinant};
 }
 
 }  // namespace

@@ -1,14 +1,16 @@
 #pragma once
 // The tick is one straight run of instructions: its small functions are inlined whatever the
-// optimiser thinks, its bounded loops unrolled.
+// optimiser thinks, its bounded loops unrolled, but for those of VOLCOMP_LOOP.
 
 #define VOLCOMP_INLINE [[gnu::always_inline]] inline
 #define VOLCOMP_INLINE_LAMBDA __attribute__((always_inline))
 
 #if defined(__clang__)
 #define VOLCOMP_UNROLL _Pragma("unroll")
+#define VOLCOMP_LOOP _Pragma("nounroll")
 #else
 #define VOLCOMP_UNROLL _Pragma("GCC unroll 8")
+#define VOLCOMP_LOOP _Pragma("GCC unroll 1")
 #endif
 
 // The condition of an exception: its branch is moved out of the straight run.

@@ -108,13 +108,20 @@ VOLCOMP_INLINE void set_motion_column(const RuntimeStep& step, const Float3& p, 
   }
 }
 
-// Calls visit(column) for `count` carried columns from `first` on.
+// Calls visit(column) for `count` carried columns from `first` on. Of a loaded machine, which does
+// not know them before, the columns share one piece of code.
 template <class Visit>
 VOLCOMP_INLINE void for_columns(Columns& column, std::size_t first, std::size_t count,
                                 const Visit& visit) {
-  VOLCOMP_UNROLL
-  for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
-    if (c >= first && c < first + count) visit(column[c]);
+  if (__builtin_constant_p(first) && __builtin_constant_p(count)) {
+    VOLCOMP_UNROLL
+    for (std::size_t c = 0; c < kMaxCorrecting; ++c) {
+      if (c >= first && c < first + count) visit(column[c]);
+    }
+  } else {
+    VOLCOMP_LOOP
+    for (std::size_t c = first; c < first + count; ++c)
+      visit(column[c]);
   }
 }
 

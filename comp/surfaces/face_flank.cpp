@@ -5,10 +5,6 @@
 namespace volcomp {
 namespace {
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 Vec3 sum(const Vec3& a, const Vec3& b) { return added(a, 1.0, b); }
 
 }  // namespace
@@ -89,9 +85,9 @@ ReliefTangents relief_tangents(const FaceGear& gear, const FaceTriad& triad,
                         -cut.change * t * r * s - cut.slope * r * c);
   const Vec3 beta_beta(u * (tangent * tangent + 1.0 / (c * c)) + i * z - cut_arm_beta,
                        (t * tangent - z) / c + cut_beta, cut.slope * z - cut.change * t * t);
-  out.theta_theta = sum(theta_theta, cross(turn_theta, out.theta));
-  out.theta_beta = sum(theta_beta, cross(turn_beta, out.theta));
-  out.beta_beta = sum(beta_beta, cross(turn_beta, out.beta));
+  out.theta_theta = sum(theta_theta, crossed(turn_theta, out.theta));
+  out.theta_beta = sum(theta_beta, crossed(turn_beta, out.theta));
+  out.beta_beta = sum(beta_beta, crossed(turn_beta, out.beta));
   return out;
 }
 
@@ -99,7 +95,7 @@ FacePoint relieved_face_point(const FaceGear& gear, const FaceFlank& flank,
                               const FaceParameters& at) {
   const FaceTriad triad(gear, at);
   const ReliefTangents tangents = relief_tangents(gear, triad, at);
-  const Vec3 inward = cross(tangents.theta, tangents.beta);
+  const Vec3 inward = crossed(tangents.theta, tangents.beta);
   const Vec3 normal = added(Vec3::Zero(), -1.0 / length(inward), inward);
   return {from_flank(flank, triad.to_gear(tangents.point)),
           from_flank(flank, triad.to_gear(normal))};

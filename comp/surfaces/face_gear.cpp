@@ -1,5 +1,6 @@
 #include "comp/surfaces/face_gear.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "comp/geometry/fine_trig.hpp"
@@ -13,27 +14,35 @@ constexpr double kDegree = kPi / 180.0;
 constexpr int kHalvings = 60;
 
 Status refuse_field(const char* field, double value) {
-  Where where;
-  where.field = field;
-  where.value = value;
-  where.has_value = true;
-  return refuse(Reason::bad_gear, where);
+  return refuse_value(Reason::bad_gear, field, value);
 }
 
 // NaN is never within.
-bool within(double value, double low, double high) { return value >= low && value <= high; }
+VOLCOMP_SHARED bool within(double value, double low, double high) {
+  return value >= low && value <= high;
+}
+
+struct Field {
+  const char* name;
+  double FaceGear::*value;
+  double low;
+  double high;
+};
+constexpr std::array<Field, 4> kFields{
+    {{"module", &FaceGear::module, 0.01, 100.0},
+     {"pressure_angle", &FaceGear::pressure_angle, 10.0 * kDegree, 35.0 * kDegree},
+     {"addendum", &FaceGear::addendum, 0.01, 2.0},
+     {"shaper_addendum", &FaceGear::shaper_addendum, 0.01, 2.0}}};
 
 // What the other fields are computed from.
 Status check_given(const FaceGear& g) {
   if (g.shaper_teeth < 5) return refuse_field("shaper_teeth", g.shaper_teeth);
   if (g.teeth <= g.shaper_teeth || g.teeth > kMaxFaceGearTeeth)
     return refuse_field("teeth", g.teeth);
-  if (!within(g.module, 0.01, 100.0)) return refuse_field("module", g.module);
-  if (!within(g.pressure_angle, 10.0 * kDegree, 35.0 * kDegree))
-    return refuse_field("pressure_angle", g.pressure_angle);
-  if (!within(g.addendum, 0.01, 2.0)) return refuse_field("addendum", g.addendum);
-  if (!within(g.shaper_addendum, 0.01, 2.0))
-    return refuse_field("shaper_addendum", g.shaper_addendum);
+  for (const Field& field : kFields) {
+    const double value = g.*field.value;
+    if (!within(value, field.low, field.high)) return refuse_field(field.name, value);
+  }
   const TipRelief& relief = g.relief;
   if (!within(relief.amount, 0.0, 0.2 * g.module))
     return refuse_field("relief.amount", relief.amount);
@@ -54,7 +63,7 @@ void set_constants(FaceGear& g) {
   const double involute = alpha.sine / alpha.cosine - g.pressure_angle;
   g.theta0 = kPi / (2.0 * g.shaper_teeth) + involute;
   const double tip = (g.r_ps + g.shaper_addendum * g.module) / g.r_bs;
-  g.theta_tip = fine_root((tip - 1.0) * (tip + 1.0));
+  g.theta_tip = usual_root((tip - 1.0) * (tip + 1.0));
   g.z_tip = g.r_ps - g.addendum * g.module;
 }
 
@@ -70,7 +79,7 @@ void find_undercut(FaceGear& g) {
   const FineSineCosine beta = fine_sine_cosine_rad(g.undercut_beta);
   const double u = g.arm / beta.cosine;
   const double t = g.r_bs * (g.theta_tip * beta.cosine - beta.sine);
-  g.undercut_radius = fine_root(u * u + t * t);
+  g.undercut_radius = usual_root(u * u + t * t);
 }
 
 // Where a slot is as wide as a pitch at the tips. Slots get wider outwards.
@@ -103,7 +112,7 @@ Status derive(FaceGear& gear) {
 double undercut_roll(const FaceGear& gear, double beta) {
   const FineSineCosine at = fine_sine_cosine_rad(beta);
   const double q = 2.0 / (gear.ratio * at.cosine);
-  return 0.5 * (at.sine / at.cosine) * (1.0 + fine_root(1.0 + q * q));
+  return 0.5 * (at.sine / at.cosine) * (1.0 + usual_root(1.0 + q * q));
 }
 
 double half_slot_angle(const FaceGear& gear, double rho, double z) {

@@ -19,7 +19,7 @@ struct Newton {
 // (w² − ρ²)(w² − 1) + (z − i w)² = 0. ρ/C is at or beyond its largest root, the one wanted, and
 // from there the steps fall towards it.
 Newton largest_root(double ratio, double square, double z) {
-  double w = fine_root(square);
+  double w = usual_root(square);
   for (int step = 1; step <= kMaxFaceSteps; ++step) {
     const double w2 = w * w;
     const double d = z - ratio * w;
@@ -52,22 +52,26 @@ Reason verdict_on(const FaceGear& gear, const FaceSection& at, double theta, dou
   return Reason::ok;
 }
 
+bool finite(const Vec3& q) {
+  const double sum = q[0] + q[1] + q[2];
+  return sum - sum <= 0.0;
+}
+
 // A point in the frame of its flank.
 struct Place {
   Place(const FaceFlank& flank, const Vec3& q)
-      : p(to_flank(flank, q)), rho_squared(q[0] * q[0] + q[1] * q[1]) {}
+      : p(to_flank(flank, q)), rho_squared(sum_of_products(q[0], q[0], q[1], q[1])) {}
   Vec3 p;
   double rho_squared;
 };
 
-FaceFoot foot_in(const FaceGear& gear, const FaceFlank& flank, const FaceSection& at,
-                 const Place& place) {
+void set_foot(const FaceGear& gear, const FaceFlank& flank, const FaceSection& at,
+              const Place& place, FaceFoot& foot) {
   const Vec3& p = place.p;
   // The gear turn that brings the section to the point is the one its foot was cut at.
   const double u = gear.arm * at.inverse_cosine;
-  const double along = u * p[0] + at.t * p[1];
-  const double across = at.t * p[0] - u * p[1];
-  FaceFoot foot;
+  const double along = sum_of_products(u, p[0], at.t, p[1]);
+  const double across = sum_of_products(at.t, p[0], -u, p[1]);
   foot.steps = at.steps;
   foot.distance = gear.arm * (fine_arc_tangent(across, along) - at.slot_turn);
   foot.beta = at.beta;
@@ -79,20 +83,15 @@ FaceFoot foot_in(const FaceGear& gear, const FaceFlank& flank, const FaceSection
   foot.point = from_flank(flank, point);
   foot.normal = from_flank(flank, normal);
   foot.reason = verdict_on(gear, at, foot.theta, point[2]);
-  return foot;
 }
 
 }  // namespace
 
+FaceFoot::FaceFoot() = default;
+
 Status choose_flank(const FaceGear& gear, int side, int slot, FaceFlank& out) {
-  Where where;
-  where.has_value = true;
-  where.field = "side";
-  where.value = side;
-  if (side != 1 && side != -1) return refuse(Reason::bad_point, where);
-  where.field = "slot";
-  where.value = slot;
-  if (slot < 0 || slot >= gear.teeth) return refuse(Reason::bad_point, where);
+  if (side != 1 && side != -1) return refuse_value(Reason::bad_point, "side", side);
+  if (slot < 0 || slot >= gear.teeth) return refuse_value(Reason::bad_point, "slot", slot);
   const double turns = static_cast<double>(slot) / gear.teeth;
   const FineSineCosine at = fine_sine_cosine(turns * static_cast<double>(kUnitsPerTurn));
   out = {static_cast<double>(side), at.cosine, at.sine};
@@ -107,7 +106,7 @@ Reason cut_flank(const FaceGear& gear, double rho_squared, double z, FaceSection
   const Newton root = largest_root(gear.ratio, square, z * scale);
   if (!root.settled) return Reason::no_regular_flank;
   const double w = root.w;
-  const double tangent = fine_root((w - 1.0) * (w + 1.0));
+  const double tangent = usual_root((w - 1.0) * (w + 1.0));
   out.inverse_cosine = w;
   out.tangent = tangent;
   out.beta = fine_arc_tangent(tangent, 1.0);
@@ -121,23 +120,23 @@ Reason cut_flank(const FaceGear& gear, double rho_squared, double z, FaceSection
 FaceFoot distance_from_face(const FaceGear& gear, const FaceFlank& flank, const Vec3& q) {
   const Place place(flank, q);
   FaceFoot foot;
-  if (!q.allFinite()) return foot;
+  if (!finite(q)) return foot;
   FaceSection at;
   foot.reason = cut_flank(gear, place.rho_squared, q[2], at);
-  return foot.reason == Reason::ok ? foot_in(gear, flank, at, place) : foot;
+  if (foot.reason == Reason::ok) set_foot(gear, flank, at, place, foot);
+  return foot;
 }
 
 FaceFeet distances_in_slot(const FaceGear& gear, const FaceFlank& flank, const Vec3& q) {
-  const Place place(flank, q);
+  Place place(flank, q);
   FaceFeet feet;
-  if (!q.allFinite()) return feet;
+  if (!finite(q)) return feet;
   FaceSection at;
-  feet.here.reason = cut_flank(gear, place.rho_squared, q[2], at);
-  feet.opposite.reason = feet.here.reason;
+  feet.here.reason = feet.opposite.reason = cut_flank(gear, place.rho_squared, q[2], at);
   if (feet.here.reason != Reason::ok) return feet;
-  const FaceFlank opposite{-flank.side, flank.cosine, flank.sine};
-  feet.here = foot_in(gear, flank, at, place);
-  feet.opposite = foot_in(gear, opposite, at, Place(opposite, q));
+  set_foot(gear, flank, at, place, feet.here);
+  place.p[1] = -place.p[1];  // the mirror image
+  set_foot(gear, {-flank.side, flank.cosine, flank.sine}, at, place, feet.opposite);
   return feet;
 }
 

@@ -8,6 +8,7 @@
 
 #include <limits>
 
+#include "comp/geometry/double3.hpp"
 #include "comp/geometry/error_motion.hpp"
 #include "comp/status.hpp"
 #include "comp/surfaces/face_gear.hpp"
@@ -23,12 +24,13 @@ struct FaceFlank {
 
 // Between the gear frame and that of the flank, where it is the one at y > 0 of slot 0.
 [[nodiscard]] inline Vec3 to_flank(const FaceFlank& flank, const Vec3& v) {
-  return {flank.cosine * v[0] + flank.sine * v[1],
-          flank.side * (flank.cosine * v[1] - flank.sine * v[0]), v[2]};
+  return {sum_of_products(flank.cosine, v[0], flank.sine, v[1]),
+          flank.side * sum_of_products(flank.cosine, v[1], -flank.sine, v[0]), v[2]};
 }
 [[nodiscard]] inline Vec3 from_flank(const FaceFlank& flank, const Vec3& v) {
   const double y = flank.side * v[1];
-  return {flank.cosine * v[0] - flank.sine * y, flank.sine * v[0] + flank.cosine * y, v[2]};
+  return {sum_of_products(flank.cosine, v[0], -flank.sine, y),
+          sum_of_products(flank.sine, v[0], flank.cosine, y), v[2]};
 }
 
 // `side` ±1, `slot` 0…teeth − 1: as commanded, for near the tip the nearest slot is not always the
@@ -56,6 +58,8 @@ inline constexpr int kMaxFaceSteps = 12;
 
 // The foot of the perpendicular from a point to a flank, in the gear frame.
 struct FaceFoot {
+  FaceFoot();
+
   Reason reason = Reason::not_finite;
   int steps = 0;                                               // of Newton's method
   double distance = std::numeric_limits<double>::quiet_NaN();  // λ, > 0 on the free side, mm

@@ -7,16 +7,16 @@ namespace {
 
 Reason verdict_on(const FaceTouch& touch, const FaceProbing& probing) {
   const double r = probing.ball_radius;
-  const auto touched = [&](double distance) {
-    return distance >= r - probing.gate && distance <= r + probing.gate;
-  };
-  const bool here = touched(touch.distance);
-  const bool there = touched(touch.other);
+  const double nearest = r - probing.gate;
+  const double farthest = r + probing.gate;
+  const bool near_here = touch.distance < nearest;
+  const bool near_there = touch.other < nearest;
+  const bool here = !near_here && touch.distance <= farthest;
+  const bool there = !near_there && touch.other <= farthest;
   if (here && there) return Reason::two_flanks;
   if (here && touch.foot.reason == Reason::ok) return Reason::ok;
   if (there) return Reason::opposite_flank;
-  if (touch.distance < r - probing.gate || touch.other < r - probing.gate)
-    return Reason::ball_in_metal;
+  if (near_here || near_there) return Reason::ball_in_metal;
   return here ? Reason::bad_point : Reason::nothing_touched;
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "firmware/canopen/object_dictionary.hpp"
+#include "firmware/canopen/named_entry.hpp"
 
 namespace volcomp::canopen {
 
@@ -53,7 +53,7 @@ enum class ErrorBehaviour : std::uint8_t { to_pre_operational = 0, no_change = 1
 #define VOLCOMP_AT(member) static_cast<std::uint16_t>(offsetof(CommunicationObjects, member))
 
 // For a struct of values that begins with its CommunicationObjects.
-inline constexpr std::array<Entry, 23> kCommunicationEntries{{
+inline constexpr std::array<NamedEntry, 23> kCommunicationEntries{{
     {0x1000, 0, 0, DataType::unsigned32, Access::constant, kPlain, VOLCOMP_AT(device_type), 0,
      "Device type"},
     {0x1001, 0, 0, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(error_register), 0,
@@ -106,12 +106,12 @@ inline constexpr std::array<Entry, 23> kCommunicationEntries{{
 
 // A table made of the communication entries and an application's own, in the order of a dictionary.
 template <std::size_t Own>
-constexpr std::array<Entry, kCommunicationEntries.size() + Own> with_communication(
-    const std::array<Entry, Own>& own) {
-  std::array<Entry, kCommunicationEntries.size() + Own> all{};
+constexpr std::array<NamedEntry, kCommunicationEntries.size() + Own> with_communication(
+    const std::array<NamedEntry, Own>& own) {
+  std::array<NamedEntry, kCommunicationEntries.size() + Own> all{};
   std::size_t mine = 0;
   std::size_t common = 0;
-  for (Entry& entry : all) {
+  for (NamedEntry& entry : all) {
     const bool take_mine = common == kCommunicationEntries.size() ||
                            (mine < Own && own[mine].index < kCommunicationEntries[common].index);
     entry = take_mine ? own[mine] : kCommunicationEntries[common];

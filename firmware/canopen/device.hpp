@@ -70,7 +70,7 @@ class Application {
 class Device final : private ObjectAccess {
  public:
   struct Parts {
-    Span<const Entry> dictionary;
+    Dictionary dictionary;
     CommunicationObjects* values = nullptr;  // first member of the struct the dictionary describes
     Span<Pdo> receive;
     Span<Pdo> transmit;

@@ -50,7 +50,7 @@ AbortCode Device::begin_download(ObjectId object, std::size_t announced, Span<st
     if (found.entry == nullptr || !found.entry->writable()) return AbortCode::read_only;
     if (found.entry->type == DataType::domain)
       return application_.begin_domain(object, announced, sink);
-    most = found.entry->type == DataType::visible_string ? found.entry->capacity
+    most = found.entry->type == DataType::visible_string ? found.entry->extra
                                                          : size_of(found.entry->type);
   }
   sink = {scratch_.data(), std::min(most, scratch_.size())};
@@ -87,7 +87,7 @@ AbortCode Device::store(ObjectId object, Span<const std::uint8_t> bytes) {
   const ObjectDictionary::Found found = objects_.find(object);
   if (found.why != AbortCode::none) return found.why;
   if (found.entry == nullptr) return AbortCode::read_only;
-  AbortCode why = ObjectDictionary::check(*found.entry, bytes);
+  AbortCode why = objects_.check(*found.entry, bytes);
   if (why == AbortCode::none) why = check_communication(object, bytes);
   if (why == AbortCode::none) why = application_.before_write(object, *found.entry, bytes);
   if (why != AbortCode::none) return why;

@@ -8,19 +8,8 @@
 namespace volcomp::canopen {
 namespace {
 
-AbortCode check_range(const Entry& entry, Span<const std::uint8_t> bytes) {
-  if (!entry.limited()) return AbortCode::none;
-  // Unsigned values beyond int64 are too high for every range that can be written here.
-  const std::int64_t value = is_signed(entry.type)
-                                 ? load_le_signed(bytes.data(), bytes.size())
-                                 : static_cast<std::int64_t>(std::min<std::uint64_t>(
-                                       load_le(bytes.data(), bytes.size()), INT64_MAX));
-  if (value > entry.high) return AbortCode::value_too_high;
-  return value < entry.low ? AbortCode::value_too_low : AbortCode::none;
-}
-
 std::size_t stride(const Entry& entry) {
-  return entry.type == DataType::visible_string ? entry.capacity : size_of(entry.type);
+  return entry.type == DataType::visible_string ? entry.extra : size_of(entry.type);
 }
 
 }  // namespace
@@ -46,15 +35,27 @@ ObjectDictionary::Found ObjectDictionary::find(ObjectId object) const {
 
 std::size_t ObjectDictionary::size(const Entry& entry, const std::uint8_t* value) {
   if (entry.type != DataType::visible_string) return size_of(entry.type);
-  const void* const end = std::memchr(value, 0, entry.capacity);
-  if (end == nullptr) return entry.capacity;
+  const void* const end = std::memchr(value, 0, entry.extra);
+  if (end == nullptr) return entry.extra;
   return static_cast<std::size_t>(static_cast<const std::uint8_t*>(end) - value);
 }
 
-AbortCode ObjectDictionary::check(const Entry& entry, Span<const std::uint8_t> bytes) {
+AbortCode ObjectDictionary::check_range(const Entry& entry, Span<const std::uint8_t> bytes) const {
+  if (entry.extra == 0) return AbortCode::none;
+  const Range& range = ranges_[entry.extra - 1U];
+  // Unsigned values beyond int64 are too high for every range that can be written here.
+  const std::int64_t value = is_signed(entry.type)
+                                 ? load_le_signed(bytes.data(), bytes.size())
+                                 : static_cast<std::int64_t>(std::min<std::uint64_t>(
+                                       load_le(bytes.data(), bytes.size()), INT64_MAX));
+  if (value > range.high) return AbortCode::value_too_high;
+  return value < range.low ? AbortCode::value_too_low : AbortCode::none;
+}
+
+AbortCode ObjectDictionary::check(const Entry& entry, Span<const std::uint8_t> bytes) const {
   if (!entry.writable()) return AbortCode::read_only;
   if (entry.type == DataType::visible_string) {
-    return bytes.size() > entry.capacity ? AbortCode::too_long : AbortCode::none;
+    return bytes.size() > entry.extra ? AbortCode::too_long : AbortCode::none;
   }
   const std::size_t wanted = size_of(entry.type);
   if (bytes.size() > wanted) return AbortCode::too_long;
@@ -66,7 +67,7 @@ void ObjectDictionary::assign(const Entry& entry, std::uint8_t* value,
                               Span<const std::uint8_t> bytes) {
   if (!bytes.empty()) std::memcpy(value, bytes.data(), bytes.size());
   if (entry.type != DataType::visible_string) return;
-  std::memset(value + bytes.size(), 0, entry.capacity - bytes.size());
+  std::memset(value + bytes.size(), 0, entry.extra - bytes.size());
 }
 
 }  // namespace volcomp::canopen

@@ -15,7 +15,7 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
               "values are copied to the bus as they lie");
 
 // CiA 301, table 44.
-enum class DataType : std::uint16_t {
+enum class DataType : std::uint8_t {
   boolean = 0x01,
   integer8 = 0x02,
   integer16 = 0x03,
@@ -71,6 +71,14 @@ enum Trait : std::uint8_t {
   kStored = 1U << 2U,    // saved by 1010h
 };
 
+// Inclusive, of a writable integer; low > high: the whole type.
+struct Range {
+  std::int64_t low = 0;
+  std::int64_t high = -1;
+
+  [[nodiscard]] constexpr bool limited() const { return low <= high; }
+};
+
 // One row: a value, or the elements first_sub…last_sub of an array that follow each other in
 // memory. Sub-index 0 of an index whose rows start at 1 needs no row: it is the highest sub-index.
 struct Entry {
@@ -80,25 +88,29 @@ struct Entry {
   DataType type = DataType::unsigned8;
   Access access = Access::read_only;
   std::uint8_t traits = kPlain;
-  std::uint16_t offset = 0;    // of the first element in the struct of values
-  std::uint16_t capacity = 0;  // bytes of a visible string
-  const char* name = "";
-  std::int64_t low = 0;  // inclusive range of a writable integer; low > high: the whole type
-  std::int64_t high = -1;
+  std::uint8_t extra = 0;    // bytes of a visible string, or number of the range, from 1; 0: whole
+  std::uint16_t offset = 0;  // of the first element in the struct of values
 
   [[nodiscard]] constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
-  [[nodiscard]] constexpr bool limited() const { return low <= high; }
   [[nodiscard]] constexpr bool readable() const { return access != Access::write_only; }
   [[nodiscard]] constexpr bool writable() const {
     return access == Access::write_only || access == Access::read_write;
   }
 };
 
+// What DictionaryOf makes. Rows sorted by index and sub-index.
+struct Dictionary {
+  Span<const Entry> rows;
+  const Range* ranges = nullptr;
+};
+
 class ObjectDictionary {
  public:
-  // `rows` sorted by index and sub-index, offsets into the object that `values` points at.
-  ObjectDictionary(Span<const Entry> rows, void* values)
-      : rows_(rows), values_(static_cast<std::uint8_t*>(values)) {}
+  // Offsets of the rows go into the object that `values` points at.
+  ObjectDictionary(const Dictionary& dictionary, void* values)
+      : rows_(dictionary.rows),
+        ranges_(dictionary.ranges),
+        values_(static_cast<std::uint8_t*>(values)) {}
 
   struct Found {
     const Entry* entry = nullptr;   // nullptr with AbortCode none: sub-index 0 of an array
@@ -114,7 +126,7 @@ class ObjectDictionary {
 
   // Whether these bytes may become the value. Refuses read_only, too_long, too_short,
   // value_too_high, value_too_low.
-  [[nodiscard]] static AbortCode check(const Entry& entry, Span<const std::uint8_t> bytes);
+  [[nodiscard]] AbortCode check(const Entry& entry, Span<const std::uint8_t> bytes) const;
 
   // Copies bytes that passed check(); a string is filled up with zeros.
   static void assign(const Entry& entry, std::uint8_t* value, Span<const std::uint8_t> bytes);
@@ -122,7 +134,10 @@ class ObjectDictionary {
   [[nodiscard]] Span<const Entry> rows() const { return rows_; }
 
  private:
+  [[nodiscard]] AbortCode check_range(const Entry& entry, Span<const std::uint8_t> bytes) const;
+
   Span<const Entry> rows_;
+  const Range* ranges_;
   std::uint8_t* values_;
 };
 

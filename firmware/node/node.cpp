@@ -1,5 +1,7 @@
 #include "firmware/node/node.hpp"
 
+#include <algorithm>
+
 #include "firmware/canopen/bytes.hpp"
 
 namespace volcomp::node {
@@ -15,6 +17,7 @@ constexpr std::uint64_t kScrubPeriod_us = 10'000'000;
 constexpr canopen::ObjectId kImage{0x2110, 1};
 constexpr canopen::ObjectId kProbe{0x2300, 1};
 constexpr canopen::ObjectId kFeature{0x2310, 1};
+constexpr canopen::ObjectId kGear{0x2311, 1};
 
 // What the cycle relies on may change only while there is no cycle.
 bool is_setting(std::uint16_t index) {
@@ -186,9 +189,11 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
   const bool starts = object.index == 0x2206 && object.sub != 0;
   if (starts && gate_[object.sub - 1U].open()) return AbortCode::device_state;
   if (object == kProbe) return switch_probe(static_cast<ProbeCommand>(bytes[0]));
-  if (object == kFeature) {
-    const auto index = static_cast<std::uint32_t>(canopen::load_le(bytes.data(), 4));
-    return probe_.take_feature(index).ok() ? AbortCode::none : AbortCode::invalid_value;
+  const auto number = static_cast<std::uint32_t>(
+      canopen::load_le(bytes.data(), std::min(bytes.size(), sizeof(std::uint32_t))));
+  if (object == kFeature || object == kGear) {
+    const Reason why = object == kGear ? probe_.load_gear(number) : probe_.take_feature(number);
+    return why == Reason::ok ? AbortCode::none : AbortCode::invalid_value;
   }
   switch (object.index) {
     case 0x1010:
@@ -198,7 +203,7 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
     case 0x2111:
       return run_table_command(static_cast<TableCommand>(bytes[0]));
     case 0x2411:
-      return release_point(static_cast<std::uint32_t>(canopen::load_le(bytes.data(), 4)));
+      return release_point(number);
     default:
       return AbortCode::none;
   }

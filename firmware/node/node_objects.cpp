@@ -10,11 +10,11 @@ namespace {
 
 using canopen::Access;
 using canopen::DataType;
-using canopen::Entry;
 using canopen::kPlain;
 using canopen::kReceive;
 using canopen::kStored;
 using canopen::kTransmit;
+using canopen::NamedEntry;
 
 #define VOLCOMP_AT(member) static_cast<std::uint16_t>(offsetof(NodeObjects, member))
 
@@ -23,7 +23,7 @@ constexpr std::uint16_t at_began(std::size_t axis) {
                                     axis * sizeof(std::array<std::uint16_t, kStatusBits>));
 }
 
-constexpr std::array<Entry, 93> kOwn{{
+constexpr std::array<NamedEntry, 110> kOwn{{
     {0x1010, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(store), 0,
      "Save all parameters"},
     {0x1011, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(restore), 0,
@@ -142,6 +142,32 @@ constexpr std::array<Entry, 93> kOwn{{
      "Feature to be touched next; takes its normal over"},
     {0x2310, 2, 4, DataType::real64, Access::read_write, kPlain, VOLCOMP_AT(probe.normal), 0,
      "Normal out of the part, or 0"},
+    {0x2310, 5, 5, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(probe.flank_reason),
+     0, "Reason of the last refusal of the flank"},
+    {0x2310, 6, 6, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(probe.flank_field), 0,
+     "Sub-index of 2313h it was refused for"},
+    {0x2311, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(probe.gear), 0,
+     "Face gear in force; takes its numbers over; 0: none"},
+    {0x2311, 2, 2, DataType::unsigned8, Access::read_only, kPlain, VOLCOMP_AT(probe.gear_reason), 0,
+     "Reason of the last refusal of the gear"},
+    {0x2311, 3, 3, DataType::visible_string, Access::read_only, kPlain,
+     VOLCOMP_AT(probe.gear_field), 16, "Number the gear was refused for"},
+    {0x2312, 1, 11, DataType::real64, Access::read_write, kPlain, VOLCOMP_AT(probe.gear_number), 0,
+     "Face gear: teeth, mm, rad, modules"},
+    {0x2313, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(probe.flank.gear),
+     0, "Gear of the flank to be touched; 0: no flank"},
+    {0x2313, 2, 2, DataType::integer8, Access::read_write, kPlain, VOLCOMP_AT(probe.flank.side), 0,
+     "Side of the slot, 1 or -1"},
+    {0x2313, 3, 3, DataType::unsigned16, Access::read_write, kPlain, VOLCOMP_AT(probe.flank.slot),
+     0, "Slot, from 0"},
+    {0x2313, 4, 4, DataType::unsigned8, Access::read_write, kPlain, VOLCOMP_AT(probe.flank.row), 0,
+     "Row of the measuring grid, from 0"},
+    {0x2313, 5, 5, DataType::unsigned8, Access::read_write, kPlain, VOLCOMP_AT(probe.flank.column),
+     0, "Column of the measuring grid, from 0"},
+    {0x2313, 6, 6, DataType::unsigned32, Access::read_write, kPlain,
+     VOLCOMP_AT(probe.flank.radius_nm), 0, "Radius of the ball, nm"},
+    {0x2313, 7, 7, DataType::unsigned32, Access::read_write, kPlain,
+     VOLCOMP_AT(probe.flank.gate_nm), 0, "Touched within this distance of the flank, nm"},
     {0x2400, 1, 1, DataType::unsigned16, Access::read_only, kTransmit, VOLCOMP_AT(probe.waiting), 0,
      "Points that wait"},
     {0x2400, 2, 2, DataType::unsigned32, Access::read_only, kTransmit, VOLCOMP_AT(probe.lost), 0,
@@ -164,6 +190,14 @@ constexpr std::array<Entry, 93> kOwn{{
      VOLCOMP_AT(probe.uncertainty_nm), 0, "Latest point: largest standard uncertainty, nm"},
     {0x2401, 9, 11, DataType::integer64, Access::read_only, kPlain, VOLCOMP_AT(probe.machine_nm), 0,
      "Latest point: machine coordinate, nm"},
+    {0x2401, 12, 12, DataType::integer32, Access::read_only, kTransmit,
+     VOLCOMP_AT(probe.distance_nm), 0, "Judged point: distance from the flank, nm"},
+    {0x2401, 13, 13, DataType::unsigned8, Access::read_only, kTransmit,
+     VOLCOMP_AT(probe.flank_verdict), 0, "Judged point: verdict on the flank"},
+    {0x2401, 14, 14, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(probe.foot), 0,
+     "Judged point: verdict on its foot"},
+    {0x2401, 15, 15, DataType::unsigned32, Access::read_only, kTransmit, VOLCOMP_AT(probe.judged),
+     0, "Judged point: number"},
     {0x2410, 1, 1, DataType::domain, Access::read_only, kPlain, 0, 0, "Oldest point that waits"},
     {0x2411, 0, 0, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(probe.release), 0,
      "Number of the oldest point: it has been read"},
@@ -213,7 +247,7 @@ constexpr std::array<Entry, 93> kOwn{{
 
 #undef VOLCOMP_AT
 
-constexpr auto kDictionary = canopen::with_communication(kOwn);
+constexpr auto kNamed = canopen::with_communication(kOwn);
 
 // The axis number in front of the sub-index: arrays start at sub-index 1.
 constexpr std::uint8_t sub(std::size_t axis) { return static_cast<std::uint8_t>(axis + 1); }
@@ -223,91 +257,76 @@ constexpr std::uint32_t kFollowingError = canopen::mapped(0x0004, 0, 32);
 
 }  // namespace
 
-Span<const Entry> node_dictionary() { return {kDictionary.data(), kDictionary.size()}; }
+canopen::Dictionary node_dictionary() { return canopen::DictionaryOf<kNamed>::value; }
 
-// The node listens to what controller and drives tell each other: RPDO1 of the drive, and its
-// TPDO1, TPDO4, TPDO2 and TPDO3.
-canopen::PdoParameters default_receive_pdo(std::size_t number,
-                                           const PerAxis<std::uint8_t>& drives) {
-  using canopen::mapped;
-  const std::size_t axis = number % kNodeAxes;
-  const std::uint8_t s = sub(axis);
-  canopen::PdoParameters p;
-  std::uint32_t function = 0;
-  switch (number / kNodeAxes) {
-    case 0:
-      function = canopen::kRpdo1;
-      p.count = 2;
-      p.mapping = {mapped(0x2012, s, 16), mapped(0x2011, s, 32)};
-      break;
-    case 1:
-      function = canopen::kTpdo1;
-      p.count = 3;
-      p.mapping = {mapped(0x2013, s, 32), mapped(0x2014, s, 16), mapped(0x2015, s, 16)};
-      break;
-    case 2:
-      function = canopen::kTpdo1 + 0x300U;
-      p.count = 1;
-      p.mapping = {mapped(0x2016, s, 32)};
-      break;
-    case 3:
-      function = canopen::kTpdo1 + 0x100U;
-      p.count = 2;
-      p.mapping = {mapped(0x2017, s, 32), mapped(0x2018, s, 32)};
-      break;
-    default:
-      function = canopen::kTpdo1 + 0x200U;
-      p.count = 2;
-      p.mapping = {mapped(0x2019, s, 16), kFollowingError};
-      break;
-  }
-  p.cob_id = function + drives[axis];
-  if (drives[axis] == 0) p.cob_id |= canopen::kPdoInvalid;
-  return p;
-}
+Span<const NamedEntry> named_node_dictionary() { return kNamed; }
 
 namespace {
 
-canopen::PdoParameters status_pdo() {
-  using canopen::mapped;
+// A PDO of one axis: the sub-index of what is mapped is the number of the axis.
+struct AxisPdo {
+  std::uint32_t function;
+  std::uint8_t count;
+  std::array<std::uint32_t, 3> mapping;
+};
+
+constexpr std::uint32_t at_axis(std::uint16_t index, std::uint8_t bits) {
+  return canopen::mapped(index, 0, bits);
+}
+
+// The node listens to what controller and drives tell each other: RPDO1 of the drive, and its
+// TPDO1, TPDO4, TPDO2 and TPDO3.
+constexpr std::array<AxisPdo, 5> kHeard{
+    {{canopen::kRpdo1, 2, {at_axis(0x2012, 16), at_axis(0x2011, 32)}},
+     {canopen::kTpdo1, 3, {at_axis(0x2013, 32), at_axis(0x2014, 16), at_axis(0x2015, 16)}},
+     {canopen::kTpdo1 + 0x300U, 1, {at_axis(0x2016, 32)}},
+     {canopen::kTpdo1 + 0x100U, 2, {at_axis(0x2017, 32), at_axis(0x2018, 32)}},
+     {canopen::kTpdo1 + 0x200U, 2, {at_axis(0x2019, 16), kFollowingError}}}};
+
+constexpr AxisPdo kOffset{canopen::kRpdo1 + 0x100U, 1, {at_axis(0x2020, 32)}};
+
+canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8_t drive,
+                                std::uint32_t flags) {
   canopen::PdoParameters p;
-  p.event_timer_ms = 1000;
-  p.inhibit_100us = 1000;
-  p.count = 4;
-  p.mapping = {mapped(0x2112, 7, 32), mapped(0x2600, 1, 8), mapped(0x2600, 2, 8),
-               mapped(0x2600, 3, 16)};
+  p.cob_id = flags + pdo.function + drive;
+  if (drive == 0) p.cob_id |= canopen::kPdoInvalid;
+  p.count = pdo.count;
+  for (std::size_t i = 0; i < pdo.count; ++i) {
+    p.mapping[i] = pdo.mapping[i];
+    if (pdo.mapping[i] != kFollowingError) p.mapping[i] += canopen::mapped(0, sub(axis), 0);
+  }
   return p;
 }
 
-canopen::PdoParameters point_pdo(std::size_t part) {
-  using canopen::mapped;
-  canopen::PdoParameters p;
-  p.count = part == 0 ? 4 : 2;
-  if (part == 0)
-    p.mapping = {mapped(0x2401, 1, 32), mapped(0x2401, 2, 8), mapped(0x2401, 3, 8),
-                 mapped(0x2401, 4, 16)};
-  if (part == 1) p.mapping = {mapped(0x2401, 5, 32), mapped(0x2401, 6, 32)};
-  if (part == 2) p.mapping = {mapped(0x2401, 7, 32), mapped(0x2401, 8, 32)};
-  return p;
-}
+// Of the node itself: state, then the three of a point.
+constexpr std::array<std::array<std::uint32_t, 4>, 1 + kPointPdos> kOwnMapping{
+    {{canopen::mapped(0x2112, 7, 32), canopen::mapped(0x2600, 1, 8), canopen::mapped(0x2600, 2, 8),
+      canopen::mapped(0x2600, 3, 16)},
+     {canopen::mapped(0x2401, 1, 32), canopen::mapped(0x2401, 2, 8), canopen::mapped(0x2401, 3, 8),
+      canopen::mapped(0x2401, 4, 16)},
+     {canopen::mapped(0x2401, 5, 32), canopen::mapped(0x2401, 6, 32)},
+     {canopen::mapped(0x2401, 7, 32), canopen::mapped(0x2401, 8, 32)}}};
 
 }  // namespace
+
+canopen::PdoParameters default_receive_pdo(std::size_t number,
+                                           const PerAxis<std::uint8_t>& drives) {
+  const std::size_t axis = number % kNodeAxes;
+  return axis_pdo(kHeard[number / kNodeAxes], axis, drives[axis], 0);
+}
 
 // TPDO1…4 of the node itself, RPDO2 of the drives.
 canopen::PdoParameters default_transmit_pdo(std::size_t number, const PerAxis<std::uint8_t>& drives,
                                             std::uint8_t node_id) {
+  if (number < kStatusPdo) return axis_pdo(kOffset, number, drives[number], canopen::kPdoNoRtr);
   canopen::PdoParameters p;
-  if (number >= kStatusPdo) {
-    const std::size_t own = number - kStatusPdo;
-    p = own == 0 ? status_pdo() : point_pdo(own - 1);
-    const auto function = static_cast<std::uint32_t>(canopen::kTpdo1 + 0x100U * own);
-    p.cob_id = canopen::kPdoNoRtr | (function + node_id);
-    return p;
-  }
-  p.cob_id = canopen::kPdoNoRtr | (canopen::kRpdo1 + 0x100U + std::uint32_t{drives[number]});
-  if (drives[number] == 0) p.cob_id |= canopen::kPdoInvalid;
-  p.count = 1;
-  p.mapping = {canopen::mapped(0x2020, sub(number), 32)};
+  const std::size_t own = number - kStatusPdo;
+  const auto function = static_cast<std::uint32_t>(canopen::kTpdo1 + 0x100U * own);
+  p.cob_id = canopen::kPdoNoRtr | (function + node_id);
+  if (own == 0) p.event_timer_ms = p.inhibit_100us = 1000;
+  p.count = own < 2 ? 4 : 2;
+  for (std::size_t i = 0; i < p.count; ++i)
+    p.mapping[i] = kOwnMapping[own][i];
   return p;
 }
 

@@ -128,7 +128,9 @@ struct NodeObjects {
   PerAxis<std::array<std::uint16_t, kStatusBits>> began{};  // 2610h… how often each bit began
 };
 
-[[nodiscard]] Span<const canopen::Entry> node_dictionary();
+[[nodiscard]] canopen::Dictionary node_dictionary();
+// The same for tools; images of devices leave it out.
+[[nodiscard]] Span<const canopen::NamedEntry> named_node_dictionary();
 
 // Numbers of the PDOs, from 0.
 // From the drives: targets, actual values, held offsets, latches, edge counters.

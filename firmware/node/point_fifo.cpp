@@ -33,9 +33,28 @@ class Writer {
   std::size_t at_ = 0;
 };
 
+// From the verdict on the flank.
+void add_judgement(const JudgedTouch& judged, Writer& writer) {
+  const FlankObjects& flank = judged.flank;
+  const FaceFoot& foot = judged.touch.foot;
+  const bool made = flank.gear != 0;
+  writer.add(made ? static_cast<std::uint8_t>(judged.touch.verdict) : kNotJudged, 1);
+  writer.add(made ? static_cast<std::uint8_t>(foot.reason) : kNotJudged, 1);
+  if (!made) return;
+  writer.add(static_cast<std::uint8_t>(flank.side), 1);
+  writer.add(flank.row, 1);
+  writer.add(flank.column, 1);
+  writer.at(76);
+  writer.add(flank.slot, 2);
+  writer.at(160);
+  writer.add(judged.touch.distance);
+  for (int k = 0; k < 3; ++k)
+    writer.add(foot.point[k]);
+}
+
 }  // namespace
 
-PointRecord encode_point(const ProbePoint& point, const Touch& touch) {
+PointRecord encode_point(const ProbePoint& point, const Touch& touch, const JudgedTouch& judged) {
   PointRecord record{};
   Writer writer(record);
   writer.add(point.sequence, 4);
@@ -54,6 +73,8 @@ PointRecord encode_point(const ProbePoint& point, const Touch& touch) {
     writer.add(touch.latched[a].position);
   for (std::size_t a = 0; a < kNodeAxes; ++a)
     writer.add(touch.latched[a].velocity);
+  writer.at(10);
+  add_judgement(judged, writer);
   return record;
 }
 

@@ -67,6 +67,10 @@ std::int32_t saturated(std::int64_t nm) {
       std::max<std::int64_t>(INT32_MIN, std::min<std::int64_t>(INT32_MAX, nm)));
 }
 
+std::array<std::int32_t, 3> saturated(const std::array<std::int64_t, 3>& nm) {
+  return {saturated(nm[0]), saturated(nm[1]), saturated(nm[2])};
+}
+
 std::uint32_t largest(const std::array<float, 3>& nm) {
   const float most = std::max(nm[0], std::max(nm[1], nm[2]));
   return most < 4e9F ? static_cast<std::uint32_t>(most) + 1U : UINT32_MAX;
@@ -76,9 +80,8 @@ std::uint32_t largest(const std::array<float, 3>& nm) {
 
 void ProbePath::reset() {
   on_ = has_machine_ = losing_ = false;
-  corrector_.settings = {};
   feature_ = {};
-  last_ = {};
+  flank_.reset();
   points_.clear();
   collector_ = {};
   Touch forgotten;
@@ -111,13 +114,14 @@ Status ProbePath::apply(std::uint32_t axes, std::uint32_t period_us) {
   return {};
 }
 
-Status ProbePath::take_feature(std::uint32_t index) {
+Reason ProbePath::take_feature(std::uint32_t index) {
   const Vec3 n(objects_.normal[0], objects_.normal[1], objects_.normal[2]);
   const double square = n.squaredNorm();
   const bool unit = std::abs(square - 1.0) < 1e-9;
-  if (!unit && !(square <= 0.0)) return refuse(Reason::bad_setting);
-  feature_ = {index, n};
-  return {};
+  if (!unit && !(square <= 0.0)) return Reason::bad_setting;
+  if (const Reason reason = flank_.take(); reason != Reason::ok) return reason;
+  feature_ = {index, flank_.announced() ? Vec3::Zero() : n};
+  return Reason::ok;
 }
 
 // --- tick
@@ -129,7 +133,7 @@ void ProbePath::end_cycle() {
 
 // --- background
 
-ProbePoint ProbePath::point_of(const Touch& touch) const {
+ProbePoint ProbePath::point_of(const Touch& touch, JudgedTouch& judged) const {
   const Preemptible preemptible(preemption_);
   ProbePoint point;
   if (has_machine_ && accepted(touch.verdict))
@@ -139,7 +143,10 @@ ProbePoint ProbePath::point_of(const Touch& touch) const {
   point.axis = touch.axis;
   if (!accepted(touch.verdict)) point.verdict = touch.verdict;
   if (!has_machine_) point.verdict = TouchVerdict::no_machine;
-  if (!accepted(point.verdict)) point.machine = point.workpiece = {};
+  if (!accepted(point.verdict))
+    point.machine = point.workpiece = {};
+  else if (flank_.announced())
+    judged = flank_.judge(saturated(point.workpiece));
   return point;
 }
 
@@ -148,15 +155,16 @@ bool ProbePath::work() {
   if (compensator_.pending()) return false;  // the tables of the point must stay while it is made
   Touch touch;
   if (!touches_.pop(touch)) return false;
-  last_ = point_of(touch);
-  publish(last_, touch);
+  JudgedTouch judged;
+  last_ = point_of(touch, judged);
+  publish(last_, touch, judged);
   return true;
 }
 
-void ProbePath::publish(const ProbePoint& point, const Touch& touch) {
+void ProbePath::publish(const ProbePoint& point, const Touch& touch, const JudgedTouch& judged) {
   ++objects_.touches;
   if (!accepted(point.verdict)) ++objects_.rejected;
-  losing_ = !points_.push(encode_point(point, touch));
+  losing_ = !points_.push(encode_point(point, touch, judged));
   if (losing_) ++objects_.lost;
   released();
   objects_.sequence = point.sequence;
@@ -164,10 +172,17 @@ void ProbePath::publish(const ProbePoint& point, const Touch& touch) {
   objects_.axis =
       accepted(point.verdict) ? std::uint8_t{0} : static_cast<std::uint8_t>(point.axis + 1);
   objects_.feature_low = static_cast<std::uint16_t>(point.feature);
-  for (std::size_t k = 0; k < 3; ++k)
-    objects_.workpiece_nm[k] = saturated(point.workpiece[k]);
+  objects_.workpiece_nm = saturated(point.workpiece);
   objects_.machine_nm = point.machine;
   objects_.uncertainty_nm = largest(point.uncertainty);
+  if (judged.flank.gear != 0) publish(judged, point.sequence);
+}
+
+void ProbePath::publish(const JudgedTouch& judged, std::uint32_t sequence) {
+  objects_.distance_nm = distance_nm(judged.touch.distance);
+  objects_.flank_verdict = static_cast<std::uint8_t>(judged.touch.verdict);
+  objects_.foot = static_cast<std::uint8_t>(judged.touch.foot.reason);
+  objects_.judged = sequence;
 }
 
 void ProbePath::released() { objects_.waiting = static_cast<std::uint16_t>(points_.waiting()); }

@@ -4,6 +4,7 @@
 
 #include "comp/realtime/probe_corrector.hpp"
 #include "comp/realtime/touch_collector.hpp"
+#include "firmware/node/flank_probe.hpp"
 #include "firmware/node/point_fifo.hpp"
 #include "firmware/node/preemption.hpp"
 #include "firmware/node/probe_objects.hpp"
@@ -14,7 +15,10 @@ namespace volcomp::node {
 class ProbePath {
  public:
   ProbePath(ProbeObjects& objects, const NodeCompensator& compensator, Preemption* preemption)
-      : objects_(objects), compensator_(compensator), preemption_(preemption) {}
+      : objects_(objects),
+        compensator_(compensator),
+        preemption_(preemption),
+        flank_(objects, preemption) {}
 
   void reset();
 
@@ -25,9 +29,12 @@ class ProbePath {
   // Takes the settings of the objects over for the axes in `axes`, a bit each; `period_us` of SYNC.
   // Refuses bad_setting, not_finite, not_a_rotation; what was in force stays.
   Status apply(std::uint32_t axes, std::uint32_t period_us);
-  // The next touches are on this feature, its normal is that of the objects. Refuses bad_setting:
-  // neither a unit vector nor 0.
-  Status take_feature(std::uint32_t index);
+  // The next touches are on this feature, its flank and, without one, its normal are those of the
+  // objects. Refuses bad_setting, neither a unit vector nor 0, and what FlankProbe::take() refuses;
+  // the feature stays.
+  [[nodiscard]] Reason take_feature(std::uint32_t index);
+  // As FlankProbe::load_gear().
+  [[nodiscard]] Reason load_gear(std::uint32_t id) { return flank_.load_gear(id); }
   void switch_off() { on_ = false; }
 
   // Makes a point of the next touch; the tick may come meanwhile. False when there was none, or
@@ -50,8 +57,10 @@ class ProbePath {
   void end_cycle();
 
  private:
-  [[nodiscard]] ProbePoint point_of(const Touch& touch) const;
-  void publish(const ProbePoint& point, const Touch& touch);
+  // `judged` is filled in when the point is one of an announced flank. The tick may come meanwhile.
+  [[nodiscard]] ProbePoint point_of(const Touch& touch, JudgedTouch& judged) const;
+  void publish(const ProbePoint& point, const Touch& touch, const JudgedTouch& judged);
+  void publish(const JudgedTouch& judged, std::uint32_t sequence);
 
   ProbeObjects& objects_;
   const NodeCompensator& compensator_;
@@ -61,6 +70,7 @@ class ProbePath {
   std::uint32_t overrun_ = 0;      // touches that found it full
   ProbeCorrector corrector_{};
   ProbeFeature feature_{};
+  FlankProbe flank_;
   PointFifo points_{};
   ProbePoint last_{};
   bool has_machine_ = false;

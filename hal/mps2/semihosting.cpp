@@ -29,7 +29,10 @@ void find_host() { found = semihosting_call(kClock, nullptr) >= 0; }
 bool host_found() { return found; }
 
 int open(const char* path, Mode mode) {
-  const std::array<Word, 3> arguments = {address(path), static_cast<Word>(mode), std::strlen(path)};
+  Word length = 0;
+  while (path[length] != '\0')
+    ++length;
+  const std::array<Word, 3> arguments = {address(path), static_cast<Word>(mode), length};
   return semihosting_call(kOpen, arguments.data());
 }
 

@@ -14,7 +14,7 @@
 namespace volcomp::sim {
 namespace {
 
-using canopen::Entry;
+using canopen::NamedEntry;
 using canopen::ObjectId;
 using canopen::PdoParameters;
 
@@ -32,8 +32,8 @@ std::vector<std::string> drive_names(const BusSettings& bus) {
 
 // --- process data
 
-const Entry& row_of(Span<const Entry> dictionary, ObjectId object) {
-  return *std::find_if(dictionary.begin(), dictionary.end(), [object](const Entry& row) {
+const NamedEntry& row_of(Span<const NamedEntry> dictionary, ObjectId object) {
+  return *std::find_if(dictionary.begin(), dictionary.end(), [object](const NamedEntry& row) {
     return row.index == object.index && row.first_sub <= object.sub && object.sub <= row.last_sub;
   });
 }
@@ -56,13 +56,13 @@ void set_unit(BusSignal& signal, Quantity quantity, bool rotary) {
   }
 }
 
-std::vector<BusSignal> mapped_signals(const PdoParameters& pdo, Span<const Entry> dictionary,
+std::vector<BusSignal> mapped_signals(const PdoParameters& pdo, Span<const NamedEntry> dictionary,
                                       bool rotary) {
   std::vector<BusSignal> signals;
   std::size_t at = 0;
   for (std::size_t i = 0; i < pdo.count; ++i) {
     const ObjectId object = canopen::object_of(pdo.mapping.at(i));
-    const Entry& row = row_of(dictionary, object);
+    const NamedEntry& row = row_of(dictionary, object);
     const SignalText& text = signal_text(object);
     BusSignal s;
     s.name = text.name;
@@ -88,7 +88,7 @@ struct Wire {
   std::string comment;
 };
 
-BusMessage process_data(const PdoParameters& pdo, Span<const Entry> dictionary, bool rotary,
+BusMessage process_data(const PdoParameters& pdo, Span<const NamedEntry> dictionary, bool rotary,
                         const Wire& wire) {
   BusMessage m{static_cast<std::uint16_t>(pdo.cob_id & hal::kMaxCanId),
                wire.name,
@@ -109,7 +109,7 @@ void add_axis(const BusAxis& axis, std::vector<BusMessage>& messages) {
   const auto add = [&](const PdoParameters& pdo, const char* name, const std::string& sender,
                        const std::vector<std::string>& receivers, const char* comment) {
     const Wire wire{fmt::format("{}_{}", axis.letter, name), sender, receivers, comment};
-    messages.push_back(process_data(pdo, cia402_dictionary(), axis.rotary, wire));
+    messages.push_back(process_data(pdo, named_cia402_dictionary(), axis.rotary, wire));
   };
   add(receive[0], "Command", kController, {drive, kNode},
       "Takes effect at the next SYNC; the node listens");
@@ -125,7 +125,7 @@ void add_axis(const BusAxis& axis, std::vector<BusMessage>& messages) {
 
 BusMessage node_status(const BusSettings& bus) {
   const PdoParameters pdo = node::default_transmit_pdo(node::kStatusPdo, {}, bus.node);
-  return process_data(pdo, node::node_dictionary(), false,
+  return process_data(pdo, node::named_node_dictionary(), false,
                       {"Node_Status", kNode, {kController}, "State of the compensation"});
 }
 
@@ -133,7 +133,7 @@ void add_points(const BusSettings& bus, std::vector<BusMessage>& messages) {
   const auto add = [&](std::size_t part, const char* name, const char* comment) {
     const PdoParameters pdo = node::default_transmit_pdo(node::kFirstPointPdo + part, {}, bus.node);
     const Wire wire{name, kNode, {kController}, comment};
-    messages.push_back(process_data(pdo, node::node_dictionary(), false, wire));
+    messages.push_back(process_data(pdo, node::named_node_dictionary(), false, wire));
   };
   add(0, "Point", "What became of the latest touch");
   add(1, "Point_XY", "Workpiece coordinates of the latest point");

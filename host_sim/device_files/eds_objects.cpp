@@ -16,7 +16,7 @@ namespace {
 
 using canopen::Access;
 using canopen::DataType;
-using canopen::Entry;
+using canopen::NamedEntry;
 using canopen::ObjectId;
 using canopen::PdoTable;
 
@@ -43,6 +43,8 @@ std::string_view title(std::uint16_t index) {
       {0x2200, "Limits and ramps"},
       {0x2300, "Probe"},
       {0x2310, "Feature"},
+      {0x2311, "Face gear"},
+      {0x2313, "Flank to be touched"},
       {0x2400, "Points"},
       {0x2401, "Latest point"},
       {0x2410, "Points that wait"},
@@ -57,7 +59,7 @@ std::string without_semicolon(std::string text) {
   return text;
 }
 
-std::string value_name(const Entry& row, std::uint8_t sub) {
+std::string value_name(const NamedEntry& row, std::uint8_t sub) {
   std::string name = without_semicolon(row.name);
   if (row.index == kSdoServer)
     return sub == 1 ? "COB-ID client to server (rx)" : "COB-ID server to client (tx)";
@@ -127,7 +129,7 @@ std::optional<std::string> Twins::text(ObjectId object, DataType type) const {
 
 // --- objects of the dictionary
 
-std::string access_text(const Entry& row) {
+std::string access_text(const NamedEntry& row) {
   if (row.access == Access::constant) return "const";
   if (row.access == Access::read_only) return "ro";
   if (row.access == Access::write_only) return "wo";
@@ -135,7 +137,7 @@ std::string access_text(const Entry& row) {
   return row.has(canopen::kReceive) ? "rww" : "rwr";
 }
 
-EdsValue make_value(const Twins& twins, const Entry& row, std::uint8_t sub) {
+EdsValue make_value(const Twins& twins, const NamedEntry& row, std::uint8_t sub) {
   EdsValue v;
   v.sub = sub;
   v.name = value_name(row, sub);
@@ -167,13 +169,13 @@ ObjectCode code_of(const EdsObject& object) {
   return alike ? ObjectCode::array : ObjectCode::record;
 }
 
-EdsObject make_object(const Twins& twins, const Entry* first, const Entry* last) {
+EdsObject make_object(const Twins& twins, const NamedEntry* first, const NamedEntry* last) {
   EdsObject object;
   object.index = first->index;
   object.name = title(object.index);
   if (object.name.empty()) object.name = without_semicolon(first->name);
   if (first->first_sub > 0) object.values.push_back(make_count(twins, object.index));
-  for (const Entry* row = first; row != last; ++row) {
+  for (const NamedEntry* row = first; row != last; ++row) {
     for (unsigned sub = row->first_sub; sub <= row->last_sub; ++sub)
       object.values.push_back(make_value(twins, *row, static_cast<std::uint8_t>(sub)));
   }
@@ -182,10 +184,10 @@ EdsObject make_object(const Twins& twins, const Entry* first, const Entry* last)
 }
 
 void add_dictionary(const Twins& twins, std::vector<EdsObject>& objects) {
-  const Span<const Entry> rows = node::node_dictionary();
-  for (const Entry* first = rows.begin(); first != rows.end();) {
-    const Entry* const last = std::find_if(
-        first, rows.end(), [first](const Entry& row) { return row.index != first->index; });
+  const Span<const NamedEntry> rows = node::named_node_dictionary();
+  for (const NamedEntry* first = rows.begin(); first != rows.end();) {
+    const NamedEntry* const last = std::find_if(
+        first, rows.end(), [first](const NamedEntry& row) { return row.index != first->index; });
     objects.push_back(make_object(twins, first, last));
     first = last;
   }

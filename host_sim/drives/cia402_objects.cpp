@@ -7,18 +7,18 @@ namespace {
 
 using canopen::Access;
 using canopen::DataType;
-using canopen::Entry;
 using canopen::kPlain;
 using canopen::kReceive;
 using canopen::kTransmit;
 using canopen::mapped;
+using canopen::NamedEntry;
 
 constexpr std::uint8_t kBoth = kReceive | kTransmit;
 
 #define VOLCOMP_AT(member) static_cast<std::uint16_t>(offsetof(Cia402Objects, member))
 
 // Scaling and units are read-only: they describe the mechanics, writing cannot change them.
-constexpr std::array<Entry, 40> kDriveEntries{{
+constexpr std::array<NamedEntry, 40> kDriveEntries{{
     {0x6007, 0, 0, DataType::integer16, Access::read_write, kPlain, VOLCOMP_AT(abort_connection), 0,
      "Abort connection option code", 0, 3},
     {0x603F, 0, 0, DataType::unsigned16, Access::read_only, kTransmit, VOLCOMP_AT(error_code), 0,
@@ -103,7 +103,7 @@ constexpr std::array<Entry, 40> kDriveEntries{{
 
 #undef VOLCOMP_AT
 
-constexpr auto kDictionary = canopen::with_communication(kDriveEntries);
+constexpr auto kNamed = canopen::with_communication(kDriveEntries);
 
 struct Layout {
   std::uint16_t cob_id;
@@ -142,7 +142,9 @@ std::array<canopen::PdoParameters, N> parameters(const std::array<Layout, N>& la
 
 }  // namespace
 
-Span<const canopen::Entry> cia402_dictionary() { return kDictionary; }
+canopen::Dictionary cia402_dictionary() { return canopen::DictionaryOf<kNamed>::value; }
+
+Span<const NamedEntry> named_cia402_dictionary() { return kNamed; }
 
 std::array<canopen::PdoParameters, kReceivePdos> cia402_receive_pdos(std::uint8_t node_id) {
   return parameters(kReceiveLayout, node_id);

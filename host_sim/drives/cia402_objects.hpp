@@ -67,7 +67,8 @@ struct Cia402Objects {
   std::uint32_t supported_modes = 0x00A0;        // 6502h: homing, cyclic synchronous position
 };
 
-[[nodiscard]] Span<const canopen::Entry> cia402_dictionary();
+[[nodiscard]] canopen::Dictionary cia402_dictionary();
+[[nodiscard]] Span<const canopen::NamedEntry> named_cia402_dictionary();
 
 // Where a TPDO stands in cia402_transmit_pdos().
 inline constexpr std::size_t kActualPdo = 0;  // 180h + n: 6064h, 6041h, 60B9h

@@ -129,6 +129,7 @@ class BoardEvidence:
     def _touches(self):
         figures = runs.figures(runs.run(self.root, self.board, self.image("touches").path))
         found = {fields["machine"]: fields for word, fields in figures if word == "touch"}
+        found["flank"] = next(fields for word, fields in figures if word == "flank")
         self.checks += budgets.of_touches(self.board, found)
         return found
 

@@ -41,6 +41,6 @@ CALLS = (
                 "canopen::ObjectAccess: the SDO server reads and writes objects of the device"),
     VirtualCall(r"volcomp::node::Node::(save|load|restore|erase)\w*\(.*", r"volcomp::node::RecordStorage<.*>",
                 "node::Storage: tables and settings in non-volatile memory"),
-    VirtualCall(r"volcomp::node::(Preemptible::~?Preemptible|ProbePath::point_of)\(.*", r"volcomp::node::NodeTask<.*>",
+    VirtualCall(r"volcomp::node::(Preemptible::~?Preemptible|ProbePath::point_of|FlankProbe::derive_gear)\(.*", r"volcomp::node::NodeTask<.*>",
                 "node::Preemption: lets the tick in while the background works for long"),
 )

@@ -83,6 +83,8 @@ def touches(boards):
                      number(cost["m4"]["point"]), limit(must), limit(aim)])
         body.append([f"{name}: reports of the drives, cycle with an edge / without", *[f"{number(cost[b]['collect'])} / {number(cost[b]['quiet'])}"
                                                                                      for b in BOARDS], "–", "–"])
+    for key, text in {"judge": "face gear: judgement of a touch on a flank, background", "derive": "face gear: its constants, background"}.items():
+        body.append([text, *[number(boards[b]["touches"]["flank"][key]) for b in BOARDS], "–", "–"])
     return rows(["touch, instructions, at most", *BOARDS.values(), "must, M7", "aim"], body)
 
 

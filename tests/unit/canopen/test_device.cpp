@@ -10,7 +10,7 @@ namespace {
 
 #define TEST_AT(member) static_cast<std::uint16_t>(offsetof(TestObjects, member))
 
-constexpr std::array<Entry, 12> kOwnEntries{{
+constexpr std::array<NamedEntry, 12> kOwnEntries{{
     {0x2000, 0, 0, DataType::unsigned16, Access::read_write, kPlain, TEST_AT(word), 0, "Word", 10,
      1000},
     {0x2001, 0, 0, DataType::integer8, Access::read_write, kPlain, TEST_AT(small), 0, "Small", -5,
@@ -33,7 +33,7 @@ constexpr std::array<Entry, 12> kOwnEntries{{
 
 #undef TEST_AT
 
-constexpr auto kEntries = with_communication(kOwnEntries);
+constexpr auto kNamed = with_communication(kOwnEntries);
 
 SdoData sdo(std::uint8_t command, ObjectId object, std::uint32_t value = 0) {
   SdoData data{command};
@@ -106,8 +106,7 @@ void TestApplication::abandon_domain(ObjectId) { ++domains_abandoned; }
 // --- DeviceTest
 
 DeviceTest::DeviceTest()
-    : device({{kEntries.data(), kEntries.size()}, &objects.communication, rpdos, tpdos},
-             application) {
+    : device({DictionaryOf<kNamed>::value, &objects.communication, rpdos, tpdos}, application) {
   device.set_node_id(kNode);
   device.power_on(now_us);
   sent();
