@@ -2,7 +2,7 @@
 // The probe of the compensation node as the controller sees it: the settings it is given (2300h to
 // 2306h) and the points it makes of touches (2401h, as process data).
 //
-// The records of 2410h say more, but 160 bytes in a burst leave no room on the bus for heartbeats.
+// The records of 2410h say more, but 192 bytes in a burst leave no room on the bus for heartbeats.
 
 #include <array>
 #include <cstdint>
@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "comp/realtime/probe_corrector.hpp"
+#include "comp/status.hpp"
+#include "comp/surfaces/face_gear.hpp"
 #include "host_sim/controller/sdo_channel.hpp"
 #include "host_sim/machine/machine_file.hpp"
 
@@ -24,6 +26,8 @@ struct NodeProbe {
   double radius_uncertainty = 0.0;                // standard
   double tool_length_uncertainty = 0.0;           //
   double repeatability = 0.0;                     // along the normal
+  std::uint32_t gear_id = 0;                      // 0: no face gear
+  FaceGear gear{};                                // derived; its frame is that of the workpiece
 };
 
 // Delays and radius of the machine file, the part where the work is. Throws UserError when the file
@@ -32,6 +36,30 @@ struct NodeProbe {
 
 // Writes all of it and switches the probe on.
 void queue_probe(SdoChannel& node, const NodeProbe& probe);
+
+// A flank that is to be touched: 2313h. mm.
+struct FlankFeature {
+  std::uint32_t gear_id = 0;  // 0: none
+  int side = 1;
+  int slot = 0;
+  std::size_t row = 0;  // of the measuring grid
+  std::size_t column = 0;
+  double ball_radius = 0.0;
+  double gate = 0.0;
+};
+
+// What the node said of a touch on a flank: 2401h:0C to :0F.
+struct FlankJudgement {
+  std::int32_t distance_nm = 0;  // node::kNoDistance: none
+  Reason verdict = Reason::bad_point;
+  Reason foot = Reason::bad_point;
+  std::uint32_t sequence = 0;  // of the point
+};
+
+// Writes what differs from `known`, what the node has been told last.
+void queue_flank(SdoChannel& node, const FlankFeature& flank, const FlankFeature& known);
+// Reads the latest judgement.
+void queue_judgement(SdoChannel& node, FlankJudgement& judgement);
 
 // mm and rad.
 struct NodePoint {
@@ -42,6 +70,7 @@ struct NodePoint {
   Vec3 workpiece = Vec3::Zero();
   double uncertainty = 0.0;  // standard, largest of the coordinates
   Pose latched{};            // as the drives said, nothing corrected
+  FlankJudgement flank{};    // where a flank was announced
 };
 
 // Puts the three process data of a point together.

@@ -34,19 +34,36 @@ void Prober::configure(const NodeProbe& probe) {
 }
 
 // Only what is new: the bus is busy enough.
-void Prober::announce(const Vec3& normal) {
+void Prober::announce(const Vec3& normal, const FlankFeature& flank) {
   SdoChannel& node = axes_.controller().node_objects();
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (normal(k) < normal_(k) || normal(k) > normal_(k))
       node.write({0x2310, static_cast<std::uint8_t>(k + 2)}, bytes_of(normal(k)), "normal");
   }
   normal_ = normal;
+  queue_flank(node, flank, flank_);
+  flank_ = flank;
   node.write_value<std::uint32_t>({0x2310, 1}, ++feature_, "feature");
 }
 
 NodePoint Prober::touch(const Pose& from, const Pose& beyond, const Vec3& normal,
                         const ProbingFeeds& feeds) {
-  announce(normal);
+  announce(normal, {});
+  return touch_announced(from, beyond, feeds);
+}
+
+NodePoint Prober::touch(const Pose& from, const Pose& beyond, const FlankFeature& flank,
+                        const ProbingFeeds& feeds) {
+  announce(normal_, flank);
+  NodePoint point = touch_announced(from, beyond, feeds);
+  queue_judgement(axes_.controller().node_objects(), point.flank);
+  finish_transfers();
+  if (point.flank.sequence != point.sequence)
+    throw UserError(fmt::format("touch {}: the node has not judged it", point.sequence));
+  return point;
+}
+
+NodePoint Prober::touch_announced(const Pose& from, const Pose& beyond, const ProbingFeeds& feeds) {
   cell_.move_to(from, feeds.rapid);
   finish_transfers();
   const Touch touch = cell_.probe_to(beyond, feeds.probing, from, feeds.retract);

@@ -30,12 +30,18 @@ class Prober {
   NodePoint touch(const Pose& from, const Pose& beyond, const Vec3& normal,
                   const ProbingFeeds& feeds);
 
+  // The same for a touch on a flank of the gear the node was configured with: `flank` of the point
+  // is the node's judgement, the point itself the centre of the ball.
+  NodePoint touch(const Pose& from, const Pose& beyond, const FlankFeature& flank,
+                  const ProbingFeeds& feeds);
+
   // Points since the last call, oldest first, rejected ones included; the node is told that it may
   // forget them.
   [[nodiscard]] std::vector<NodePoint> take_points();
 
  private:
-  void announce(const Vec3& normal);
+  void announce(const Vec3& normal, const FlankFeature& flank);
+  NodePoint touch_announced(const Pose& from, const Pose& beyond, const ProbingFeeds& feeds);
   void finish_transfers();
   [[nodiscard]] NodePoint only_good(const std::vector<NodePoint>& points) const;
 
@@ -44,6 +50,7 @@ class Prober {
   const MachineFile& machine_;
   std::uint16_t feature_ = 0;
   Vec3 normal_ = Vec3::Zero();  // that the node knows
+  FlankFeature flank_{};        // likewise
 };
 
 }  // namespace volcomp::sim

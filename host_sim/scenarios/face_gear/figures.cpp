@@ -81,6 +81,16 @@ json frame_figures(const FaceGearResult& run) {
           {"touches", at(run, FaceStage::compensated).frame.touches}};
 }
 
+NodeAgreement agreement_of(const FaceGearResult& run) {
+  NodeAgreement all;
+  for (const FaceInspection& inspection : run.inspection) {
+    all.touches += inspection.node.touches;
+    all.verdicts += inspection.node.verdicts;
+    all.largest_nm = std::max(all.largest_nm, inspection.node.largest_nm);
+  }
+  return all;
+}
+
 std::string stage_row(const FaceGearResult& run, std::size_t stage) {
   const FaceInspection& i = run.inspection.at(stage);
   return fmt::format("{:14}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}  {}\n",
@@ -133,7 +143,9 @@ Verdict face_gear_verdict(const FaceGearResult& run) {
   const MapError& all = run.map_error[2];
   const double pitch = pitch_disagreement_um(run, FaceStage::compensated);
   Verdict v;
-  v.ok = all.rms <= kMapAgreement_um && all.rms <= std::min(one.rms, frame.rms) &&
+  const NodeAgreement node = agreement_of(run);
+  v.ok = node.largest_nm <= 1 && node.verdicts == 0 && all.rms <= kMapAgreement_um &&
+         all.rms <= std::min(one.rms, frame.rms) &&
          pitch <= 2.0 * scale_step_um(run);  // of the highest tooth and of the lowest
   v.text = fmt::format(
       "Maps are {:.2f} um rms from the gear with the frame of one ball, {:.2f} with that of {} "
@@ -155,6 +167,10 @@ json face_gear_figures(const FaceGearResult& run) {
   j["truth"]["pitch"] = {{"left", pitch_figures(run.true_pitch[0])},
                          {"right", pitch_figures(run.true_pitch[1])}};
   j["kernel_ns"] = run.kernel_ns;
+  const NodeAgreement node = agreement_of(run);
+  j["node_touches"] = node.touches;
+  j["node_agreement_nm"] = node.largest_nm;
+  j["node_other_verdicts"] = node.verdicts;
   j["gear"] = run.options.gear;
   j["form"] = kFormTruths.at(static_cast<std::size_t>(run.options.form));
   j["seed"] = run.options.seed;
@@ -193,6 +209,10 @@ std::string face_gear_summary(const FaceGearResult& run) {
   text +=
       fmt::format("scale of the table {:.1f}\", swing arm +-{:.0f} um; one distance {:.0f} ns\n",
                   kScaleStep_rad * kArcSeconds, kUmPerMm * kArmRepeatability_mm, run.kernel_ns);
+  const NodeAgreement node = agreement_of(run);
+  text +=
+      fmt::format("{} touches judged by the node: distances as here to {} nm, {} other verdicts\n",
+                  node.touches, node.largest_nm, node.verdicts);
   const Verdict verdict = face_gear_verdict(run);
   return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }

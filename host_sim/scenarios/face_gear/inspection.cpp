@@ -1,6 +1,8 @@
 #include "host_sim/scenarios/face_gear/inspection.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -8,13 +10,13 @@
 #include "comp/surfaces/face_relief.hpp"
 #include "comp/surfaces/face_touch.hpp"
 #include "comp/units.hpp"
+#include "firmware/node/flank_probe.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/face_gear/truth.hpp"
 
 namespace volcomp::sim {
 namespace {
 
-constexpr double kGate_mm = 0.25;  // more than a frame is off before it was found
 constexpr int kFrameSlots = 3;
 
 struct GridCell {
@@ -31,14 +33,23 @@ FaceInspector::FaceInspector(FaceStation& station, const FaceGear& gear, const F
                              double ball_radius)
     : station_(station), gear_(gear), grid_(grid), radius_(ball_radius) {}
 
-SurfacePoint FaceInspector::node(std::size_t row, std::size_t column) const {
-  return {grid_[row][column].point, grid_[row][column].normal};
-}
-
 FaceFlank FaceInspector::flank_of(const FlankName& name) const {
   FaceFlank flank;
   require(choose_flank(gear_, name.side, name.slot, flank), "flank");
   return flank;
+}
+
+FaceStationTouch FaceInspector::touch(const FlankName& name, std::size_t row, std::size_t column) {
+  const FaceGridNode& node = grid_[row][column];
+  const FaceStationTouch found = station_.touch(name, {node.point, node.normal}, row, column);
+  const FaceTouch here = judge_touch(gear_, flank_of(name), {radius_, kGate_mm}, found.ball);
+  ++agreement_.touches;
+  if (here.verdict != found.judgement.verdict || here.foot.reason != found.judgement.foot)
+    ++agreement_.verdicts;
+  const std::int64_t apart =
+      std::int64_t{found.judgement.distance_nm} - node::distance_nm(here.distance);
+  agreement_.largest_nm = std::max(agreement_.largest_nm, std::abs(apart));
+  return found;
 }
 
 void FaceInspector::use(const KnownFrame& frame) {
@@ -53,7 +64,7 @@ void FaceInspector::check_fresh() const {
 
 KnownFrame FaceInspector::frame_from_one_ball() {
   const FlankName name{1, 0};
-  const Vec3 ball = station_.touch(name, node(kCentreRow, kCentreColumn));
+  const Vec3 ball = touch(name, kCentreRow, kCentreColumn).ball;
   station_.retract();
   const FaceContact contact{flank_of(name), radius_, ball};
   FaceAngle found;
@@ -74,7 +85,7 @@ KnownFrame FaceInspector::frame_from_many() {
     for (const int side : kFaceSides) {
       const FlankName name{side, k * gear_.teeth / kFrameSlots};
       for (const GridCell& cell : kFrameCells)
-        points.push_back({flank_of(name), station_.touch(name, node(cell.row, cell.column))});
+        points.push_back({flank_of(name), touch(name, cell.row, cell.column).ball});
     }
   }
   station_.retract();
@@ -101,14 +112,13 @@ FlankMap FaceInspector::map(const FlankName& name) {
   for (std::size_t c = 0; c < kGridColumns; ++c) {
     for (std::size_t i = 0; i < kGridRows; ++i) {
       const std::size_t r = c % 2 == 0 ? i : kGridRows - 1 - i;  // there and back
-      const Vec3 ball = station_.touch(name, node(r, c));
-      const FaceTouch touch = judge_touch(gear_, flank, {radius_, kGate_mm}, ball);
-      if (touch.verdict != Reason::ok) {
+      const FaceStationTouch found = touch(name, r, c);
+      if (found.judgement.verdict != Reason::ok) {
         result.missing.push_back(
-            fmt::format("row {}, column {}: {}", r + 1, c + 1, sentence(touch.verdict)));
+            fmt::format("row {}, column {}: {}", r + 1, c + 1, sentence(found.judgement.verdict)));
         continue;
       }
-      const FaceFoot foot = distance_from_relieved_face(gear_, flank, ball);
+      const FaceFoot foot = distance_from_relieved_face(gear_, flank, found.ball);
       result.map.set(r, c, kUmPerMm * (foot.distance - radius_));
     }
   }
@@ -126,7 +136,7 @@ FacePitch FaceInspector::pitch(int side) {
   require(ToothAngles::of(gear_.teeth, round), "pitch");
   for (int k = 0; k < gear_.teeth; ++k) {
     const FlankName name{side, k};
-    const Vec3 ball = station_.touch(name, node(kCentreRow, kCentreColumn));
+    const Vec3 ball = touch(name, kCentreRow, kCentreColumn).ball;
     const FaceFoot foot = distance_from_relieved_face(gear_, flank_of(name), ball);
     require(refuse(foot.reason), fmt::format("pitch, slot {}", k));
     require(round.record(k, side, foot.distance - radius_, gear_.arm), "pitch");

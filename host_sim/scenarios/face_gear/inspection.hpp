@@ -38,7 +38,15 @@ struct FacePitch {
   double over_10 = 0.0;  // F_pk, k = 10
 };
 
+// The node judges every touch with its own kernel; here the same is done on this computer.
+struct NodeAgreement {
+  int touches = 0;
+  std::int64_t largest_nm = 0;  // between the distances from the flank
+  int verdicts = 0;             // that were not the same
+};
+
 struct FaceInspection {
+  NodeAgreement node;
   KnownFrame frame;
   std::vector<FlankMap> maps;      // left and right of the first chosen slot, then of the next
   std::array<FacePitch, 2> pitch;  // left, right
@@ -57,13 +65,14 @@ class FaceInspector {
   // All six coordinates from five points of both flanks of three slots.
   [[nodiscard]] KnownFrame frame_from_many();
   void use(const KnownFrame& frame);
+  [[nodiscard]] const NodeAgreement& agreement() const { return agreement_; }
 
   // Throws UserError when the arm was deployed since the frame was found, or nothing was touched.
   [[nodiscard]] FlankMap map(const FlankName& flank);
   [[nodiscard]] FacePitch pitch(int side);
 
  private:
-  [[nodiscard]] SurfacePoint node(std::size_t row, std::size_t column) const;
+  [[nodiscard]] FaceStationTouch touch(const FlankName& name, std::size_t row, std::size_t column);
   [[nodiscard]] FaceFlank flank_of(const FlankName& name) const;
   void check_fresh() const;
 
@@ -72,6 +81,7 @@ class FaceInspector {
   const FaceGrid& grid_;
   double radius_;
   KnownFrame frame_;
+  NodeAgreement agreement_;
 };
 
 }  // namespace volcomp::sim

@@ -103,6 +103,7 @@ FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStag
   share(0.6, "pitch");
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
     result.pitch[side] = inspector.pitch(kFaceSides[side]);
+  result.node = inspector.agreement();
   return result;
 }
 

@@ -58,6 +58,8 @@ void FaceStation::believe(const Frame& mounting) {
   believed_ = mounting;
   NodeProbe probe = node_probe(hall_.file);
   probe.workpiece = mounting;
+  probe.gear_id = kGearId;
+  probe.gear = hall_.gear;
   prober_->configure(probe);
 }
 
@@ -101,7 +103,8 @@ void FaceStation::approach(const FlankName& flank, const Pose& from) {
   last_flank_ = flank;
 }
 
-Vec3 FaceStation::touch(const FlankName& flank, const SurfacePoint& at) {
+FaceStationTouch FaceStation::touch(const FlankName& flank, const SurfacePoint& at, std::size_t row,
+                                    std::size_t column) {
   if (flank.slot != last_flank_.slot || flank.side != last_flank_.side) {
     retract();
     if (flank.slot != last_flank_.slot) turn_to(flank.slot);
@@ -112,9 +115,10 @@ Vec3 FaceStation::touch(const FlankName& flank, const SurfacePoint& at) {
   };
   const Pose from = off(radius + kStandOff_mm);
   approach(flank, from);
-  const NodePoint point = prober_->touch(from, off(radius - kOverTravel_mm), Vec3::Zero(), kFeeds);
+  const FlankFeature feature{kGearId, flank.side, flank.slot, row, column, radius, kGate_mm};
+  const NodePoint point = prober_->touch(from, off(radius - kOverTravel_mm), feature, kFeeds);
   last_ = from;
-  return point.workpiece;
+  return {point.workpiece, point.flank};
 }
 
 }  // namespace volcomp::sim

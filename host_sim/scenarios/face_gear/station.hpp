@@ -32,6 +32,15 @@ struct FlankName {
   int slot = 0;
 };
 
+inline constexpr std::uint32_t kGearId = 1;  // of the gear on the table, for the node
+inline constexpr double kGate_mm = 0.25;     // more than a frame is off before it was found
+
+// A touch as the node has seen it.
+struct FaceStationTouch {
+  Vec3 ball = Vec3::Zero();  // centre, in the believed gear frame
+  FlankJudgement judgement;
+};
+
 class FaceStation {
  public:
   // The arm is deployed once. `believed`: the gear frame in the work frame, until told otherwise.
@@ -46,8 +55,9 @@ class FaceStation {
   [[nodiscard]] const Frame& believed() const { return believed_; }
 
   // Turns the slot to the arm, touches this point of its flank, given for slot 0, along the normal.
-  // The centre of the ball in the believed gear frame. Throws UserError when nothing was touched.
-  [[nodiscard]] Vec3 touch(const FlankName& flank, const SurfacePoint& at);
+  // `row` and `column` are told to the node. Throws UserError when nothing was touched.
+  [[nodiscard]] FaceStationTouch touch(const FlankName& flank, const SurfacePoint& at,
+                                       std::size_t row, std::size_t column);
   void retract();
 
  private:

@@ -1,0 +1,46 @@
+// Touches on flanks of a face gear, through drives, latches, bus and node: the node says of them
+// what this computer says.
+
+#include <gtest/gtest.h>
+
+#include "comp/surfaces/face_grid.hpp"
+#include "comp/surfaces/face_touch.hpp"
+#include "firmware/node/flank_probe.hpp"
+#include "host_sim/commissioning/commission.hpp"
+#include "host_sim/commissioning/identification.hpp"
+#include "host_sim/scenarios/face_gear/station.hpp"
+#include "host_sim/scenarios/face_gear/truth.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+TEST(Flanks, AreJudgedByTheNodeAsTheyAreHere) {
+  const MachineFile file = read_machine_file(bundled_machine("yk7280"));
+  const FaceHall hall{
+      file,           make_yk7280_truth(file, 1), face_gear_of_table_3(), nominal_mounting(), {},
+      loopback_axes()};
+  const MachineTables tables =
+      tables_of(identify_axes(hall.truth, file), file, file.chain.description(),
+                TableKind::identified, kDefaultKnots);
+  FaceGrid grid;
+  ASSERT_TRUE(make_face_grid(hall.gear, face_grid_of_table_3(), grid).ok());
+  FaceStation station(hall, tables, nominal_mounting());
+  const double radius = file.probe->radius_mm;
+  for (const FlankName& name : {FlankName{1, 0}, FlankName{-1, 0}, FlankName{1, 43}}) {
+    for (const std::size_t row : {0U, 3U, 6U}) {
+      const FaceGridNode& node = grid[row][7];
+      const FaceStationTouch found = station.touch(name, {node.point, node.normal}, row, 7);
+      FaceFlank flank;
+      ASSERT_TRUE(choose_flank(hall.gear, name.side, name.slot, flank).ok());
+      const FaceTouch here = judge_touch(hall.gear, flank, {radius, kGate_mm}, found.ball);
+      EXPECT_EQ(found.judgement.verdict, Reason::ok);
+      EXPECT_EQ(found.judgement.verdict, here.verdict);
+      EXPECT_EQ(found.judgement.foot, here.foot.reason);
+      EXPECT_EQ(found.judgement.distance_nm, node::distance_nm(here.distance));
+      EXPECT_NEAR(here.distance, radius, 0.02);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace volcomp::sim
