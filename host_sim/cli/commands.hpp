@@ -10,6 +10,7 @@ namespace volcomp::sim {
 void add_run_command(CLI::App& app, int argc, char** argv, int& code);
 // Below "run"; `command` as the user has typed it.
 void add_face_gear_command(CLI::App& run, const std::string& command, int& code);
+void add_internal_helical_command(CLI::App& run, const std::string& command, int& code);
 void add_l300g_command(CLI::App& run, const std::string& command, int& code);
 void add_build_tables_command(CLI::App& app, int& code);
 void add_machine_command(CLI::App& app, int& code);

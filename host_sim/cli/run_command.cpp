@@ -110,6 +110,7 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   });
   add_l300g_command(*run, a->command, code);
   add_face_gear_command(*run, a->command, code);
+  add_internal_helical_command(*run, a->command, code);
 }
 
 }  // namespace volcomp::sim

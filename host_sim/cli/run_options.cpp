@@ -17,6 +17,10 @@ std::string command_line(int argc, char** argv) {
 CLI::Option* add_output_options(CLI::App& scenario, RunArguments& arguments) {
   scenario.add_option("--machine", arguments.machine,
                       "Machine file (default: the machine that comes with the program)");
+  return add_figure_options(scenario, arguments);
+}
+
+CLI::Option* add_figure_options(CLI::App& scenario, RunArguments& arguments) {
   scenario.add_option("--json", arguments.json_file, "Write the figures to this file");
   return scenario.add_option("--report", arguments.report_folder,
                              "Write report.html, report.json and what belongs to them here");

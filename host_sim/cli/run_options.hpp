@@ -27,6 +27,8 @@ struct RunArguments {
 [[nodiscard]] std::string command_line(int argc, char** argv);
 
 CLI::Option* add_output_options(CLI::App& scenario, RunArguments& arguments);
+// The same for a scenario whose machine is not read from a file.
+CLI::Option* add_figure_options(CLI::App& scenario, RunArguments& arguments);
 // Cycle and log: only for a node on a bus.
 std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node);
 

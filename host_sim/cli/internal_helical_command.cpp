@@ -1,0 +1,72 @@
+// volcomp run internal-helical
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/run_options.hpp"
+#include "host_sim/data/whole_file.hpp"
+#include "host_sim/scenarios/internal_helical/controller_files.hpp"
+#include "host_sim/scenarios/internal_helical/figures.hpp"
+#include "host_sim/scenarios/internal_helical/report.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct InternalHelicalArguments : RunArguments {
+  InternalHelicalOptions options;
+  std::string table_folder;  // empty: none
+};
+
+std::vector<std::string> write_tables(const std::filesystem::path& folder,
+                                      const InternalHelicalResult& run) {
+  std::vector<std::string> names;
+  if (folder.empty()) return names;
+  create_folder(folder);
+  for (const ControllerFile& file : controller_files(run.gear, run.detail.tables)) {
+    write_whole_file(folder / file.name, file.text);
+    fmt::print("table: {} ({})\n", (folder / file.name).string(), file.meaning);
+    names.push_back(file.name);
+  }
+  return names;
+}
+
+int run_internal_helical_command(const InternalHelicalArguments& arguments) {
+  const InternalHelicalResult run = run_watched(nullptr, [&arguments](const Progress& progress) {
+    return run_internal_helical(arguments.options, progress);
+  });
+  fmt::print("{}", internal_helical_summary(run));
+  const std::vector<std::string> tables = write_tables(arguments.table_folder, run);
+  write_figures(arguments, internal_helical_figures(run, tables));
+  write_pages(arguments, internal_helical_document(run, arguments.command));
+  return internal_helical_verdict(run).ok ? 0 : 1;
+}
+
+}  // namespace
+
+void add_internal_helical_command(CLI::App& run, const std::string& command, int& code) {
+  CLI::App* helical = run.add_subcommand(
+      "internal-helical",
+      "Internal helical gear: watch Z and C while it is ground, learn offsets of C, inspect it");
+  auto a = std::make_shared<InternalHelicalArguments>();
+  a->command = command;
+  helical->add_option("--seeds", a->options.seeds, "Grinders to simulate; medians are over them")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  const auto word = [](LearningWay way) {
+    return std::string(kLearningWays.at(static_cast<std::size_t>(way)));
+  };
+  const std::map<std::string, LearningWay> wrong{
+      {word(LearningWay::c_alone), LearningWay::c_alone},
+      {word(LearningWay::one_table), LearningWay::one_table},
+      {word(LearningWay::coarse), LearningWay::coarse}};
+  add_choice<LearningWay>(*helical, "--wrong", a->options.way, wrong, "Learn in a wrong way")
+      ->default_str("");
+  helical->add_option("--tables", a->table_folder,
+                      "Folder for the learned tables as files of controllers");
+  add_figure_options(*helical, *a);
+  helical->callback([a, &code] { code = run_internal_helical_command(*a); });
+}
+
+}  // namespace volcomp::sim

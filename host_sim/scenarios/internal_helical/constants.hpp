@@ -1,0 +1,58 @@
+#pragma once
+// What the simulated grinder and its gear are like. Seed 003 section 9 and its addendum "Simulation
+// constants": the amplitudes are chosen there so that the sums land at what the paper prints; the
+// run shows a mechanism, it does not verify an experiment.
+//
+// Read into the addendum, which gives amounts only: of the two random parts of C, 7 µrad belong to
+// the slot and 5.5 µrad to the pass, both seen by the encoder; neighbouring slots are ground in
+// opposite directions, else C learned alone could not end at f_p = 86 µm (section 7, F3).
+
+#include <cstdint>
+
+#include "comp/units.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr double kRadPerDegree = kPi / 180.0;
+
+// Table 3 of the paper.
+inline constexpr int kHelicalTeeth = 79;
+inline constexpr double kHelicalModule_mm = 2.0;
+inline constexpr double kHelixAngle = 15.0 * kRadPerDegree;
+inline constexpr double kPressureAngle = 20.0 * kRadPerDegree;
+inline constexpr double kFaceWidth_mm = 45.0;
+inline constexpr double kWheelRadius_mm = 40.0;
+
+// Strokes.
+inline constexpr double kStrokeFeed_mm_per_s = 13.4;
+inline constexpr double kStrokeAcceleration_mm_per_s2 = 200.0;
+inline constexpr double kOverrun_mm = 10.0;
+inline constexpr double kStrokeTick_s = 2e-3;
+
+struct GrindingTruth {
+  // Position loops and what disturbs them.
+  double gain_z = 83.3;  // 1/s
+  double gain_c = (1.0 - 0.034) * 83.3;
+  double ripple_mm = 9e-3;  // of Z, at this wavelength; its zero is at mid face
+  double ripple_wavelength_mm = 2.5;
+  double visible_rad = 44e-6;     // of C once per turn, seen by the encoder
+  double slot_rms_rad = 7e-6;     // of C, another one for every slot, the same in every pass
+  double pass_rms_rad = 5.5e-6;   // of C, another one for every pass
+  double hunting_rms_mm = 3e-3;   // of X, another one for every pass
+  double resolution_z_mm = 1e-4;  // of the encoders; X as Z
+  double resolution_c_rad = 1e-4 * kRadPerDegree;
+
+  // What no encoder of the machine sees.
+  double invisible_rad = 70e-6;   // of C once per turn
+  double runout_mm = 7e-3;        // of the workpiece
+  double wheel_form_mm = 6.2e-3;  // slope of the wheel, on the profile from tip to form circle
+
+  // Where the waves once per turn stand, slot 0 at 0. The specification gives amplitudes only; the
+  // two angles are chosen so that F_p of the two flanks differ as they do in its own simulation.
+  double visible_phase = 120.0 * kRadPerDegree;  // against the invisible one
+  double runout_phase = 0.0;                     // direction in the frame of the gear
+
+  double probe_mm = 0.25e-3;  // of the measuring machine, per point
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,35 @@
+#pragma once
+// The ground gear on a measuring machine: pitch of all slots and profile of four, at mid face.
+
+#include "comp/evaluation/gear_deviations.hpp"
+#include "comp/evaluation/pitch.hpp"
+#include "host_sim/scenarios/internal_helical/grinding.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr std::array<std::size_t, 4> kProfileSlots{0, 20, 39, 59};
+
+struct HelicalPitch {
+  std::vector<double> position;  // along the reference circle, towards +angle, µm
+  PitchDeviations figures;       // µm
+};
+
+struct HelicalProfile {
+  std::size_t slot = 0;
+  std::size_t side = 0;           // of kHelicalSides
+  std::vector<double> deviation;  // transverse, at FlankGrinding::roll_length(), µm
+  TraceDeviations figures;        // µm; slope positive: material grows towards the tip
+};
+
+struct HelicalInspection {
+  std::array<HelicalPitch, 2> pitch;
+  std::vector<HelicalProfile> profile;
+  double F_alpha = 0.0;  // the worst of the profiles; the paper gives one without a side
+};
+
+[[nodiscard]] HelicalInspection inspect_gear(const InternalGear& gear,
+                                             const FlankGrinding& grinding,
+                                             const std::vector<StrokeTrace>& passes,
+                                             double probe_mm, Random& random);
+
+}  // namespace volcomp::sim
