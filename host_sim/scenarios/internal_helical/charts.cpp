@@ -53,6 +53,7 @@ json group(const char* id, const char* title, json charts, const std::string& no
 
 std::vector<std::string> names_of(const std::vector<double>& numbers) {
   std::vector<std::string> names;
+  names.reserve(numbers.size());
   for (const double number : numbers)
     names.push_back(fmt::format("{:g}", number));
   return names;

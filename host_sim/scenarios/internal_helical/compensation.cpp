@@ -38,6 +38,7 @@ LearningRules slot_rules() {
 
 std::vector<double> means_on_flank(const InternalGear& gear, const std::vector<NodeSums>& sums) {
   std::vector<double> means;
+  means.reserve(sums.size());
   for (const NodeSums& node : sums)
     means.push_back(node.n == 0 ? 0.0 : kUmPerMm * gear.normal_lever() * node.sum / node.n);
   return means;

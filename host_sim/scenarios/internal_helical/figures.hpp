@@ -20,8 +20,8 @@ struct Spread {
 // A deviation of the gear before or after: what came out, and what the simulation of the
 // specification and the paper have.
 struct HelicalMeasure {
-  const char* name;  // "Fp", "fp", "Fa"
-  const char* side;  // "left", "right"; empty for F_α
+  const char* name = "";  // "Fp", "fp", "Fa"
+  const char* side = "";  // "left", "right"; empty for F_α
   bool after = false;
   GearDeviation kind = GearDeviation::total_pitch;
   Spread found;                                   // µm
@@ -38,7 +38,7 @@ struct HelicalMeasure {
 
 // What a wrong way must show to count as wrong.
 struct WrongWay {
-  const char* what;
+  const char* what = "";
   double threshold = 0.0;  // µm
   double found = 0.0;      // median, µm
   [[nodiscard]] bool beyond() const { return found > threshold; }

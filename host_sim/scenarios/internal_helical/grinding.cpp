@@ -10,8 +10,8 @@ namespace {
 
 // Strokes around the contact that can cut a crest: ±3 mm stand 30 µm off.
 constexpr double kWindow_mm = 3.0;
-constexpr double kSpacing_mm = 0.025;
-constexpr auto kCentre = static_cast<std::size_t>(kWindow_mm / kSpacing_mm + 0.5);
+constexpr std::size_t kCentre = 120;
+constexpr double kSpacing_mm = kWindow_mm / kCentre;
 
 // A pass looked up by the position of the wheel: the helix of an ideal motion maps onto itself, so
 // a lag common to Z and C only says when.

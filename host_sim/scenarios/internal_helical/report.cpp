@@ -73,11 +73,13 @@ json truth_table(const InternalHelicalResult& run) {
             {{"title", "seen by the encoders"}}}},
           {"rows", rows},
           {"note",
-           fmt::format("The paper publishes none of it: amounts are chosen so that the sums land "
-                       "at its printed deviations. The run shows a mechanism that is consistent "
-                       "with them, it does not verify the experiment. Waves once per turn: "
-                       "the visible one {:g}° behind the invisible one, run-out towards {:g}°.",
-                       t.visible_phase / kRadPerDegree, t.runout_phase / kRadPerDegree)}};
+           fmt::format(
+               "The paper publishes none of it: amounts are chosen so that the sums land "
+               "at its printed deviations. The run shows a mechanism that is consistent "
+               "with them, it does not verify the experiment. Angles of the "
+               "waves once per turn are chosen as well, so that left and right F_p differ as "
+               "specified: the visible one {:g}° behind the invisible one, run-out towards {:g}°.",
+               t.visible_phase / kRadPerDegree, t.runout_phase / kRadPerDegree)}};
 }
 
 json provenance(const InternalHelicalResult& run, const std::string& command) {

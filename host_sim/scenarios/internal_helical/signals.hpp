@@ -13,7 +13,7 @@ namespace volcomp::sim {
 
 // Half the range on the flank, how much of it comes back, and whether it is worth a table.
 struct SignalReport {
-  const char* name;
+  const char* name = "";
   double amplitude_um = 0.0;
   double ratio = 0.0;
   LearningVerdict verdict = LearningVerdict::too_small;
