@@ -11,14 +11,6 @@ namespace {
 constexpr int kMostSteps = 60;
 constexpr double kOnTheAxis_mm = 1e-9;
 
-Status refuse_value(Reason reason, const char* field, double value) {
-  Where where;
-  where.field = field;
-  where.value = value;
-  where.has_value = true;
-  return refuse(reason, where);
-}
-
 // By how much the normal of the flank at (radius, z) misses the wheel axis, mm.
 double axis_distance(const InternalGear& gear, const Frame& wheel, FlankSide side, double radius,
                      double z) {

@@ -8,14 +8,6 @@
 namespace volcomp {
 namespace {
 
-Status refuse_value(Reason reason, const char* field, double value) {
-  Where where;
-  where.field = field;
-  where.value = value;
-  where.has_value = true;
-  return refuse(reason, where);
-}
-
 Status check_setting(const char* field, double value, bool allowed) {
   if (!std::isfinite(value)) return refuse_value(Reason::not_finite, field, value);
   return allowed ? Status{} : refuse_value(Reason::bad_setting, field, value);
