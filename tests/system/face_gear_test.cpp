@@ -221,6 +221,37 @@ TEST(FaceGear, WhatThePaperSaysOfItsTables) {
   }
 }
 
+// A pit of 0.3 mm where row 3 and column 5 meet: more than any flank can be off.
+TEST(FaceGear, ACellThatIsNoFlankIsMarkedMissingAndThereIsNoGrade) {
+  const MachineFile file = read_machine_file(bundled_machine("yk7280"));
+  const FaceGear gear = face_gear_of_table_3();
+  const FaceGrid grid = grid_of(gear);
+  const Vec3 pit = grid[2][4].point;
+  const FaceHall hall{
+      file,
+      make_yk7280_truth(file, 1),
+      gear,
+      nominal_mounting(),
+      [&](int, int, const Vec3& foot) { return (foot - pit).norm() < 0.5 ? -0.3 : 0.0; },
+      loopback_axes(),
+      50.0};
+  const MachineTables tables =
+      tables_of(identify_axes(hall.truth, file), file, file.chain.description(),
+                TableKind::identified, kDefaultKnots);
+  FaceStation station(hall, tables, nominal_mounting());
+  FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
+  inspector.use(inspector.frame_from_one_ball());
+  const FlankMap map = inspector.map({1, 0});
+  EXPECT_EQ(map.map.missing(), 1U);
+  EXPECT_FALSE(map.map.has(2, 4));
+  EXPECT_FALSE(map.profile.has_value());
+  ASSERT_EQ(map.missing.size(), 1U);
+  EXPECT_EQ(map.missing.front().rfind("row 3, column 5: ", 0), 0U) << map.missing.front();
+  FaceInspection inspection;
+  inspection.maps.push_back(map);
+  EXPECT_NE(grade_text(inspection).find("no grade"), std::string::npos);
+}
+
 TEST(FaceGear, AFrameIsStaleAfterTheArmWasDeployedAnew) {
   const MachineFile file = read_machine_file(bundled_machine("yk7280"));
   const FaceGear gear = face_gear_of_table_3();
