@@ -1,10 +1,12 @@
-// A touch of a face gear, from the centre of the ball to the verdict.
+// A touch of a face gear, from the centre of the ball to the verdict; beside it the same distance
+// by the paper's search on a patch through the points.
 
 #include <array>
 #include <cmath>
 
 #include <benchmark/benchmark.h>
 
+#include "comp/surfaces/closest_point.hpp"
 #include "comp/surfaces/face_grid.hpp"
 #include "comp/surfaces/face_relief.hpp"
 #include "comp/surfaces/face_touch.hpp"
@@ -62,9 +64,39 @@ void face_relief_exact(benchmark::State& state) {
   });
 }
 
+// The patch through the flank of these balls, in which side and slot are those of the balls.
+SplinePatch patch_of(const Balls& balls) {
+  std::array<Vec3, kGridCells> points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const FaceFoot foot = distance_from_relieved_face(balls.gear, balls.flank, balls.centre[k]);
+    points[k] = foot.point;
+  }
+  SplinePatch patch;
+  if (!SplinePatch::through(points, Parametrisation::uniform, patch).ok()) return {};
+  return patch;
+}
+
+void patch_newton(benchmark::State& state) {
+  const SplinePatch patch = patch_of(Balls{});
+  one_after_the_other(state, [&patch](const Balls&, const Vec3& q) {
+    ClosestPoint near;
+    return closest_point(patch, q, Vec3::UnitY(), near).ok() ? near.distance : 0.0;
+  });
+}
+
+void patch_subdivision(benchmark::State& state) {
+  const SplinePatch patch = patch_of(Balls{});
+  one_after_the_other(state, [&patch](const Balls&, const Vec3& q) {
+    SubdivisionSearch near;
+    return closest_point_by_subdivision(patch, q, 10, 1e-7, near).ok() ? near.distance : 0.0;
+  });
+}
+
 BENCHMARK(face_distance);
 BENCHMARK(face_touch);
 BENCHMARK(face_relief_exact);
+BENCHMARK(patch_newton);
+BENCHMARK(patch_subdivision);
 
 }  // namespace
 }  // namespace volcomp::bench
