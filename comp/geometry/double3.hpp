@@ -3,6 +3,8 @@
 // and a processor that computes doubles in software has them once in its image and not, unrolled,
 // wherever they are used.
 
+#include <cstddef>
+
 #include <cmath>
 
 #include "comp/geometry/error_motion.hpp"
@@ -32,7 +34,7 @@ VOLCOMP_SHARED inline double sum_of_products(double a, double b, double c, doubl
 }
 
 // Of three numbers from `a` on, `step` apart, with v.
-VOLCOMP_SHARED inline double dot_of(const double* a, int step, const Vec3& v) {
+VOLCOMP_SHARED inline double dot_of(const double* a, std::ptrdiff_t step, const Vec3& v) {
   return a[0] * v[0] + a[step] * v[1] + a[2 * step] * v[2];
 }
 
