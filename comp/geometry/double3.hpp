@@ -3,9 +3,8 @@
 // and a processor that computes doubles in software has them once in its image and not, unrolled,
 // wherever they are used.
 
-#include <cstddef>
-
 #include <cmath>
+#include <cstddef>
 
 #include "comp/geometry/error_motion.hpp"
 

@@ -21,9 +21,8 @@ int nearest_slot(const FaceGear& gear, const Vec3& centre) {
 
 }  // namespace
 
-FaceGearOnTable::FaceGearOnTable(const FaceGear& gear, const Frame& mounting,
-                                 FaceDeviation deviation)
-    : gear_(gear), mounting_(mounting), deviation_(std::move(deviation)) {}
+FaceGearOnTable::FaceGearOnTable(const FaceGear& gear, Frame mounting, FaceDeviation deviation)
+    : gear_(gear), mounting_(std::move(mounting)), deviation_(std::move(deviation)) {}
 
 // Material is what lies within the blank and outside of all slots.
 Gap FaceGearOnTable::gap(const Vec3& centre, double ball_radius) const {
@@ -47,7 +46,7 @@ Gap FaceGearOnTable::gap_to_blank(const Vec3& centre, double ball_radius) const 
 
 Gap FaceGearOnTable::gap_in_slot(const Vec3& centre, double ball_radius) const {
   const int slot = nearest_slot(gear_, centre);
-  const Gap solid{-kFar_mm, -Vec3::UnitZ()};
+  Gap solid{-kFar_mm, -Vec3::UnitZ()};
   Gap nearest{kFar_mm, -Vec3::UnitZ()};
   for (const int side : {1, -1}) {
     FaceFlank flank;

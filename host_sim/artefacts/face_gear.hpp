@@ -16,7 +16,7 @@ using FaceDeviation = std::function<double(int side, int slot, const Vec3& foot)
 class FaceGearOnTable final : public Artefact {
  public:
   // `gear` as derive() has left it; `mounting`: of the gear frame in the work frame of the machine.
-  FaceGearOnTable(const FaceGear& gear, const Frame& mounting, FaceDeviation deviation = {});
+  FaceGearOnTable(const FaceGear& gear, Frame mounting, FaceDeviation deviation = {});
 
   // The table stands so far from where its scale reads, rad.
   void turn_table(double angle) { turned_ = angle; }

@@ -24,10 +24,6 @@ constexpr double kArcSeconds = 180.0 * 3600.0 / kPi;
 
 json or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-const FaceInspection& at(const FaceGearResult& run, FaceStage stage) {
-  return run.inspection.at(static_cast<std::size_t>(stage));
-}
-
 std::optional<double> worst_profile(const FaceInspection& inspection) {
   double worst = 0.0;
   for (const FlankMap& flank : inspection.maps) {
@@ -44,7 +40,7 @@ double largest_in(const MapDifference& difference, bool row, std::size_t number)
 double pitch_disagreement_um(const FaceGearResult& run, FaceStage stage) {
   double worst = 0.0;
   for (std::size_t side = 0; side < 2; ++side)
-    worst = std::max(worst, std::abs(at(run, stage).pitch[side].figures.total -
+    worst = std::max(worst, std::abs(run.at(stage).pitch[side].figures.total -
                                      run.true_pitch[side].figures.total));
   return worst;
 }
@@ -72,13 +68,13 @@ double scale_step_um(const FaceGearResult& run) {
 // Largest standard deviations of the frame that a probe of 0.5 µm leaves (seed 002 section 11), µm;
 // turns at the pitch radius.
 json frame_figures(const FaceGearResult& run) {
-  const FaceFrame& fit = *at(run, FaceStage::compensated).frame.fit;
+  const FaceFrame& fit = *run.at(FaceStage::compensated).frame.fit;
   constexpr double kProbe_um = 0.5;
   const Eigen::Matrix<double, 6, 1> sd = kProbe_um * frame_deviations(run.gear, fit.observability);
   return {{"sd_t", sd.head<3>().maxCoeff()},
           {"sd_r", sd.tail<3>().maxCoeff()},
           {"condition", fit.observability.condition},
-          {"touches", at(run, FaceStage::compensated).frame.touches}};
+          {"touches", run.at(FaceStage::compensated).frame.touches}};
 }
 
 NodeAgreement agreement_of(const FaceGearResult& run) {
@@ -151,7 +147,7 @@ Verdict face_gear_verdict(const FaceGearResult& run) {
       "Maps are {:.2f} um rms from the gear with the frame of one ball, {:.2f} with that of {} "
       "touches, {:.2f} with the machine compensated as well; F_p then differs by {:.1f} um from "
       "that of the gear, of which the scale of the table may be {:.1f}.",
-      one.rms, frame.rms, at(run, FaceStage::frame).frame.touches, all.rms, pitch,
+      one.rms, frame.rms, run.at(FaceStage::frame).frame.touches, all.rms, pitch,
       2.0 * scale_step_um(run));
   return v;
 }
@@ -187,13 +183,13 @@ std::string face_gear_summary(const FaceGearResult& run) {
   text += std::isfinite(run.worked_example_deg)
               ? fmt::format("frame angle of the paper's ball: {:.4f} deg\n", run.worked_example_deg)
               : "frame angle of the paper's ball: it does not touch this gear\n";
-  const FaceFrame& fit = *at(run, FaceStage::compensated).frame.fit;
+  const FaceFrame& fit = *run.at(FaceStage::compensated).frame.fit;
   const Eigen::Matrix<double, 6, 1> sd = frame_deviations(run.gear, fit.observability);
   text += fmt::format(
       "frame of {} touches: condition {:.1f}; per um of noise {:.2f} {:.2f} {:.2f} um along, "
       "{:.2f} "
       "{:.2f} {:.2f} um about X, Y, Z\n\n",
-      at(run, FaceStage::compensated).frame.touches, fit.observability.condition, sd(0), sd(1),
+      run.at(FaceStage::compensated).frame.touches, fit.observability.condition, sd(0), sd(1),
       sd(2), sd(3), sd(4), sd(5));
   text +=
       fmt::format("{:14}{:^16}  {:^26}{:^26}\n", "um", "map - gear", "left flanks", "right flanks");

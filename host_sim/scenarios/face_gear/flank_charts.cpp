@@ -16,10 +16,6 @@ using nlohmann::json;
 
 constexpr double kMagnification = 100.0;
 
-const FaceInspection& at(const FaceGearResult& run, FaceStage stage) {
-  return run.inspection.at(static_cast<std::size_t>(stage));
-}
-
 std::string flank_title(const FlankMap& flank) {
   return fmt::format("{} flank of slot {}", kFaceSideNames[flank.flank.side > 0 ? 0 : 1],
                      flank.flank.slot + 1);
@@ -84,7 +80,7 @@ json heat_map_of(const FlankMap& flank) {
 json topography(const FaceGearResult& run, FaceStage stage) {
   json charts = json::array();
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
-    charts.push_back(topography_of(run, at(run, stage).maps.at(side)));
+    charts.push_back(topography_of(run, run.at(stage).maps.at(side)));
   return {{"type", "group"},
           {"id", "topography"},
           {"title", "Tooth topography"},
@@ -100,19 +96,19 @@ json topography(const FaceGearResult& run, FaceStage stage) {
 json flank_maps(const FaceGearResult& run, FaceStage stage) {
   json maps = json::array();
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
-    maps.push_back(heat_map_of(at(run, stage).maps.at(side)));
+    maps.push_back(heat_map_of(run.at(stage).maps.at(side)));
   return maps;
 }
 
 json single_pitch_bars(const FaceGearResult& run, std::size_t side) {
-  const std::vector<double>& position = at(run, FaceStage::compensated).pitch.at(side).position;
+  const std::vector<double>& position = run.at(FaceStage::compensated).pitch.at(side).position;
   std::vector<double> single(position.size());
   require(single_pitches({position.data(), position.size()}, {single.data(), single.size()}),
           "pitch");
   std::vector<std::string> teeth;
   for (std::size_t k = 1; k <= position.size(); ++k)
     teeth.push_back(std::to_string(k));
-  const PitchDeviations& figures = at(run, FaceStage::compensated).pitch.at(side).figures;
+  const PitchDeviations& figures = run.at(FaceStage::compensated).pitch.at(side).figures;
   return {{"type", "bars"},
           {"id", fmt::format("single-pitch-{}", kFaceSideNames[side])},
           {"title", fmt::format("Single pitch, {} flanks", kFaceSideNames[side])},
@@ -121,7 +117,7 @@ json single_pitch_bars(const FaceGearResult& run, std::size_t side) {
           {"series", {{{"name", "compensated"}, {"values", single}}}},
           {"note", fmt::format("Largest {:.1f} µm; F_p {:.1f} µm, F_p over {} pitches {:.1f} µm.",
                                figures.single, figures.total, kPitchSpan,
-                               at(run, FaceStage::compensated).pitch.at(side).over_10)}};
+                               run.at(FaceStage::compensated).pitch.at(side).over_10)}};
 }
 
 json pitch_curves(const FaceGearResult& run) {

@@ -41,7 +41,7 @@ FaceFlank FaceInspector::flank_of(const FlankName& name) const {
 
 FaceStationTouch FaceInspector::touch(const FlankName& name, std::size_t row, std::size_t column) {
   const FaceGridNode& node = grid_[row][column];
-  const FaceStationTouch found = station_.touch(name, {node.point, node.normal}, row, column);
+  FaceStationTouch found = station_.touch(name, {node.point, node.normal}, row, column);
   const FaceTouch here = judge_touch(gear_, flank_of(name), {radius_, kGate_mm}, found.ball);
   ++agreement_.touches;
   if (here.verdict != found.judgement.verdict || here.foot.reason != found.judgement.foot)

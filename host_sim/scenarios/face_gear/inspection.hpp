@@ -68,7 +68,7 @@ class FaceInspector {
   [[nodiscard]] const NodeAgreement& agreement() const { return agreement_; }
 
   // Throws UserError when the arm was deployed since the frame was found, or nothing was touched.
-  [[nodiscard]] FlankMap map(const FlankName& flank);
+  [[nodiscard]] FlankMap map(const FlankName& name);
   [[nodiscard]] FacePitch pitch(int side);
 
  private:

@@ -46,6 +46,10 @@ struct FaceGearResult {
   std::array<MapError, 3> map_error;
   double worked_example_deg = 0.0;  // frame angle of the paper's ball on this gear; NaN: no flank
   double kernel_ns = 0.0;           // one distance, on this computer
+
+  [[nodiscard]] const FaceInspection& at(FaceStage stage) const {
+    return inspection.at(static_cast<std::size_t>(stage));
+  }
 };
 
 // Throws UserError.

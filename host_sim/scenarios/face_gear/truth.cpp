@@ -74,6 +74,7 @@ std::vector<double> pitch_errors(int teeth, Random& random) {
   constexpr double kRandom_um = 0.5;
   const double phase = random.uniform(0.0, 2.0 * kPi);
   std::vector<double> um;
+  um.reserve(static_cast<std::size_t>(teeth));
   for (int k = 0; k < teeth; ++k)
     um.push_back(kWave_um * std::sin(6.0 * kPi * k / teeth + phase) +
                  random.uniform(-kRandom_um, kRandom_um));

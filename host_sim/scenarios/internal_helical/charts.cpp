@@ -86,7 +86,7 @@ json lag_chart(const InternalHelicalResult& run, const StrokeTrace& pass, const 
   std::vector<double> both;
   constexpr std::size_t kEvery = 4;
   for (std::size_t i = 0; i < pass.at.size(); i += kEvery) {
-    const AxisErrors& e = pass.at[i];
+    const LagErrors& e = pass.at[i];
     if (std::abs(e.z) > 0.5 * kFaceWidth_mm) continue;
     const auto flank = [&run](double e_z, double e_c) {
       return kUmPerMm *

@@ -19,13 +19,13 @@ class ByPosition {
  public:
   explicit ByPosition(const StrokeTrace& pass) : pass_(pass) {}
 
-  [[nodiscard]] AxisErrors at(double z) const {
-    const auto before = [this](const AxisErrors& e, double place) {
+  [[nodiscard]] LagErrors at(double z) const {
+    const auto before = [this](const LagErrors& e, double place) {
       return pass_.direction == Direction::forward ? e.z < place : e.z > place;
     };
     const auto next = std::lower_bound(pass_.at.begin() + 1, pass_.at.end() - 1, z, before);
-    const AxisErrors& a = *(next - 1);
-    const AxisErrors& b = *next;
+    const LagErrors& a = *(next - 1);
+    const LagErrors& b = *next;
     const double part = (z - a.z) / (b.z - a.z);
     const auto between = [part](double u, double v) { return u + part * (v - u); };
     return {z, between(a.e_x, b.e_x), between(a.e_z, b.e_z), between(a.e_c, b.e_c)};
@@ -91,7 +91,7 @@ FlankGrinding::Place FlankGrinding::place_at(std::size_t side, double roll_lengt
 double FlankGrinding::flank_per_x() const { return std::abs(pitch_[0].rows[kGrinderX](0)); }
 
 // The slot stands where slot 0 stands, the gear turned back: so is its run-out.
-double FlankGrinding::first_order(const Place& place, const AxisErrors& errors,
+double FlankGrinding::first_order(const Place& place, const LagErrors& errors,
                                   std::uint16_t slot) const {
   const double angle = -slot_place(gear_, slot);
   const double turned = errors.z * gear_.turn_per_mm + angle;

@@ -41,7 +41,7 @@ class FlankGrinding {
     double wheel_form = 0.0;  // mm
   };
   [[nodiscard]] Place place_at(std::size_t side, double roll_length) const;
-  [[nodiscard]] double first_order(const Place& place, const AxisErrors& errors,
+  [[nodiscard]] double first_order(const Place& place, const LagErrors& errors,
                                    std::uint16_t slot) const;
   [[nodiscard]] double ground(const Place& place, const StrokeTrace& pass) const;
 

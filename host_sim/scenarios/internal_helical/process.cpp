@@ -85,7 +85,7 @@ void GrindingProcess::grind_slot(StrokeTrace& trace, const StrokeCompensation& c
   for (int tick = 0; tick < kTicks; ++tick) {
     const double z = begin + sign * way_after(tick * kStrokeTick_s);
     const double c = -z * gear_.turn_per_mm;
-    AxisErrors errors;
+    LagErrors errors;
     errors.z = z_ + truth_.ripple_mm * std::sin(2.0 * kPi * z_ / truth_.ripple_wavelength_mm);
     errors.e_x = x_error_;
     errors.e_z = errors.z - z;
@@ -106,8 +106,7 @@ double GrindingProcess::indexing_error(const StrokeTrace& trace, double z) const
          pass_error_;
 }
 
-ProcessState GrindingProcess::observe(const StrokeTrace& trace, double z,
-                                      const AxisErrors& errors) {
+ProcessState GrindingProcess::observe(const StrokeTrace& trace, double z, const LagErrors& errors) {
   const double c = slot_place(gear_, trace.slot) - z * gear_.turn_per_mm;
   ProcessState s;
   s.x = {0, encoder(errors.e_x, truth_.resolution_z_mm, kNmPerMm), 0, true};

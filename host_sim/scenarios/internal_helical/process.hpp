@@ -34,7 +34,7 @@ struct ProcessState {
 using StrokeCompensation = std::function<std::int32_t(const ProcessState&)>;
 
 // Where the axes really are, which only the flank shows: actual − original command.
-struct AxisErrors {
+struct LagErrors {
   double z = 0.0;  // position of the wheel, mm
   double e_x = 0.0;
   double e_z = 0.0;
@@ -45,7 +45,7 @@ struct AxisErrors {
 struct StrokeTrace {
   std::uint16_t slot = 0;
   Direction direction = Direction::unknown;
-  std::vector<AxisErrors> at;  // every tick; z grows with `forward`, falls with `backward`
+  std::vector<LagErrors> at;  // every tick; z grows with `forward`, falls with `backward`
 };
 
 class GrindingProcess {
@@ -59,7 +59,7 @@ class GrindingProcess {
 
  private:
   void grind_slot(StrokeTrace& trace, const StrokeCompensation& compensation);
-  [[nodiscard]] ProcessState observe(const StrokeTrace& trace, double z, const AxisErrors& errors);
+  [[nodiscard]] ProcessState observe(const StrokeTrace& trace, double z, const LagErrors& errors);
   [[nodiscard]] double indexing_error(const StrokeTrace& trace, double z) const;
 
   InternalGear gear_;
