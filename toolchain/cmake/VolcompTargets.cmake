@@ -70,8 +70,8 @@ function(volcomp_tick_sources)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
 endfunction()
 
-# volcomp_precompile(TARGET HEADER...): for the builds that repeat what another build has compiled before. That one
-# goes without and shows that every file includes what it uses.
+# volcomp_precompile(TARGET HEADER...): for builds of everything on this computer. Builds for boards and clang-tidy go
+# without and show that every file includes what it uses.
 function(volcomp_precompile target)
   if(VOLCOMP_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${ARGN})
