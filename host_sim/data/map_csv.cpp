@@ -12,29 +12,27 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr const char* kMapHeader = "row,c1,...,c15";
-
-std::vector<std::string> map_columns() {
+std::vector<std::string> column_names() {
   std::vector<std::string> names{"row"};
   for (std::size_t column = 1; column <= kGridColumns; ++column)
     names.push_back(fmt::format("c{}", column));
   return names;
 }
 
-void check_header(CsvLines& lines, const std::vector<std::string>& wanted, const char* as_text) {
+void check_header(CsvLines& lines) {
   std::string line;
   if (!lines.next(line)) throw UserError(lines.name() + ": the file is empty");
   const std::vector<std::string_view> cells = cells_of(line);
+  const std::vector<std::string> wanted = column_names();
   if (!std::equal(cells.begin(), cells.end(), wanted.begin(), wanted.end()))
-    lines.fail(fmt::format("the first line must be {}", as_text));
+    lines.fail("the first line must be row,c1,...,c15");
 }
 
-// A number of a row or column, from 1; its index.
-std::size_t index_of(const CsvLines& lines, std::string_view cell, const char* what,
-                     std::size_t most) {
-  const double value = lines.number(cell, fmt::format("{} ", what));
-  if (!(value >= 1.0 && value <= static_cast<double>(most)) || std::floor(value) < value)
-    lines.fail(fmt::format("{} {} must be a whole number from 1 to {}", what, quoted(cell), most));
+// From 0; in the file from 1.
+std::size_t row_of(const CsvLines& lines, std::string_view cell) {
+  const double value = lines.number(cell, "row ");
+  if (!(value >= 1.0 && value <= static_cast<double>(kGridRows)) || std::floor(value) < value)
+    lines.fail(fmt::format("row {} must be a whole number from 1 to {}", quoted(cell), kGridRows));
   return static_cast<std::size_t>(value) - 1;
 }
 
@@ -48,11 +46,11 @@ double finite(const CsvLines& lines, std::string_view cell, const std::string& w
   return value;
 }
 
-// A line with as many cells as the header.
-std::vector<std::string_view> whole_line(const CsvLines& lines, const std::string& line,
-                                         std::size_t count) {
+// A row number, and a cell for each column.
+std::vector<std::string_view> whole_line(const CsvLines& lines, const std::string& line) {
   std::vector<std::string_view> cells = cells_of(line);
-  if (cells.size() != count) lines.fail(fmt::format("{} cells instead of {}", cells.size(), count));
+  if (cells.size() != kGridColumns + 1)
+    lines.fail(fmt::format("{} cells instead of {}", cells.size(), kGridColumns + 1));
   return cells;
 }
 
@@ -60,13 +58,13 @@ std::vector<std::string_view> whole_line(const CsvLines& lines, const std::strin
 
 ErrorMap read_map(std::istream& stream, const std::string& name) {
   CsvLines lines(stream, name);
-  check_header(lines, map_columns(), kMapHeader);
+  check_header(lines);
   ErrorMap map;
   std::array<bool, kGridRows> seen{};
   std::string line;
   while (lines.next(line)) {
-    const auto cells = whole_line(lines, line, kGridColumns + 1);
-    const std::size_t row = index_of(lines, cells[0], "row", kGridRows);
+    const auto cells = whole_line(lines, line);
+    const std::size_t row = row_of(lines, cells[0]);
     if (seen.at(row)) lines.fail(fmt::format("row {} is there twice", row + 1));
     seen.at(row) = true;
     for (std::size_t column = 0; column < kGridColumns; ++column) {
@@ -91,7 +89,7 @@ ErrorMap read_map_file(const std::filesystem::path& path) {
 }
 
 std::string map_csv(const ErrorMap& map) {
-  std::string text = fmt::format("{}\n", fmt::join(map_columns(), ","));
+  std::string text = fmt::format("{}\n", fmt::join(column_names(), ","));
   for (std::size_t row = 0; row < kGridRows; ++row) {
     text += std::to_string(row + 1);
     for (std::size_t column = 0; column < kGridColumns; ++column)
