@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kScrubPeriod_us = 10'000'000;
 
+constexpr canopen::ObjectId kController{0x2000, 2};
 constexpr canopen::ObjectId kImage{0x2110, 1};
 constexpr canopen::ObjectId kProbe{0x2300, 1};
 constexpr canopen::ObjectId kFeature{0x2310, 1};
@@ -226,7 +227,7 @@ AbortCode Node::run_table_command(TableCommand command) {
 
 void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
   objects_.store = objects_.restore = 1;
-  if (object.index == 0x2010) set_default_pdos();
+  if (object.index == 0x2010 || object == kController) set_default_pdos();
   if (object.index == 0x2206) start_given_ |= 1U << (object.sub - 1U);
   if (device_.state() == NmtState::operational) start_at_given_offsets();
 }

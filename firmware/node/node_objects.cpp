@@ -4,6 +4,7 @@
 
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/pdo.hpp"
+#include "firmware/node/stroke_rows.hpp"
 
 namespace volcomp::node {
 namespace {
@@ -15,6 +16,7 @@ using canopen::kReceive;
 using canopen::kStored;
 using canopen::kTransmit;
 using canopen::NamedEntry;
+using detail::joined;
 
 #define VOLCOMP_AT(member) static_cast<std::uint16_t>(offsetof(NodeObjects, member))
 
@@ -23,7 +25,8 @@ constexpr std::uint16_t at_began(std::size_t axis) {
                                     axis * sizeof(std::array<std::uint16_t, kStatusBits>));
 }
 
-constexpr std::array<NamedEntry, 110> kOwn{{
+// Up to the process data that come in.
+constexpr std::array<NamedEntry, 17> kReceivedRows{{
     {0x1010, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(store), 0,
      "Save all parameters"},
     {0x1011, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(restore), 0,
@@ -58,6 +61,9 @@ constexpr std::array<NamedEntry, 110> kOwn{{
      VOLCOMP_AT(latch_time), 0, "Time of the latch since SYNC, ns"},
     {0x2019, 1, kNodeAxes, DataType::unsigned16, Access::read_write, kReceive,
      VOLCOMP_AT(edge_count), 0, "Edges the drive has latched"},
+}};
+
+constexpr std::array<NamedEntry, 72> kServiceRows{{
     {0x2020, 1, kNodeAxes, DataType::integer32, Access::read_only, kTransmit, VOLCOMP_AT(offset), 0,
      "Offset to the drive"},
     {0x2030, 1, kNodeAxes, DataType::unsigned32, Access::read_write, kStored,
@@ -201,6 +207,9 @@ constexpr std::array<NamedEntry, 110> kOwn{{
     {0x2410, 1, 1, DataType::domain, Access::read_only, kPlain, 0, 0, "Oldest point that waits"},
     {0x2411, 0, 0, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(probe.release), 0,
      "Number of the oldest point: it has been read"},
+}};
+
+constexpr std::array<NamedEntry, 21> kDiagnosisRows{{
     {0x2600, 1, 1, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(state), 0,
      "State of the node"},
     {0x2600, 2, 2, DataType::unsigned8, Access::read_only, kTransmit, VOLCOMP_AT(sync_counter), 0,
@@ -244,6 +253,11 @@ constexpr std::array<NamedEntry, 110> kOwn{{
     {0x2614, 1, kStatusBits, DataType::unsigned16, Access::read_only, kPlain, at_began(4), 0,
      "Times each status bit of axis 5 began"},
 }};
+
+constexpr auto kOwn =
+    joined(joined(joined(kReceivedRows, process_state_rows<kWatchesStrokes>(VOLCOMP_AT(stroke))),
+                  kServiceRows),
+           joined(stroke_rows<kWatchesStrokes>(VOLCOMP_AT(stroke)), kDiagnosisRows));
 
 #undef VOLCOMP_AT
 
@@ -298,6 +312,17 @@ canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8
   return p;
 }
 
+// TPDO1 of the controller, with what it does at the target positions of the same cycle.
+canopen::PdoParameters process_state_pdo(std::uint8_t controller) {
+  canopen::PdoParameters p;
+  p.cob_id = std::uint32_t{canopen::kTpdo1} + controller;
+  p.count = 3;
+  p.mapping[0] = canopen::mapped(0x201A, 1, 16);
+  p.mapping[1] = canopen::mapped(0x201A, 2, 16);
+  p.mapping[2] = canopen::mapped(0x201A, 3, 32);
+  return p;
+}
+
 // Of the node itself: state, then the three of a point.
 constexpr std::array<std::array<std::uint32_t, 4>, 1 + kPointPdos> kOwnMapping{
     {{canopen::mapped(0x2112, 7, 32), canopen::mapped(0x2600, 1, 8), canopen::mapped(0x2600, 2, 8),
@@ -309,8 +334,9 @@ constexpr std::array<std::array<std::uint32_t, 4>, 1 + kPointPdos> kOwnMapping{
 
 }  // namespace
 
-canopen::PdoParameters default_receive_pdo(std::size_t number,
-                                           const PerAxis<std::uint8_t>& drives) {
+canopen::PdoParameters default_receive_pdo(std::size_t number, const PerAxis<std::uint8_t>& drives,
+                                           std::uint8_t controller) {
+  if (number == kProcessStatePdo) return process_state_pdo(controller);
   const std::size_t axis = number % kNodeAxes;
   return axis_pdo(kHeard[number / kNodeAxes], axis, drives[axis], 0);
 }

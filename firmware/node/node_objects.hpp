@@ -6,17 +6,21 @@
 //   2020h offsets to the drives     2030h scaling between drive and run-time units
 //   2100h tables                    2200h limits and ramps
 //   2300h probe and feature         2400h points
+//   2500h strokes of a grinder
 //   2600h diagnostics
 //
 // Run-time units: nm, or 2^-32 turn for offsets and limits of a rotary axis.
 
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "firmware/canopen/communication_objects.hpp"
 #include "firmware/canopen/pdo.hpp"
 #include "firmware/node/node_compensator.hpp"
+#include "firmware/node/node_features.hpp"
 #include "firmware/node/probe_objects.hpp"
+#include "firmware/node/stroke_objects.hpp"
 
 namespace volcomp::node {
 
@@ -107,7 +111,8 @@ struct NodeObjects {
   PerAxis<std::int64_t> max_step{};                                          // 2205h 0: unchecked
   PerAxis<std::int32_t> start_offset{};  // 2206h offset a drive holds that cannot report it
 
-  ProbeObjects probe{};  // 2300h…2411h
+  ProbeObjects probe{};                                                          // 2300h…2411h
+  std::conditional_t<kWatchesStrokes, StrokeObjects, NoStrokeObjects> stroke{};  // 201Ah, 2500h
 
   std::uint8_t state = 0;             // 2600h:01 NodeState
   std::uint8_t sync_counter = 0;      // 2600h:02 of the cycle last computed
@@ -133,8 +138,10 @@ struct NodeObjects {
 [[nodiscard]] Span<const canopen::NamedEntry> named_node_dictionary();
 
 // Numbers of the PDOs, from 0.
-// From the drives: targets, actual values, held offsets, latches, edge counters.
-inline constexpr std::size_t kReceivePdos = 5 * kNodeAxes;
+// From the drives: targets, actual values, held offsets, latches, edge counters. From the
+// controller: what it grinds.
+inline constexpr std::size_t kProcessStatePdo = 5 * kNodeAxes;
+inline constexpr std::size_t kReceivePdos = kProcessStatePdo + (kWatchesStrokes ? 1 : 0);
 // Offsets, node status, the latest point: number and verdict, X and Y, Z and uncertainty.
 inline constexpr std::size_t kStatusPdo = kNodeAxes;
 inline constexpr std::size_t kFirstPointPdo = kNodeAxes + 1;
@@ -143,7 +150,8 @@ inline constexpr std::size_t kTransmitPdos = kFirstPointPdo + kPointPdos;
 
 // Default parameters of the PDOs for the drives of 2010h; PDOs of absent drives are invalid.
 [[nodiscard]] canopen::PdoParameters default_receive_pdo(std::size_t number,
-                                                         const PerAxis<std::uint8_t>& drives);
+                                                         const PerAxis<std::uint8_t>& drives,
+                                                         std::uint8_t controller);
 [[nodiscard]] canopen::PdoParameters default_transmit_pdo(std::size_t number,
                                                           const PerAxis<std::uint8_t>& drives,
                                                           std::uint8_t node_id);

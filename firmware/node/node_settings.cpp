@@ -43,8 +43,9 @@ void Node::configure_gates() {
 // The predefined mappings are known to be good, so nothing can be refused here.
 void Node::set_default_pdos() {
   for (std::size_t i = 0; i < kReceivePdos; ++i) {
-    static_cast<void>(receive_[i].configure(default_receive_pdo(i, objects_.drive),
-                                            canopen::PdoKind::receive, device_.objects()));
+    static_cast<void>(
+        receive_[i].configure(default_receive_pdo(i, objects_.drive, objects_.controller),
+                              canopen::PdoKind::receive, device_.objects()));
   }
   for (std::size_t i = 0; i < kTransmitPdos; ++i) {
     static_cast<void>(

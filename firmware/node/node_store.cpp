@@ -132,7 +132,7 @@ std::size_t Node::collect_parameters() {
   }
   for (std::size_t i = 0; i < kReceivePdos; ++i) {
     writer.add_pdo(static_cast<std::uint16_t>(canopen::PdoTable::kReceiveCommunication + i),
-                   receive_[i], default_receive_pdo(i, objects_.drive));
+                   receive_[i], default_receive_pdo(i, objects_.drive, objects_.controller));
   }
   for (std::size_t i = 0; i < kTransmitPdos; ++i) {
     writer.add_pdo(static_cast<std::uint16_t>(canopen::PdoTable::kTransmitCommunication + i),

@@ -45,6 +45,9 @@ void set_unit(BusSignal& signal, Quantity quantity, bool rotary) {
       signal.unit = rotary ? "deg" : "nm";
       signal.factor = rotary ? 360.0 / 2147483648.0 : 1.0;
       break;
+    case Quantity::speed:
+      signal.unit = "nm/s";
+      break;
     case Quantity::time:
       signal.unit = "ns";
       break;
@@ -127,6 +130,15 @@ BusMessage node_status(const BusSettings& bus) {
   const PdoParameters pdo = node::default_transmit_pdo(node::kStatusPdo, {}, bus.node);
   return process_data(pdo, node::named_node_dictionary(), false,
                       {"Node_Status", kNode, {kController}, "State of the compensation"});
+}
+
+BusMessage process_state(const BusSettings& bus) {
+  const PdoParameters pdo = node::default_receive_pdo(node::kProcessStatePdo, {}, bus.controller);
+  return process_data(pdo, node::named_node_dictionary(), false,
+                      {"Controller_ProcessState",
+                       kController,
+                       {kNode},
+                       "What a grinder does at the targets of the same cycle"});
 }
 
 void add_points(const BusSettings& bus, std::vector<BusMessage>& messages) {
@@ -260,6 +272,7 @@ std::vector<std::string> bus_stations(const BusSettings& bus) {
 std::vector<BusMessage> bus_messages(const BusSettings& bus) {
   check(bus);
   std::vector<BusMessage> messages{nmt_command(bus), sync(bus), node_status(bus),
+                                   process_state(bus),
                                    heartbeat(bus, bus.controller, kController, kController)};
   add_points(bus, messages);
   add_services(bus, bus.node, kNode, kNode, messages);

@@ -108,6 +108,13 @@ Bytes Twins::bytes(const node::Node& node, ObjectId object) {
   return {found.value, found.value + canopen::ObjectDictionary::size(*found.entry, found.value)};
 }
 
+template <class Real>
+std::string real_text(const Bytes& bytes) {
+  Real value = 0;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return fmt::format("{}", value);
+}
+
 std::optional<std::string> Twins::text(ObjectId object, DataType type) const {
   if (object.index == kErrorField && object.sub > 0) return std::nullopt;
   const Bytes mine = bytes(*first_, object);
@@ -116,11 +123,8 @@ std::optional<std::string> Twins::text(ObjectId object, DataType type) const {
   if (size == 0) return std::nullopt;  // a domain
   if (canopen::is_signed(type))
     return fmt::format("{}", canopen::load_le_signed(mine.data(), size));
-  if (type == DataType::real64) {
-    double value = 0.0;
-    std::memcpy(&value, mine.data(), sizeof value);
-    return fmt::format("{}", value);
-  }
+  if (type == DataType::real32) return real_text<float>(mine);
+  if (type == DataType::real64) return real_text<double>(mine);
   const std::uint64_t value = canopen::load_le(mine.data(), size);
   if (mine != bytes(*second_, object)) return fmt::format("$NODEID+0x{:X}", value - kFirst);
   const bool identifier = object.index < 0x2000 && type == DataType::unsigned32;

@@ -32,12 +32,17 @@ class Database(unittest.TestCase):
         self.assertEqual(frame.size, len(data))
         return {name: signal.raw_value for name, signal in frame.decode(data).items()}
 
+    def test_process_state(self):
+        # Slot 78, in the face, backward, 13.4 mm/s.
+        self.assertEqual(self.decode(0x1FF, "4E 00 09 00 40 77 CC 00"),
+                         {"Slot": 78, "StrokeFlags": 9, "StrokeFeed": 13400000})
+
     def test_every_frame_has_its_place(self):
         expected = {0x000: ("NMT_Command", 2), 0x080: ("SYNC", 1), 0x0A0: ("Node_Emergency", 8),
                     0x1A0: ("Node_Status", 8), 0x2A0: ("Point", 8), 0x3A0: ("Point_XY", 8),
                     0x4A0: ("Point_Z", 8), 0x5A0: ("Node_SdoResponse", 8),
                     0x620: ("Node_SdoRequest", 8), 0x720: ("Node_Heartbeat", 1),
-                    0x77F: ("Controller_Heartbeat", 1)}
+                    0x1FF: ("Controller_ProcessState", 8), 0x77F: ("Controller_Heartbeat", 1)}
         for drive, axis in enumerate("XYZ", start=1):
             per_axis = {0x080: ("Emergency", 8), 0x180: ("Actual", 8), 0x200: ("Command", 6),
                         0x280: ("Probe", 8), 0x300: ("Offset", 4), 0x380: ("ProbeCounter", 6),

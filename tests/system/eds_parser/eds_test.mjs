@@ -27,7 +27,7 @@ const name_of_mapping = (mapping) => {
 
 test('device information', () => {
   assert.equal(eds.deviceInfo.ProductName, 'volcomp compensation');
-  assert.equal(eds.deviceInfo.NrOfRXPDO, '25');
+  assert.equal(eds.deviceInfo.NrOfRXPDO, '26');
   assert.equal(eds.deviceInfo.NrOfTXPDO, '9');
   assert.equal(eds.deviceInfo.Granularity, '8');
 });

@@ -64,9 +64,9 @@ TEST(CommittedDatabase, HoldsEveryPdoOfTheNode) {
       EXPECT_EQ(8 * found->second, bits) << std::hex << cob_id;
     }
   }
-  // Command, actual, held offset, latch, edge counter and offset of three axes; node status,
-  // points.
-  EXPECT_EQ(valid, 22);
+  // Command, actual, held offset, latch, edge counter and offset of three axes; what the
+  // controller grinds; node status, points.
+  EXPECT_EQ(valid, 23);
 }
 
 // Each sent by one station, and no signal over another or over the end.

@@ -52,6 +52,7 @@ std::size_t EdsEntry::bytes() const {
       return 2;
     case 0x04:
     case 0x07:
+    case 0x08:
       return 4;
     case 0x11:
     case 0x15:
@@ -69,6 +70,13 @@ Bytes little_endian(std::int64_t value, std::size_t size) {
   return bytes;
 }
 
+template <class Real>
+Bytes bytes_of(Real value) {
+  Bytes bytes(sizeof value);
+  std::memcpy(bytes.data(), &value, sizeof value);
+  return bytes;
+}
+
 std::optional<Bytes> EdsEntry::default_value(std::uint8_t node_id) const {
   if (!has("DefaultValue")) return std::nullopt;
   const std::string& text = keys.at("DefaultValue");
@@ -76,12 +84,8 @@ std::optional<Bytes> EdsEntry::default_value(std::uint8_t node_id) const {
   const std::string prefix = "$NODEID+";
   if (text.rfind(prefix, 0) == 0)
     return little_endian(std::stoll(text.substr(prefix.size()), nullptr, 0) + node_id, bytes());
-  if (number("DataType") == 0x11) {
-    const double value = std::stod(text);
-    Bytes real(sizeof value);
-    std::memcpy(real.data(), &value, sizeof value);
-    return real;
-  }
+  if (number("DataType") == 0x11) return bytes_of(std::stod(text));
+  if (number("DataType") == 0x08) return bytes_of(std::stof(text));
   return little_endian(number("DefaultValue"), bytes());
 }
 
