@@ -1,7 +1,6 @@
 #pragma once
 // Watches a machine grind helical slots: what tracking errors of Z, C and X leave on the flank,
-// by stroke direction, node of the stroke and slot. O(1) per tick and signal; the first tick of a
-// pass also clears its nodes. Seed 003 section 8.
+// by stroke direction, node of the stroke and slot. O(1) per tick and signal. Seed 003 section 8.
 //
 // The interrupt calls tick() only. A pass ends when the wheel leaves the face; it then waits in the
 // spare half of a double buffer until the background collects it. A pass that ends while another
@@ -186,7 +185,7 @@ class HelixMonitor {
                                                    static_cast<std::uint32_t>(settings_.nodes));
     if (from_edge >= length) return count(outside_);
     const std::uint32_t j = static_cast<std::uint32_t>(from_edge) / settings_.node_pitch_nm;
-    pass.node[j].add(static_cast<double>(signals_.e_s_rad));
+    pass.add(j, static_cast<double>(signals_.e_s_rad));
   }
 
   HelixMonitorSettings settings_{};

@@ -51,14 +51,24 @@ class StrokeOffsets {
  public:
   // --- background
 
-  // Refused: bad_setting (field). Only while no tick can come.
+  // Forgets all tables. Refused: bad_setting (field). Only while no tick can come.
   Status configure(const StrokeOffsetSettings& settings) {
     Where where;
     if (settings.rate < 1 || settings.rate > kMostRounded) where.field = "rate";
     if (settings.stale_ticks < 1) where.field = "stale_ticks";
     if (where.field != nullptr) return refuse(Reason::bad_setting, where);
     settings_ = settings;
+    staged_ = active_ = false;
+    request_.store(Request::none, std::memory_order_relaxed);
+    restart();
     return {};
+  }
+
+  // The offset starts at 0 again; tables stay what they are. Only while no tick can come.
+  void restart() {
+    output_ = 0;
+    status_ = 0;
+    stale_for_ = 0;
   }
 
   // Into the spare buffer. Refused, and the active tables go on: hand_over_pending, too_few_knots,
@@ -99,6 +109,8 @@ class StrokeOffsets {
   [[nodiscard]] bool pending() const {
     return request_.load(std::memory_order_acquire) != Request::none;
   }
+  // Tables are in force. Background or interrupt.
+  [[nodiscard]] bool active() const { return active_; }
   // Why there is no correction although tables are active: feed_mismatch (value = mm/s of the
   // tables), ok otherwise.
   [[nodiscard]] Status feed_status() const {

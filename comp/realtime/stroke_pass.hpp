@@ -26,8 +26,8 @@ struct StrokeSpectra {
 };
 
 template <std::size_t Nodes>
-struct StrokePass {
-  std::array<NodeSums, Nodes> node{};  // of e_s, rad, by command position
+class StrokePass {
+ public:
   StrokeSpectra spectra{};
   std::array<TimeLine, kMostLines> time{};
   std::uint16_t slot = 0;
@@ -35,17 +35,33 @@ struct StrokePass {
   std::uint32_t frames = 0;  // in the face
   std::uint32_t bad = 0;     // of them not usable
 
-  // Empty, in place.
+  // Empty, in place, in a time that hardly depends on the number of nodes: what they hold counts
+  // only once this pass has been there.
   void begin(std::uint16_t of_slot, Direction along,
              const std::array<TimeLine, kMostLines>& lines) {
-    for (NodeSums& sums : node)
-      sums = {};
+    visited_ = {};
     spectra = {};
     time = lines;
     slot = of_slot;
     direction = along;
     frames = bad = 0;
   }
+
+  // A sample of e_s, rad, at a node.
+  void add(std::size_t j, double value) {
+    std::uint32_t& word = visited_[j / 32U];
+    const std::uint32_t bit = 1U << (j % 32U);
+    if ((word & bit) == 0) node_[j] = {};
+    word |= bit;
+    node_[j].add(value);
+  }
+  [[nodiscard]] NodeSums node(std::size_t j) const {
+    return (visited_[j / 32U] >> (j % 32U) & 1U) != 0 ? node_[j] : NodeSums{};
+  }
+
+ private:
+  std::array<NodeSums, Nodes> node_{};  // by command position
+  std::array<std::uint32_t, (Nodes + 31) / 32> visited_{};
 };
 
 }  // namespace volcomp

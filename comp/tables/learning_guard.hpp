@@ -94,6 +94,14 @@ class OffsetLearner {
     return step;
   }
 
+  // A table that was learned earlier: `value_of(node)`. The guard starts anew.
+  template <class ValueOf>
+  void load(const ValueOf& value_of) {
+    guard_ = {};
+    for (std::size_t j = 0; j < nodes_; ++j)
+      table_[j] = best_[j] = value_of(j);
+  }
+
   [[nodiscard]] Span<const double> table() const { return {table_.data(), nodes_}; }
   [[nodiscard]] std::size_t size() const { return nodes_; }
   [[nodiscard]] const LearningRules& rules() const { return rules_; }

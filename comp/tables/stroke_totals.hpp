@@ -18,7 +18,8 @@ class StrokeTotals {
   Status add(const StrokePass<Nodes>& pass) {
     if (const Status s = check(pass); !s.ok()) return s;
     NodeSums all;
-    for (const NodeSums& node : pass.node) {
+    for (std::size_t j = 0; j < Nodes; ++j) {
+      const NodeSums node = pass.node(j);
       all.n += node.n;
       all.sum += node.sum;
     }
@@ -28,7 +29,7 @@ class StrokeTotals {
     side.means.add(mean);
     side.slot[pass.slot].add(mean);
     for (std::size_t j = 0; j < Nodes; ++j)
-      add_shifted(side.node[j], pass.node[j], -mean);
+      add_shifted(side.node[j], pass.node(j), -mean);
     for (std::size_t k = 0; k < kFlankSignals; ++k)
       side.spectra.signal[k].merge(pass.spectra.signal[k]);
     for (std::size_t k = 0; k < kMostLines; ++k) {

@@ -19,11 +19,14 @@ constexpr canopen::ObjectId kImage{0x2110, 1};
 constexpr canopen::ObjectId kProbe{0x2300, 1};
 constexpr canopen::ObjectId kFeature{0x2310, 1};
 constexpr canopen::ObjectId kGear{0x2311, 1};
+constexpr canopen::ObjectId kStrokes{0x2500, 1};
+constexpr canopen::ObjectId kLearn{0x2520, 1};
+constexpr canopen::ObjectId kLearnedImage{0x2526, 1};
 
 // What the cycle relies on may change only while there is no cycle.
 bool is_setting(std::uint16_t index) {
   return index == 0x2000 || index == 0x2010 || (index >= 0x2030 && index <= 0x2033) ||
-         (index >= 0x2200 && index <= 0x2205);
+         (index >= 0x2200 && index <= 0x2205) || (index >= 0x2500 && index <= 0x2505);
 }
 
 }  // namespace
@@ -37,6 +40,7 @@ Node::Node(std::uint8_t node_id, Storage* storage, Preemption* preemption)
               *this),
       download_(objects_, compensator_, running_, preemption_),
       probe_(objects_.probe, compensator_, preemption_),
+      strokes_(objects_.stroke, preemption_),
       storage_(storage) {
   device_.set_node_id(node_id);
 }
@@ -58,6 +62,7 @@ void Node::reset_application() {
   compensator_.restart({});
   download_.reset();
   probe_.reset();
+  static_cast<void>(switch_strokes(StrokeCommand::off));
   running_ = cycle_open_ = overdue_ = false;
   start_given_ = 0;
   load_stored(true);
@@ -98,6 +103,7 @@ void Node::state_changed(NmtState state, std::uint64_t now_us) {
   report(configure(), objects_);
   const auto probe = static_cast<ProbeCommand>(objects_.probe.command);
   if (probe == ProbeCommand::on) static_cast<void>(switch_probe(probe));
+  restart_strokes();
   start_at_given_offsets();
   report_status();
 }
@@ -145,6 +151,7 @@ void Node::background_overdue(bool overdue) {
   overdue_ = overdue;
   if (overdue) {
     compensator_.deactivate();
+    stop_strokes();
     if (!running_) compensator_.settle();
     download_.lost_active();
     device_.emergency().raise(ErrorCode::background_overdue, 0);
@@ -190,6 +197,8 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
   const bool starts = object.index == 0x2206 && object.sub != 0;
   if (starts && gate_[object.sub - 1U].open()) return AbortCode::device_state;
   if (object == kProbe) return switch_probe(static_cast<ProbeCommand>(bytes[0]));
+  if (object == kStrokes) return switch_strokes(static_cast<StrokeCommand>(bytes[0]));
+  if (object == kLearn) return learn(static_cast<LearnCommand>(bytes[0]));
   const auto number = static_cast<std::uint32_t>(
       canopen::load_le(bytes.data(), std::min(bytes.size(), sizeof(std::uint32_t))));
   if (object == kFeature || object == kGear) {
@@ -242,7 +251,7 @@ void Node::start_at_given_offsets() {
 }
 
 void Node::before_read(canopen::ObjectId object) {
-  if (object.index < 0x2600) return;
+  if (object.index < 0x2600) return read_strokes(object.index);
   const Diagnostics<kNodeAxes>& d = compensator_.diagnostics();
   objects_.activations = d.activations;
   objects_.sync_missed = device_.sync().missed();
@@ -253,20 +262,27 @@ void Node::before_read(canopen::ObjectId object) {
 
 AbortCode Node::read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) {
   if (object == kImage) return download_.read(source);
+  if (object.index >= 0x2500) return read_stroke_domain(object, source);
   source = probe_.points().oldest();
   return source.empty() ? AbortCode::no_data : AbortCode::none;
 }
 
 AbortCode Node::begin_domain(canopen::ObjectId object, std::size_t announced,
                              Span<std::uint8_t>& sink) {
-  return object == kImage ? download_.begin(announced, sink) : AbortCode::unsupported_access;
+  if (object == kImage) return download_.begin(announced, sink);
+  if (object != kLearnedImage) return AbortCode::unsupported_access;
+  sink = learned_sink();
+  return announced <= sink.size() ? AbortCode::none : AbortCode::out_of_memory;
 }
 
-AbortCode Node::finish_domain(canopen::ObjectId /*object*/, std::size_t size) {
+AbortCode Node::finish_domain(canopen::ObjectId object, std::size_t size) {
+  if (object == kLearnedImage) return finish_learned(size);
   download_.finish(size);
   return AbortCode::none;
 }
 
-void Node::abandon_domain(canopen::ObjectId /*object*/) { download_.abandon(); }
+void Node::abandon_domain(canopen::ObjectId object) {
+  if (object == kImage) download_.abandon();
+}
 
 }  // namespace volcomp::node

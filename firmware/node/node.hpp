@@ -33,6 +33,7 @@
 #include "firmware/node/preemption.hpp"
 #include "firmware/node/probe_path.hpp"
 #include "firmware/node/storage.hpp"
+#include "firmware/node/stroke_service.hpp"
 #include "firmware/node/table_download.hpp"
 #include "firmware/node/wire_scale.hpp"
 #include "hal/reset_cause.hpp"
@@ -40,6 +41,10 @@
 namespace volcomp::node {
 
 using hal::ResetCause;
+
+// Room for all that is stored of the object dictionary, and for the learned tables.
+inline constexpr std::size_t kParameterBytes =
+    kWatchesStrokes ? 2560 + kMostLearnedBytes + kMostLearnedBytes / 32 : 2048;
 
 class Node final : private canopen::Application {
  public:
@@ -68,12 +73,14 @@ class Node final : private canopen::Application {
     poll_services(now_us);
     poll_cycle(now_us);
     poll_probe();
+    poll_strokes();
     poll_scrub(now_us);
   }
   // Its parts: what waits for others, what is due at a time of its own, what takes long.
   void poll_services(std::uint64_t now_us) { device_.poll_services(now_us); }
   void poll_cycle(std::uint64_t now_us);
   void poll_probe();
+  void poll_strokes();
   void poll_scrub(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us) {
     return device_.offer(frame, now_us);
@@ -106,6 +113,7 @@ class Node final : private canopen::Application {
     std::uint32_t held = 0;
     std::uint32_t latched = 0;
     std::uint32_t counted = 0;
+    bool process_state = false;
   };
 
   void reset_application() override;
@@ -137,7 +145,7 @@ class Node final : private canopen::Application {
   void take_inputs();
   [[nodiscard]] AxisSample sample(std::size_t axis);
   [[nodiscard]] std::uint32_t correcting_axes() const;
-  void send_offset(std::size_t axis);
+  void send_offset(std::size_t axis, std::int32_t run_time_offset);
   void report_status();
   void report_axis_errors(std::size_t axis, std::uint16_t status);
   void raise_if(bool present, canopen::ErrorCode code, std::size_t axis, std::uint16_t status);
@@ -149,6 +157,21 @@ class Node final : private canopen::Application {
   canopen::AbortCode switch_probe(ProbeCommand command);
   [[nodiscard]] canopen::AbortCode release_point(std::uint32_t sequence);
   void point_made();
+
+  // --- strokes (node_strokes.cpp, or node_without_strokes.cpp)
+  std::int32_t tick_strokes();
+  [[nodiscard]] bool learns_for(std::size_t axis) const;
+  [[nodiscard]] StrokeAxisReport stroke_report(std::size_t axis) const;
+  void restart_strokes();
+  void stop_strokes();
+  canopen::AbortCode switch_strokes(StrokeCommand command);
+  canopen::AbortCode learn(LearnCommand command);
+  void read_strokes(std::uint16_t index);
+  canopen::AbortCode read_stroke_domain(canopen::ObjectId object, Span<const std::uint8_t>& source);
+  [[nodiscard]] Span<std::uint8_t> learned_sink();
+  canopen::AbortCode finish_learned(std::size_t size);
+  [[nodiscard]] Span<const std::uint8_t> learned_image();
+  void load_strokes(Span<const std::uint8_t> image);
 
   // --- settings (node_settings.cpp)
   Status configure();
@@ -176,6 +199,10 @@ class Node final : private canopen::Application {
   NodeCompensator compensator_{};
   TableDownload download_;
   ProbePath probe_;
+  struct NoStrokes {
+    NoStrokes(const NoStrokeObjects& /*objects*/, const Preemption* /*preemption*/) {}
+  };
+  std::conditional_t<kWatchesStrokes, StrokeService, NoStrokes> strokes_;
   Storage* storage_;
 
   PerAxis<OffsetGate> gate_{};
@@ -189,6 +216,7 @@ class Node final : private canopen::Application {
   TickOutput<kNodeAxes> output_{};
   std::uint64_t deadline_us_ = 0;
   std::uint64_t next_scrub_us_ = 0;
+  std::uint32_t syncs_missed_ = 0;         // when the last cycle was computed
   std::uint8_t open_counter_ = 0;          // of the SYNC that opened the cycle
   bool cycle_open_ = false;                // SYNC has come, not yet computed
   bool running_ = false;                   // the compensator ticks
@@ -197,7 +225,7 @@ class Node final : private canopen::Application {
   std::uint16_t clean_syncs_ = 0;          // since the last bad SYNC
   ResetCause reset_cause_ = ResetCause::power_on;
   std::uint32_t start_given_ = 0;  // 2206h written since the last start, a bit per axis
-  std::array<std::uint8_t, 2048> parameters_{};  // as stored
+  std::array<std::uint8_t, kParameterBytes> parameters_{};  // as stored
 };
 
 }  // namespace volcomp::node

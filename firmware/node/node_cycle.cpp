@@ -18,6 +18,10 @@ constexpr std::uint16_t kCleanCycles = 100;  // before an error counts as gone
 
 constexpr std::uint32_t bit(std::size_t axis) { return 1U << axis; }
 
+constexpr std::int32_t limited(std::int32_t offset, std::int32_t limit) {
+  return offset > limit ? limit : offset < -limit ? -limit : offset;
+}
+
 // CiA 402-2, table 33: operation enabled = xxxx xxxx x01x 0111b.
 constexpr bool operation_enabled(std::uint16_t status_word) {
   return (status_word & 0x006FU) == 0x0027U;
@@ -56,6 +60,7 @@ void Node::received(const canopen::Pdo& pdo, std::uint64_t now_us) {
     if (object.index == 0x2014) arrived_.actual |= bit(axis);
     if (object.index == 0x2017) arrived_.latched |= bit(axis);
     if (object.index == 0x2019) arrived_.counted |= bit(axis);
+    if (object.index == 0x201A) arrived_.process_state = true;
     if (object.index != 0x2016) continue;
     arrived_.held |= bit(axis);
     gate_[axis].report(objects_.held_offset[axis]);
@@ -121,20 +126,23 @@ void Node::compute(std::uint64_t /*now_us*/) {
   if (!running_) running_ = start_compensating();
   for (std::size_t a = 0; a < kNodeAxes; ++a)
     input_.axis[a] = sample(a);
+  const std::int32_t learned = tick_strokes();
   if (running_) {
     compensator_.tick(input_, output_);
     objects_.status = output_.status;
     for (std::size_t a = 0; a < kNodeAxes; ++a) {
-      if ((correcting & bit(a)) != 0) send_offset(a);
+      const std::int32_t offset = output_.offset[a];
+      if ((correcting & bit(a)) != 0)
+        send_offset(a, learns_for(a) ? limited(offset + learned, objects_.limit[a]) : offset);
       if (a < objects_.axes) report_axis_errors(a, output_.status[a]);
     }
   }
   report_status();
 }
 
-void Node::send_offset(std::size_t axis) {
+void Node::send_offset(std::size_t axis, std::int32_t run_time_offset) {
   std::int32_t value = 0;
-  const std::int32_t wanted = offset_to_wire(output_.offset[axis], scale_[axis]);
+  const std::int32_t wanted = offset_to_wire(run_time_offset, scale_[axis]);
   if (gate_[axis].next(wanted, value)) {
     objects_.offset[axis] = value;
     device_.trigger(axis);

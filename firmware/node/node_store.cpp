@@ -53,6 +53,10 @@ PdoParameters unpack(const std::uint8_t* bytes) {
   return p;
 }
 
+// The learned tables are kept in pieces, under their index.
+constexpr std::uint16_t kLearned = 0x2526;
+constexpr std::size_t kPiece = 240;
+
 // Appends records as long as there is room; the sizes of the dictionary leave some.
 class RecordWriter {
  public:
@@ -69,6 +73,11 @@ class RecordWriter {
   void add_pdo(std::uint16_t index, const Pdo& pdo, const PdoParameters& predefined) {
     const auto bytes = pack(pdo.parameters());
     if (bytes != pack(predefined)) add(index, kWholePdo, bytes);
+  }
+  void add_learned(Span<const std::uint8_t> image) {
+    std::uint8_t piece = 0;
+    for (std::size_t at = 0; at < image.size(); at += kPiece)
+      add(kLearned, piece++, {image.data() + at, std::min(kPiece, image.size() - at)});
   }
   [[nodiscard]] std::size_t size() const { return at_; }
 
@@ -138,22 +147,30 @@ std::size_t Node::collect_parameters() {
     writer.add_pdo(static_cast<std::uint16_t>(canopen::PdoTable::kTransmitCommunication + i),
                    transmit_[i], default_transmit_pdo(i, objects_.drive, device_.node_id()));
   }
+  writer.add_learned(learned_image());
   return writer.size();
 }
 
 // Values another version stored and this one does not know or allow are left out.
 void Node::apply_parameters(Span<const std::uint8_t> stored, bool application) {
+  const Span<std::uint8_t> learned = learned_sink();
+  std::size_t learned_size = 0;
   std::size_t at = 0;
   while (at + kRecordHeader <= stored.size()) {
     const auto index = static_cast<std::uint16_t>(canopen::load_le(&stored[at], 2));
     const std::uint8_t sub = stored[at + 2];
     const Span<const std::uint8_t> value{stored.data() + at + kRecordHeader, stored[at + 3]};
     at += kRecordHeader + value.size();
-    if (at > stored.size()) return;
-    const bool wanted = (index >= 0x2000) == application;
+    if (at > stored.size()) break;
+    if (index == kLearned && learned_size + value.size() <= learned.size()) {
+      std::copy(value.begin(), value.end(), learned.begin() + learned_size);
+      learned_size += value.size();
+    }
+    const bool wanted = (index >= 0x2000) == application && index != kLearned;
     if (wanted && sub == kWholePdo) apply_pdo(index, value);
     if (wanted && sub != kWholePdo) static_cast<void>(device_.write({index, sub}, value));
   }
+  if (application) load_strokes({learned.data(), learned_size});
 }
 
 void Node::apply_pdo(std::uint16_t index, Span<const std::uint8_t> value) {

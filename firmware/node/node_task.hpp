@@ -108,6 +108,7 @@ class NodeTask final : private Preemption {
     guardian_.alive();
     serve();
     probe();
+    strokes();
     scrub();
     return waiting_count_ != 0;
   }
@@ -159,6 +160,10 @@ class NodeTask final : private Preemption {
   void probe() {
     const Guarded guarded(board_.section);
     node_.poll_probe();
+  }
+  void strokes() {
+    const Guarded guarded(board_.section);
+    node_.poll_strokes();
   }
   void scrub() {
     const Guarded guarded(board_.section);

@@ -34,7 +34,7 @@ class Database(unittest.TestCase):
 
     def test_process_state(self):
         # Slot 78, in the face, backward, 13.4 mm/s.
-        self.assertEqual(self.decode(0x1FF, "4E 00 09 00 40 77 CC 00"),
+        self.assertEqual(self.decode(0x1FF, "4E 00 09 00 C0 77 CC 00"),
                          {"Slot": 78, "StrokeFlags": 9, "StrokeFeed": 13400000})
 
     def test_every_frame_has_its_place(self):
