@@ -26,7 +26,8 @@ constexpr canopen::ObjectId kLearnedImage{0x2526, 1};
 // What the cycle relies on may change only while there is no cycle.
 bool is_setting(std::uint16_t index) {
   return index == 0x2000 || index == 0x2010 || (index >= 0x2030 && index <= 0x2033) ||
-         (index >= 0x2200 && index <= 0x2205) || (index >= 0x2500 && index <= 0x2505);
+         (index >= 0x2200 && index <= 0x2205) ||
+         (kWatchesStrokes && index >= 0x2500 && index <= 0x2505);
 }
 
 }  // namespace
@@ -62,7 +63,7 @@ void Node::reset_application() {
   compensator_.restart({});
   download_.reset();
   probe_.reset();
-  static_cast<void>(switch_strokes(StrokeCommand::off));
+  if constexpr (kWatchesStrokes) static_cast<void>(switch_strokes(StrokeCommand::off));
   running_ = cycle_open_ = overdue_ = false;
   start_given_ = 0;
   load_stored(true);
@@ -103,7 +104,7 @@ void Node::state_changed(NmtState state, std::uint64_t now_us) {
   report(configure(), objects_);
   const auto probe = static_cast<ProbeCommand>(objects_.probe.command);
   if (probe == ProbeCommand::on) static_cast<void>(switch_probe(probe));
-  restart_strokes();
+  if constexpr (kWatchesStrokes) restart_strokes();
   start_at_given_offsets();
   report_status();
 }
@@ -151,7 +152,7 @@ void Node::background_overdue(bool overdue) {
   overdue_ = overdue;
   if (overdue) {
     compensator_.deactivate();
-    stop_strokes();
+    if constexpr (kWatchesStrokes) stop_strokes();
     if (!running_) compensator_.settle();
     download_.lost_active();
     device_.emergency().raise(ErrorCode::background_overdue, 0);
@@ -197,8 +198,10 @@ AbortCode Node::before_write(canopen::ObjectId object, const canopen::Entry& /*e
   const bool starts = object.index == 0x2206 && object.sub != 0;
   if (starts && gate_[object.sub - 1U].open()) return AbortCode::device_state;
   if (object == kProbe) return switch_probe(static_cast<ProbeCommand>(bytes[0]));
-  if (object == kStrokes) return switch_strokes(static_cast<StrokeCommand>(bytes[0]));
-  if (object == kLearn) return learn(static_cast<LearnCommand>(bytes[0]));
+  if constexpr (kWatchesStrokes) {
+    if (object == kStrokes) return switch_strokes(static_cast<StrokeCommand>(bytes[0]));
+    if (object == kLearn) return learn(static_cast<LearnCommand>(bytes[0]));
+  }
   const auto number = static_cast<std::uint32_t>(
       canopen::load_le(bytes.data(), std::min(bytes.size(), sizeof(std::uint32_t))));
   if (object == kFeature || object == kGear) {
@@ -236,7 +239,8 @@ AbortCode Node::run_table_command(TableCommand command) {
 
 void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
   objects_.store = objects_.restore = 1;
-  if (object.index == 0x2010 || object == kController) set_default_pdos();
+  const bool names_controller = kWatchesStrokes && object == kController;
+  if (object.index == 0x2010 || names_controller) set_default_pdos();
   if (object.index == 0x2206) start_given_ |= 1U << (object.sub - 1U);
   if (device_.state() == NmtState::operational) start_at_given_offsets();
 }
@@ -251,7 +255,8 @@ void Node::start_at_given_offsets() {
 }
 
 void Node::before_read(canopen::ObjectId object) {
-  if (object.index < 0x2600) return read_strokes(object.index);
+  if constexpr (kWatchesStrokes) read_strokes(object.index);
+  if (object.index < 0x2600) return;
   const Diagnostics<kNodeAxes>& d = compensator_.diagnostics();
   objects_.activations = d.activations;
   objects_.sync_missed = device_.sync().missed();
@@ -262,27 +267,34 @@ void Node::before_read(canopen::ObjectId object) {
 
 AbortCode Node::read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) {
   if (object == kImage) return download_.read(source);
-  if (object.index >= 0x2500) return read_stroke_domain(object, source);
+  if constexpr (kWatchesStrokes) {
+    if (object.index >= 0x2500) return read_stroke_domain(object, source);
+  }
   source = probe_.points().oldest();
   return source.empty() ? AbortCode::no_data : AbortCode::none;
 }
 
 AbortCode Node::begin_domain(canopen::ObjectId object, std::size_t announced,
                              Span<std::uint8_t>& sink) {
-  if (object == kImage) return download_.begin(announced, sink);
-  if (object != kLearnedImage) return AbortCode::unsupported_access;
-  sink = learned_sink();
-  return announced <= sink.size() ? AbortCode::none : AbortCode::out_of_memory;
+  if constexpr (kWatchesStrokes) {
+    if (object == kLearnedImage) return begin_learned(announced, sink);
+  }
+  return object == kImage ? download_.begin(announced, sink) : AbortCode::unsupported_access;
 }
 
-AbortCode Node::finish_domain(canopen::ObjectId object, std::size_t size) {
-  if (object == kLearnedImage) return finish_learned(size);
+AbortCode Node::finish_domain([[maybe_unused]] canopen::ObjectId object, std::size_t size) {
+  if constexpr (kWatchesStrokes) {
+    if (object == kLearnedImage) return finish_learned(size);
+  }
   download_.finish(size);
   return AbortCode::none;
 }
 
-void Node::abandon_domain(canopen::ObjectId object) {
-  if (object == kImage) download_.abandon();
+void Node::abandon_domain([[maybe_unused]] canopen::ObjectId object) {
+  if constexpr (kWatchesStrokes) {
+    if (object == kLearnedImage) return;
+  }
+  download_.abandon();
 }
 
 }  // namespace volcomp::node

@@ -73,7 +73,7 @@ class Node final : private canopen::Application {
     poll_services(now_us);
     poll_cycle(now_us);
     poll_probe();
-    poll_strokes();
+    if constexpr (kWatchesStrokes) poll_strokes();
     poll_scrub(now_us);
   }
   // Its parts: what waits for others, what is due at a time of its own, what takes long.
@@ -145,7 +145,7 @@ class Node final : private canopen::Application {
   void take_inputs();
   [[nodiscard]] AxisSample sample(std::size_t axis);
   [[nodiscard]] std::uint32_t correcting_axes() const;
-  void send_offset(std::size_t axis, std::int32_t run_time_offset);
+  void send_offset(std::size_t axis, std::int32_t learned);
   void report_status();
   void report_axis_errors(std::size_t axis, std::uint16_t status);
   void raise_if(bool present, canopen::ErrorCode code, std::size_t axis, std::uint16_t status);
@@ -158,7 +158,7 @@ class Node final : private canopen::Application {
   [[nodiscard]] canopen::AbortCode release_point(std::uint32_t sequence);
   void point_made();
 
-  // --- strokes (node_strokes.cpp, or node_without_strokes.cpp)
+  // --- strokes (node_strokes.cpp); only where kWatchesStrokes
   std::int32_t tick_strokes();
   [[nodiscard]] bool learns_for(std::size_t axis) const;
   [[nodiscard]] StrokeAxisReport stroke_report(std::size_t axis) const;
@@ -168,10 +168,11 @@ class Node final : private canopen::Application {
   canopen::AbortCode learn(LearnCommand command);
   void read_strokes(std::uint16_t index);
   canopen::AbortCode read_stroke_domain(canopen::ObjectId object, Span<const std::uint8_t>& source);
-  [[nodiscard]] Span<std::uint8_t> learned_sink();
+  canopen::AbortCode begin_learned(std::size_t announced, Span<std::uint8_t>& sink);
   canopen::AbortCode finish_learned(std::size_t size);
   [[nodiscard]] Span<const std::uint8_t> learned_image();
-  void load_strokes(Span<const std::uint8_t> image);
+  void load_learned(Span<const std::uint8_t> piece, std::size_t& size);
+  void load_strokes(std::size_t learned_size);
 
   // --- settings (node_settings.cpp)
   Status configure();

@@ -18,7 +18,7 @@ constexpr std::uint16_t kCleanCycles = 100;  // before an error counts as gone
 
 constexpr std::uint32_t bit(std::size_t axis) { return 1U << axis; }
 
-constexpr std::int32_t limited(std::int32_t offset, std::int32_t limit) {
+[[maybe_unused]] constexpr std::int32_t limited(std::int32_t offset, std::int32_t limit) {
   return offset > limit ? limit : offset < -limit ? -limit : offset;
 }
 
@@ -60,7 +60,9 @@ void Node::received(const canopen::Pdo& pdo, std::uint64_t now_us) {
     if (object.index == 0x2014) arrived_.actual |= bit(axis);
     if (object.index == 0x2017) arrived_.latched |= bit(axis);
     if (object.index == 0x2019) arrived_.counted |= bit(axis);
-    if (object.index == 0x201A) arrived_.process_state = true;
+    if constexpr (kWatchesStrokes) {
+      if (object.index == 0x201A) arrived_.process_state = true;
+    }
     if (object.index != 0x2016) continue;
     arrived_.held |= bit(axis);
     gate_[axis].report(objects_.held_offset[axis]);
@@ -126,23 +128,27 @@ void Node::compute(std::uint64_t /*now_us*/) {
   if (!running_) running_ = start_compensating();
   for (std::size_t a = 0; a < kNodeAxes; ++a)
     input_.axis[a] = sample(a);
-  const std::int32_t learned = tick_strokes();
+  std::int32_t learned = 0;
+  if constexpr (kWatchesStrokes) learned = tick_strokes();
   if (running_) {
     compensator_.tick(input_, output_);
     objects_.status = output_.status;
     for (std::size_t a = 0; a < kNodeAxes; ++a) {
-      const std::int32_t offset = output_.offset[a];
-      if ((correcting & bit(a)) != 0)
-        send_offset(a, learns_for(a) ? limited(offset + learned, objects_.limit[a]) : offset);
+      if ((correcting & bit(a)) != 0) send_offset(a, learned);
       if (a < objects_.axes) report_axis_errors(a, output_.status[a]);
     }
   }
   report_status();
 }
 
-void Node::send_offset(std::size_t axis, std::int32_t run_time_offset) {
+// `learned`: what the axis of a grinder gets in addition.
+void Node::send_offset(std::size_t axis, [[maybe_unused]] std::int32_t learned) {
   std::int32_t value = 0;
-  const std::int32_t wanted = offset_to_wire(run_time_offset, scale_[axis]);
+  std::int32_t offset = output_.offset[axis];
+  if constexpr (kWatchesStrokes) {
+    if (learns_for(axis)) offset = limited(offset + learned, objects_.limit[axis]);
+  }
+  const std::int32_t wanted = offset_to_wire(offset, scale_[axis]);
   if (gate_[axis].next(wanted, value)) {
     objects_.offset[axis] = value;
     device_.trigger(axis);

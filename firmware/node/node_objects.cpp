@@ -313,7 +313,7 @@ canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8
 }
 
 // TPDO1 of the controller, with what it does at the target positions of the same cycle.
-canopen::PdoParameters process_state_pdo(std::uint8_t controller) {
+[[maybe_unused]] canopen::PdoParameters process_state_pdo(std::uint8_t controller) {
   canopen::PdoParameters p;
   p.cob_id = std::uint32_t{canopen::kTpdo1} + controller;
   p.count = 3;
@@ -335,8 +335,10 @@ constexpr std::array<std::array<std::uint32_t, 4>, 1 + kPointPdos> kOwnMapping{
 }  // namespace
 
 canopen::PdoParameters default_receive_pdo(std::size_t number, const PerAxis<std::uint8_t>& drives,
-                                           std::uint8_t controller) {
-  if (number == kProcessStatePdo) return process_state_pdo(controller);
+                                           [[maybe_unused]] std::uint8_t controller) {
+  if constexpr (kWatchesStrokes) {
+    if (number == kProcessStatePdo) return process_state_pdo(controller);
+  }
   const std::size_t axis = number % kNodeAxes;
   return axis_pdo(kHeard[number / kNodeAxes], axis, drives[axis], 0);
 }

@@ -147,14 +147,13 @@ std::size_t Node::collect_parameters() {
     writer.add_pdo(static_cast<std::uint16_t>(canopen::PdoTable::kTransmitCommunication + i),
                    transmit_[i], default_transmit_pdo(i, objects_.drive, device_.node_id()));
   }
-  writer.add_learned(learned_image());
+  if constexpr (kWatchesStrokes) writer.add_learned(learned_image());
   return writer.size();
 }
 
 // Values another version stored and this one does not know or allow are left out.
 void Node::apply_parameters(Span<const std::uint8_t> stored, bool application) {
-  const Span<std::uint8_t> learned = learned_sink();
-  std::size_t learned_size = 0;
+  [[maybe_unused]] std::size_t learned = 0;
   std::size_t at = 0;
   while (at + kRecordHeader <= stored.size()) {
     const auto index = static_cast<std::uint16_t>(canopen::load_le(&stored[at], 2));
@@ -162,15 +161,19 @@ void Node::apply_parameters(Span<const std::uint8_t> stored, bool application) {
     const Span<const std::uint8_t> value{stored.data() + at + kRecordHeader, stored[at + 3]};
     at += kRecordHeader + value.size();
     if (at > stored.size()) break;
-    if (index == kLearned && learned_size + value.size() <= learned.size()) {
-      std::copy(value.begin(), value.end(), learned.begin() + learned_size);
-      learned_size += value.size();
+    if constexpr (kWatchesStrokes) {
+      if (index == kLearned) {
+        load_learned(value, learned);
+        continue;
+      }
     }
-    const bool wanted = (index >= 0x2000) == application && index != kLearned;
+    const bool wanted = (index >= 0x2000) == application;
     if (wanted && sub == kWholePdo) apply_pdo(index, value);
     if (wanted && sub != kWholePdo) static_cast<void>(device_.write({index, sub}, value));
   }
-  if (application) load_strokes({learned.data(), learned_size});
+  if constexpr (kWatchesStrokes) {
+    if (application) load_strokes(learned);
+  }
 }
 
 void Node::apply_pdo(std::uint16_t index, Span<const std::uint8_t> value) {

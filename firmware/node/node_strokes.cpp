@@ -1,5 +1,7 @@
 // The strokes of a helical grinder: process data in, learned offsets to C, learning on command.
 
+#include <algorithm>
+
 #include "firmware/node/node.hpp"
 
 namespace volcomp::node {
@@ -96,7 +98,10 @@ AbortCode Node::read_stroke_domain(canopen::ObjectId object, Span<const std::uin
 
 // --- tables
 
-Span<std::uint8_t> Node::learned_sink() { return strokes_.buffer(); }
+AbortCode Node::begin_learned(std::size_t announced, Span<std::uint8_t>& sink) {
+  sink = strokes_.buffer();
+  return announced <= sink.size() ? AbortCode::none : AbortCode::out_of_memory;
+}
 
 Span<const std::uint8_t> Node::learned_image() { return strokes_.image(objects_.machine_id); }
 
@@ -106,12 +111,21 @@ AbortCode Node::finish_learned(std::size_t size) {
   return status.ok() ? AbortCode::none : AbortCode::general;
 }
 
-void Node::load_strokes(Span<const std::uint8_t> image) {
+// One piece of the stored tables after the other.
+void Node::load_learned(Span<const std::uint8_t> piece, std::size_t& size) {
+  const Span<std::uint8_t> buffer = strokes_.buffer();
+  if (size + piece.size() > buffer.size()) return;
+  std::copy(piece.begin(), piece.end(), buffer.begin() + size);
+  size += piece.size();
+}
+
+// When all settings are there.
+void Node::load_strokes(std::size_t learned_size) {
   if (objects_.stroke.command == static_cast<std::uint8_t>(StrokeCommand::off)) return;
   const Status status = strokes_.switch_on(objects_.communication.cycle_period_us);
   objects_.stroke.reason = number_of(status);
-  if (!status.ok() || image.empty()) return;
-  if (finish_learned(image.size()) == AbortCode::none)
+  if (!status.ok() || learned_size == 0) return;
+  if (finish_learned(learned_size) == AbortCode::none)
     objects_.stroke.learn_reason = number_of(strokes_.learn(LearnCommand::resume));
 }
 

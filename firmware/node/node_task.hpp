@@ -108,7 +108,7 @@ class NodeTask final : private Preemption {
     guardian_.alive();
     serve();
     probe();
-    strokes();
+    if constexpr (kWatchesStrokes) strokes();
     scrub();
     return waiting_count_ != 0;
   }
