@@ -30,6 +30,7 @@ if [ "${1:-}" != --self-test ]; then
   for board in m7 m4; do
     build_preset "$board" --target volcomp-node volcomp-servo volcomp-ticks volcomp-services volcomp-touches
   done
+  build_preset m7 --target volcomp-grinder volcomp-strokes
   build_preset host --target volcomp
   make_tables
   build_preset a53 --target volcomp-node

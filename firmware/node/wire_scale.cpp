@@ -10,7 +10,10 @@ struct Division {
   std::int64_t remainder;  // 0 ≤ remainder < divisor
 };
 
+// Most drives count in whole run-time units, and a division of 64 bits takes hundreds of
+// instructions.
 Division divide(std::int64_t value, std::int64_t divisor) {
+  if (divisor == 1) return {value, 0};
   Division d{value / divisor, value % divisor};
   if (d.remainder < 0) {
     --d.quotient;

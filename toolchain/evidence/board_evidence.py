@@ -48,7 +48,7 @@ class BoardEvidence:
         self.offences += [f"The list documents calls of {call.caller} that no image makes." for call in CALLS if call not in self.used]
         ticks = self._ticks()
         self.checks.append(budgets.Check(f"{self.board}, node, bytes of flash", products["node"]["flash"], budgets.NODE_FLASH))
-        return {"products": products, **ticks, "services": self._services(), "touches": self._touches()}
+        return {"products": products, **ticks, "services": self._services(), "touches": self._touches(), "strokes": self._strokes()}
 
     def _product(self, name):
         image = self.image(name)
@@ -132,6 +132,16 @@ class BoardEvidence:
         found["flank"] = next(fields for word, fields in figures if word == "flank")
         self.checks += budgets.of_touches(self.board, found)
         return found
+
+    def _strokes(self):
+        """Only boards with memory for them watch strokes."""
+        if self.board not in budgets.GRINDERS:
+            return None
+        figures = dict(runs.figures(runs.run(self.root, self.board, self.image("strokes").path)))
+        grinder = self.image("grinder")
+        self.offences += symbol_rules.forbidden_in(grinder)
+        size = sizes.measure(grinder)
+        return {"tick": figures["stroke"], "background": figures["learning"], "flash": size.flash, "ram": size.ram}
 
     def _independence(self, spans):
         """Whatever was measured with two sizes of tables costs the same with both."""

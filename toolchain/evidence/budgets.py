@@ -18,6 +18,7 @@ TOUCHES = {"xyfz": "XYFZ", "xyb_a": "X, Y, B against A", "five_axis": "five axes
 # board: (must, aim), instructions from the complete latch of an edge to its point. Points are made in double, which the
 # M4F does in software.
 TOUCH = {"m7": (2500, 1500)}
+GRINDERS = ("m7",)   # boards with a node that watches strokes
 SPREAD = 40          # most − least of a variant with a budget
 STACK_OF_TICK = 256  # bytes
 NODE_FLASH = 96 * KIB

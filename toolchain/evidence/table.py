@@ -88,6 +88,23 @@ def touches(boards):
     return rows(["touch, instructions, at most", *BOARDS.values(), "must, M7", "aim"], body)
 
 
+def strokes(boards):
+    """Of the boards that watch strokes; the others have no memory for it."""
+    def of(part, text):
+        return [text(boards[b]["strokes"][part]) if boards[b]["strokes"] else "–" for b in BOARDS]
+
+    def span(what):
+        return lambda cost: f"{number(cost[what + '_least'])} … {number(cost[what + '_most'])}"
+
+    body = [["monitor of three axes and learned offset: share of a tick outside the face", *of("tick", span("away"))],
+            ["the same in the face, four lines along Z, two in time", *of("tick", span("face"))],
+            ["taking a pass into the sums, background, at most", *of("background", lambda cost: number(cost["collect"]))],
+            ["one step of learning, three tables, background, at most", *of("background", lambda cost: number(cost["learn"]))],
+            ["grinder's node: flash, bytes", *of("flash", number)],
+            ["grinder's node: RAM, bytes", *of("ram", number)]]
+    return rows(["strokes of a helical grinder, instructions", *BOARDS.values()], body)
+
+
 def markdown(evidence):
     boards = evidence["boards"]
     counted = {f["kind"]: f["count"] for f in boards["m7"]["kinds"] if f["variant"] == "xyfz_compiled" and f["phase"] == "usual"
@@ -97,7 +114,7 @@ def markdown(evidence):
             f"{number(counted['reversal'])} reversals, {number(counted['clamp'])} clamps, {counted['swap']} exchanges of tables with "
             f"{number(counted['ramp'])} ticks of ramp.")
     text = [f"{seen} Bold: over its must. {evidence['tables']}. {evidence['compiler']}, `{evidence['flags']}`; QEMU counts instructions, exactly, not cycles.",
-            "", *ticks(boards), "", *touches(boards), "", *services(boards), "", *images(evidence), "",
+            "", *ticks(boards), "", *touches(boards), "", *strokes(boards), "", *services(boards), "", *images(evidence), "",
             f"llvm-mca estimates {kernel['cycles']} cycles on a Cortex-M7 for the {kernel['instructions']} instructions of the folded kernel, "
             "memory that answers at once assumed."]
     return "\n".join(text) + "\n"

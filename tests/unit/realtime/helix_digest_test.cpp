@@ -1,13 +1,22 @@
-// The monitor of helical strokes gives the same bits with every compiler and on every board.
+// The monitor of helical strokes and what is learned from it have the same bits with every compiler
+// and on every board.
 
 #include <cstring>
 #include <memory>
 
 #include "comp/realtime/helix_instances.hpp"
+#include "comp/tables/learning_guard.hpp"
 #include "tests/unit/realtime/fixed_numbers.hpp"
 
 namespace volcomp::test {
 namespace {
+
+void add_bits(double value, Digest& digest) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  digest.add(static_cast<std::uint32_t>(bits), 4);
+  digest.add(static_cast<std::uint32_t>(bits >> 32U), 4);
+}
 
 TEST(HelixMonitorDigest, OfFixedStrokes) {
   Fixed fixed;
@@ -22,12 +31,7 @@ TEST(HelixMonitorDigest, OfFixedStrokes) {
   settings.order_wavelength_mm = {2.5, 0, 0, 0};
   const auto monitor = std::make_unique<GrinderMonitor>();
   ASSERT_TRUE(monitor->configure(settings).ok());
-  const auto add = [&digest](double value) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    digest.add(static_cast<std::uint32_t>(bits), 4);
-    digest.add(static_cast<std::uint32_t>(bits >> 32U), 4);
-  };
+  const auto add = [&digest](double value) { add_bits(value, digest); };
   for (int k = 0; k < 20'000; ++k) {
     HelixFrame frame;
     frame.sequence = static_cast<std::uint16_t>(k);
@@ -53,6 +57,39 @@ TEST(HelixMonitorDigest, OfFixedStrokes) {
   add(spectra.order[0].with_sine);
   digest.end_record();
   EXPECT_EQ(digest.value(), 1718931644U);
+}
+
+TEST(HelixLearningDigest, OfFixedSums) {
+  constexpr std::size_t kNodes = 181;
+  Fixed fixed;
+  Digest digest;
+  LearningRules rules;
+  rules.least_samples = 8;
+  rules.dead_sigma = 1.0;
+  rules.most_step = 1e-3;
+  rules.most_offset = 2e-3;
+  rules.most_slope = 1e-3;
+  rules.spacing = 0.25;
+  const auto learner = std::make_unique<OffsetLearner<kNodes>>();
+  ASSERT_TRUE(learner->start(rules, kNodes).ok());
+  for (int update = 0; update < 6; ++update) {
+    std::array<NodeSums, kNodes> sums{};
+    for (NodeSums& node : sums) {
+      const auto samples = static_cast<int>(fixed.integer(4, 12));
+      for (int n = 0; n < samples; ++n)
+        node.add(static_cast<double>(fixed.integer(-60'000, 60'000)) * 1e-9);
+    }
+    const double rms = rms_of_means(rules, {sums.data(), sums.size()});
+    const LearnerStep step = learner->step(74.25e3 * rms, {sums.data(), sums.size()});
+    add_bits(rms, digest);
+    digest.add(static_cast<std::uint32_t>(step.report.updated), 4);
+    digest.end_record();
+    for (const double offset : learner->table()) {
+      add_bits(offset, digest);
+      digest.end_record();
+    }
+  }
+  EXPECT_EQ(digest.value(), 3588056382U);
 }
 
 }  // namespace
