@@ -98,6 +98,7 @@ Diagnosis diagnose(NodeClient& client) {
     const AxisDiagnosis a = diagnose_axis(client, axis, letters);
     if (a.drive != 0) d.axes.push_back(a);
   }
+  d.strokes = diagnose_strokes(client);
   return d;
 }
 

@@ -13,6 +13,7 @@
 #include "firmware/node/storage.hpp"
 #include "hal/reset_cause.hpp"
 #include "host_sim/bus_tools/node_client.hpp"
+#include "host_sim/bus_tools/stroke_diagnosis.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 
 namespace volcomp::sim {
@@ -54,6 +55,7 @@ struct Diagnosis {
   hal::ResetCause start{};          // why the processor started
   std::uint32_t frames_lost = 0;    // before the node saw them
   std::vector<AxisDiagnosis> axes;  // those with a drive
+  std::optional<StrokeDiagnosis> strokes;  // of a node that knows them
 };
 
 // Throws as NodeClient::read.

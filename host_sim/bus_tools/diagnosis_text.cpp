@@ -244,6 +244,7 @@ std::string describe(const Diagnosis& d) {
   if (d.axes.empty()) text += "no axis has a drive\n";
   for (const AxisDiagnosis& axis : d.axes)
     text += describe_axis(axis);
+  if (d.strokes) text += describe(*d.strokes);
   return text;
 }
 
@@ -278,7 +279,8 @@ nlohmann::json to_json(const Diagnosis& d) {
           {"saved", saved_words(d.saved)},
           {"start", words(d.start)},
           {"frames_lost", d.frames_lost},
-          {"axes", axes}};
+          {"axes", axes},
+          {"strokes", d.strokes ? to_json(*d.strokes) : nlohmann::json()}};
 }
 
 }  // namespace volcomp::sim
