@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/scenarios/internal_helical/compensation.hpp"
+#include "host_sim/scenarios/internal_helical/grinder_control.hpp"
 
 namespace volcomp::sim {
 

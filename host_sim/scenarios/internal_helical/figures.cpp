@@ -187,7 +187,7 @@ Verdict internal_helical_verdict(const InternalHelicalResult& run) {
   return {outside == 0 && learned && geometry,
           fmt::format("Z and C are out of step by {:.2f} um rms on the flank before, {:.2f} after "
                       "{} updates ({:.1f} times less); {}{}.",
-                      before, after, kLearningUpdates, before / after, ranges,
+                      before, after, run.options.updates, before / after, ranges,
                       geometry ? "" : "; the first order misses the exact envelope")};
 }
 

@@ -108,7 +108,7 @@ json internal_helical_document(const InternalHelicalResult& run, const std::stri
            fmt::format("{} teeth, module {:g}, helix {:g}°, width {:g} mm; offsets of C learned in "
                        "{} updates",
                        run.gear.teeth, run.gear.module, kHelixAngle / kRadPerDegree, kFaceWidth_mm,
-                       kLearningUpdates)},
+                       run.options.updates)},
           {"verdict", {{"ok", verdict.ok}, {"text", verdict.text}}},
           {"provenance", provenance(run, command)},
           {"sections", sections}};

@@ -6,9 +6,16 @@
 #include <fmt/format.h>
 
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/internal_helical/integrated_grinder.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+std::unique_ptr<GrinderControl> make_control(const WatchedStrokes& watched,
+                                             const InternalHelicalOptions& options,
+                                             GrindingProcess& process) {
+  return std::make_unique<IntegratedGrinder>(watched, options.way, process.plant());
+}
 
 // One grinder with its compensation, from the first gear to the last.
 class Campaign {
@@ -18,27 +25,29 @@ class Campaign {
       : gear_(gear),
         grinding_(grinding),
         truth_(options.truth),
-        process_(gear, options.truth, seed),
-        compensation_(gear, grinding.flank_per_x(), options.way),
+        updates_(options.updates),
+        process_(gear, options.truth, helical_wheel(gear).centre_distance, seed),
+        control_(make_control(watched_strokes(gear, grinding.flank_per_x(), options.way), options,
+                              process_)),
         measuring_(seed + 1'000'000) {}
 
   SeedResult run(HelicalDetail* detail) {
     SeedResult result;
-    for (int update = 0; update < kLearningUpdates; ++update) {
+    for (int update = 0; update < updates_; ++update) {
       for (int i = 0; i < kRoundsPerUpdate; ++i) {
         const GroundGear gear = grind(update == 0 && i == 0, detail, &HelicalDetail::pass_before);
         if (update == 0 && i == 0) result.before = gear;
         result.learning_um.push_back(gear.sync_rms_um);
       }
-      if (update == 0 && detail != nullptr) detail->before = compensation_.view();
-      compensation_.learn();
+      if (update == 0 && detail != nullptr) detail->before = control_->view();
+      control_->learn();
     }
     result.after = grind(true, detail, &HelicalDetail::pass_after);
     result.learning_um.push_back(result.after.sync_rms_um);
     if (detail != nullptr) {
       static_cast<void>(grind(false, nullptr, nullptr));  // so that every slot is seen both ways
-      detail->after = compensation_.view();
-      detail->tables = compensation_.tables();
+      detail->after = control_->view();
+      detail->tables = control_->tables();
     }
     return result;
   }
@@ -48,9 +57,10 @@ class Campaign {
                    std::array<StrokeTrace, 2> HelicalDetail::*kept) {
     GroundGear gear;
     squares_ = samples_ = 0.0;
-    const std::vector<StrokeTrace> passes =
-        process_.round([this, &gear](const ProcessState& state) { return sync(state, gear); });
-    compensation_.collect();
+    const std::vector<StrokeTrace> passes = process_.round([this, &gear](const StrokeStep& step) {
+      if (step.in_face) look_at_flank(step, gear);
+      control_->cycle(step);
+    });
     gear.sync_rms_um = std::sqrt(squares_ / samples_);
     if (!inspect) return gear;
     gear.inspection = inspect_gear(gear_, grinding_, passes, truth_.probe_mm, measuring_);
@@ -58,27 +68,24 @@ class Campaign {
     return gear;
   }
 
-  // One SYNC: the compensation, its background at the end of every stroke, and a look at the flank
-  // that is independent of what the compensation looks at.
-  std::int32_t sync(const ProcessState& state, GroundGear& gear) {
-    if (state.stroke_end) compensation_.collect();
-    if (state.in_face) {
-      const double e_z = static_cast<double>(state.z.actual - state.z.command) / kNmPerMm;
-      const double e_c = static_cast<double>(state.c.actual - state.c.command) / kUnitsPerRad;
-      const double flank =
-          kUmPerMm * synchronisation_on_flank(gear_, synchronisation_error(gear_, e_z, e_c));
-      squares_ += flank * flank;
-      samples_ += 1.0;
-      gear.z_peak_mm = std::max(gear.z_peak_mm, std::abs(e_z));
-    }
-    return compensation_.tick(state);
+  // Independent of what the compensation looks at.
+  void look_at_flank(const StrokeStep& step, GroundGear& gear) {
+    GrinderPlant& plant = process_.plant();
+    const double e_z = static_cast<double>(plant.read_z() - step.z) / kNmPerMm;
+    const double e_c = static_cast<double>(plant.read_c() - step.c) / kWirePerRad;
+    const double flank =
+        kUmPerMm * synchronisation_on_flank(gear_, synchronisation_error(gear_, e_z, e_c));
+    squares_ += flank * flank;
+    samples_ += 1.0;
+    gear.z_peak_mm = std::max(gear.z_peak_mm, std::abs(e_z));
   }
 
   const InternalGear& gear_;
   const FlankGrinding& grinding_;
   GrindingTruth truth_;
+  int updates_;
   GrindingProcess process_;
-  HelixCompensation compensation_;
+  std::unique_ptr<GrinderControl> control_;
   Random measuring_;
   double squares_ = 0.0;
   double samples_ = 0.0;

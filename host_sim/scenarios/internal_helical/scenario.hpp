@@ -3,18 +3,19 @@
 // offsets of C learned in six updates of two rounds each, and the first and last gear inspected.
 // Seed 003 section 9.
 
-#include "host_sim/scenarios/internal_helical/compensation.hpp"
 #include "host_sim/scenarios/internal_helical/geometry_check.hpp"
+#include "host_sim/scenarios/internal_helical/grinder_control.hpp"
 #include "host_sim/scenarios/internal_helical/inspection.hpp"
 #include "host_sim/scenarios/progress.hpp"
 
 namespace volcomp::sim {
 
-inline constexpr int kLearningUpdates = 6;
+inline constexpr int kLearningUpdates = 6;  // seed 003, addendum
 inline constexpr int kRoundsPerUpdate = 2;
 
 struct InternalHelicalOptions {
   int seeds = 16;  // 1, 2, …
+  int updates = kLearningUpdates;
   LearningWay way = LearningWay::right;
   GrindingTruth truth;
 };

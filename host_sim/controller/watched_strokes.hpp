@@ -1,0 +1,28 @@
+#pragma once
+// What the compensation of a helical grinder is told of gear and strokes, wherever it runs.
+
+#include "comp/realtime/helix_monitor.hpp"
+#include "comp/realtime/stroke_offsets.hpp"
+#include "comp/tables/learning_choice.hpp"
+
+namespace volcomp::sim {
+
+struct WatchedStrokes {
+  std::uint16_t slots = 0;  // of the gear
+  HelixMonitorSettings monitor;
+  StrokeOffsetSettings offsets;
+  LearningRules along;   // the stroke, for the tables by direction
+  LearningRules around;  // the gear, for the table by slot
+  LearningTarget target = LearningTarget::synchronisation;
+};
+
+// The controller's own word of what it does at the targets of a cycle.
+struct ProcessState {
+  std::uint16_t slot = 0;
+  Direction stroke = Direction::unknown;
+  bool in_face = false;     // the wheel is within the face width
+  bool stroke_end = false;  // it turns round here
+  std::int32_t feed_nm_per_s = 0;
+};
+
+}  // namespace volcomp::sim

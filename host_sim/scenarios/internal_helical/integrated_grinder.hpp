@@ -1,0 +1,44 @@
+#pragma once
+// The integrated form: monitor, learning and offsets of comp beside the controller, called once per
+// SYNC. Targets and offsets are counted in the units of the drives, as on a bus.
+
+#include <memory>
+
+#include "comp/realtime/helix_instances.hpp"
+#include "comp/tables/learning_guard.hpp"
+#include "host_sim/scenarios/internal_helical/grinder_control.hpp"
+#include "host_sim/scenarios/internal_helical/grinder_plant.hpp"
+
+namespace volcomp::sim {
+
+class IntegratedGrinder final : public GrinderControl {
+ public:
+  // `plant` must outlive it.
+  IntegratedGrinder(const WatchedStrokes& watched, LearningWay way, GrinderPlant& plant);
+
+  void cycle(const StrokeStep& step) override;
+  void learn() override;
+  [[nodiscard]] MonitorView view() override;
+  [[nodiscard]] LearnedTables tables() override;
+
+ private:
+  [[nodiscard]] HelixFrame frame(const StrokeStep& step);
+  void collect();
+  [[nodiscard]] std::vector<NodeSums> stroke_sums(Direction direction) const;
+  [[nodiscard]] std::vector<NodeSums> slot_sums() const;
+  [[nodiscard]] std::vector<double> means_on_flank(const std::vector<NodeSums>& sums) const;
+  template <std::size_t N>
+  void step(OffsetLearner<N>& learner, const std::vector<NodeSums>& sums);
+
+  WatchedStrokes watched_;
+  LearningWay way_;
+  GrinderPlant& plant_;
+  std::uint16_t sequence_ = 0;
+  std::int32_t feed_nm_per_s_ = 0;
+  std::unique_ptr<GrinderMonitor> monitor_ = std::make_unique<GrinderMonitor>();
+  std::unique_ptr<GrinderOffsets> offsets_ = std::make_unique<GrinderOffsets>();
+  std::array<OffsetLearner<kStrokeNodes>, 2> stroke_{};
+  OffsetLearner<kGearSlots> slot_{};
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,59 @@
+#pragma once
+// What the controller of the grinder commands, SYNC by SYNC: C indexes to the next slot while the
+// wheel stands outside the face, then Z and C follow the helix, up and down in turns.
+
+#include "comp/realtime/direction.hpp"
+#include "comp/surfaces/internal_gear.hpp"
+#include "host_sim/controller/straight_move.hpp"
+#include "host_sim/scenarios/internal_helical/constants.hpp"
+
+namespace volcomp::sim {
+
+// The targets that the drives take at one SYNC, in their units, and what is done at them.
+struct StrokeStep {
+  std::int64_t x = 0;  // nm
+  std::int64_t z = 0;  // nm
+  std::int64_t c = 0;  // 2^-31 turn, counted through
+  std::uint16_t slot = 0;
+  Direction stroke = Direction::unknown;
+  bool in_face = false;
+  bool stroke_end = false;  // C indexes
+  std::int32_t feed_nm_per_s = 0;
+};
+
+class StrokePlan {
+ public:
+  // `x_mm`: distance of the wheel from the axis of the gear.
+  StrokePlan(const InternalGear& gear, double x_mm);
+
+  // Where the machine stands now, outside the face: before the first pass, or after the last one.
+  [[nodiscard]] const StrokeStep& standing() const { return standing_; }
+
+  // The next slot and the other way; pass k grinds slot k modulo the teeth, so that with an odd
+  // number of teeth every slot is ground the other way in the next round.
+  void begin_pass();
+  [[nodiscard]] int index_ticks() const;
+  [[nodiscard]] int stroke_ticks() const;
+  // Steps of the pass, from tick 0 on.
+  [[nodiscard]] StrokeStep index(int tick) const;
+  [[nodiscard]] StrokeStep stroke(int tick) const;
+  // The machine stands where its last stroke has ended.
+  void end_pass();
+
+ private:
+  // `turned`: C, rad, while Z is at 0.
+  [[nodiscard]] StrokeStep at(double z_mm, double turned) const;
+  [[nodiscard]] Direction way() const {
+    return pass_ % 2 == 0 ? Direction::forward : Direction::backward;
+  }
+
+  InternalGear gear_;
+  std::int64_t x_;
+  Trapezoid stroke_;
+  Trapezoid index_;
+  long pass_ = 0;
+  bool begun_ = false;
+  StrokeStep standing_;
+};
+
+}  // namespace volcomp::sim
