@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <memory>
 
 #include <fmt/format.h>
@@ -35,6 +36,63 @@ void arm_probe(SdoChannel& sdo, std::uint8_t drive) {
   report(0x1802, base | canopen::kTpdo3, "edge counter PDO");
   sdo.write_value<std::uint16_t>({0x60B8, 0}, 0, "touch probe off");
   sdo.write_value<std::uint16_t>({0x60B8, 0}, kRisingContinuously, "touch probe function");
+}
+
+void write_real(SdoChannel& sdo, std::uint16_t index, std::size_t sub, double value,
+                const std::string& what) {
+  std::uint64_t raw = 0;
+  std::memcpy(&raw, &value, sizeof raw);
+  sdo.write_value<std::uint64_t>({index, static_cast<std::uint8_t>(sub)}, raw, what);
+}
+
+template <class Values>
+void write_reals(SdoChannel& sdo, std::uint16_t index, const Values& values,
+                 const std::string& what) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    write_real(sdo, index, i + 1, values[i], what);
+}
+
+std::uint8_t axis_number(const BusSettings& b, char letter) {
+  for (std::size_t i = 0; i < b.axes.size(); ++i) {
+    if (b.axes[i].letter == letter) return static_cast<std::uint8_t>(i + 1);
+  }
+  throw UserError(fmt::format("a grinder of helical gears needs an axis {} on the bus", letter));
+}
+
+// 2500h…2505h and what it learns from; the last write takes them over.
+void watch_strokes(SdoChannel& sdo, const BusSettings& b, const WatchedStrokes& w) {
+  sdo.write_value<std::uint8_t>({0x2500, 1}, static_cast<std::uint8_t>(node::StrokeCommand::off),
+                                "strokes off");
+  constexpr std::array<char, 3> kAxes{'X', 'Z', 'C'};
+  for (std::size_t i = 0; i < kAxes.size(); ++i)
+    sdo.write_value<std::uint8_t>({0x2500, static_cast<std::uint8_t>(i + 2)},
+                                  axis_number(b, kAxes[i]), "axis of the grinder");
+  sdo.write_value<std::uint16_t>({0x2500, 5}, w.slots, "slots");
+  sdo.write_value<std::uint16_t>({0x2500, 6}, static_cast<std::uint16_t>(w.monitor.nodes),
+                                 "nodes along the stroke");
+  sdo.write_value<std::uint32_t>({0x2500, 7}, w.monitor.node_pitch_nm, "distance of the nodes");
+  sdo.write_value<std::int64_t>({0x2500, 8}, w.monitor.z0_nm, "first node");
+  sdo.write_value<std::int32_t>({0x2500, 9}, w.offsets.rate, "rate of the learned offset");
+  sdo.write_value<std::uint16_t>({0x2500, 10}, static_cast<std::uint16_t>(w.offsets.stale_ticks),
+                                 "cycles until the learned offset is dropped");
+  write_reals(
+      sdo, 0x2501,
+      std::array<double, 3>{w.monitor.turn_per_mm, w.monitor.flank_per_rad, w.monitor.flank_per_x},
+      "helical gear");
+  write_reals(sdo, 0x2502, w.monitor.order_wavelength_mm, "wavelength of a line");
+  write_reals(sdo, 0x2503, w.monitor.time_line_hz, "frequency of a line");
+  write_reals(sdo, 0x2504,
+              std::array<double, 6>{w.along.weight, w.along.dead_sigma, w.along.most_step,
+                                    w.along.most_offset, w.along.most_slope, w.around.most_slope},
+              "learning rules");
+  sdo.write_value<std::uint32_t>({0x2505, 1}, w.along.least_samples, "least samples of a node");
+  sdo.write_value<std::uint32_t>({0x2505, 2}, w.around.least_samples, "least samples of a slot");
+  sdo.write_value<std::uint8_t>({0x2520, 2}, static_cast<std::uint8_t>(w.target),
+                                "what is learned from");
+  sdo.write_value<std::uint8_t>({0x2520, 3}, w.target == LearningTarget::synchronisation ? 0 : 1,
+                                "learning forced");
+  sdo.write_value<std::uint8_t>({0x2500, 1}, static_cast<std::uint8_t>(node::StrokeCommand::on),
+                                "strokes on");
 }
 
 }  // namespace
@@ -158,6 +216,7 @@ void BusController::configure_node(SdoChannel& sdo) {
     sdo.write_value<std::uint16_t>({kStatus, 3}, 0, "status PDO without inhibit time");
     sdo.write_value<std::uint32_t>({kStatus, 1}, id, "status PDO on");
   }
+  if (b.strokes) watch_strokes(sdo, b, *b.strokes);
   if (node_probe_) queue_probe(sdo, *node_probe_);
   if (!image_.empty()) queue_tables(sdo);
 }

@@ -46,6 +46,8 @@ class BusController {
   // --- once per cycle
   // Targets in drive units: sent as 607Ah after a SYNC, taken by the drives at the next.
   void send_targets(const std::vector<std::int32_t>& path);
+  // What is done at the targets of this cycle, for a node that watches strokes (201Ah).
+  void send_process_state(const ProcessState& state);
   void send_sync();
 
   // Resets every node on the bus; whoever boots is configured and started.

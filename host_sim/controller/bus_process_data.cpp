@@ -1,6 +1,7 @@
 // What motion controller, drives and compensation node tell each other every cycle.
 
 #include "firmware/canopen/cob_id.hpp"
+#include "firmware/node/stroke_objects.hpp"
 #include "host_sim/controller/bus_controller.hpp"
 
 namespace volcomp::sim {
@@ -60,6 +61,22 @@ void BusController::send_sync() {
   node_requests_ = 0;
   counter_ = static_cast<std::uint8_t>(counter_ % kCounterOverflow + 1);
   send_latest({canopen::kSync, 1, {counter_}});
+}
+
+// 201Ah:01…03 as the node maps them by default.
+void BusController::send_process_state(const ProcessState& state) {
+  unsigned flags = 0;
+  if (state.in_face) flags |= node::kInFace;
+  if (state.stroke_end) flags |= node::kStrokeEnd;
+  if (state.stroke == Direction::forward) flags |= node::kStrokeForward;
+  if (state.stroke == Direction::backward) flags |= node::kStrokeBackward;
+  hal::CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(canopen::kTpdo1 + settings_.controller);
+  frame.size = 8;
+  canopen::store_le(frame.data.data(), 2, state.slot);
+  canopen::store_le(&frame.data[2], 2, flags);
+  canopen::store_le(&frame.data[4], 4, static_cast<std::uint32_t>(state.feed_nm_per_s));
+  send_latest(frame);
 }
 
 void BusController::send_targets(const std::vector<std::int32_t>& path) {

@@ -3,9 +3,11 @@
 // cycle is.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "comp/realtime/instances.hpp"
+#include "host_sim/controller/watched_strokes.hpp"
 #include "host_sim/machine/machine_file.hpp"
 
 namespace volcomp::sim {
@@ -33,6 +35,7 @@ struct BusSettings {
   std::vector<BusAxis> axes;
   bool probes = false;  // the drives latch the rising edges of a touch probe and report them
   CompensatorSettings<LoadedCompensator::kAxes> limits{};  // per cycle of this period
+  std::optional<WatchedStrokes> strokes;  // the axes X, Z and C grind a helical gear
 };
 
 // Axes 1, 2, 3 … of the machine file on drives 1, 2, 3 …, 1 nm or 2^-31 turn per unit.

@@ -1,11 +1,17 @@
 #include "host_sim/drives/cia402_axis.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace volcomp::sim {
 
 void Cia402Axis::stand_at(std::int64_t units) {
   drive_.stand_at(units);
+  stand();
+}
+
+void Cia402Axis::couple(ForeignMechanics mechanics) {
+  foreign_ = std::move(mechanics);
   stand();
 }
 
@@ -18,12 +24,15 @@ void Cia402Axis::advance(std::int64_t command) {
 
 void Cia402Axis::follow(std::int64_t demand) {
   braking_ = false;
-  advance(demand - zero_shift_);
+  if (!foreign_.follow) return advance(demand - zero_shift_);
+  drive_.stand_at(foreign_.read());
+  foreign_.follow(demand - zero_shift_);
 }
 
 void Cia402Axis::stand() {
   braking_ = false;
   step_ = previous_step_ = 0.0;
+  if (foreign_.read) drive_.stand_at(foreign_.read());
 }
 
 // The slower of the last two periods: a single jump of the command is not a speed.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 
 #include "host_sim/drives/axis_drive.hpp"
 
@@ -22,6 +23,12 @@ constexpr std::int32_t wrapped(std::int64_t units) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(units));
 }
 
+// Mechanics of another kind than the axis' own, counted through in position units.
+struct ForeignMechanics {
+  std::function<std::int64_t()> read;               // the encoder, now
+  std::function<void(std::int64_t demand)> follow;  // one period; without a call the axis stands
+};
+
 class Cia402Axis {
  public:
   Cia402Axis(double period_s, double time_constant_s)
@@ -31,6 +38,9 @@ class Cia402Axis {
 
   // The world's side. The reading moves along: the encoder is absolute.
   void stand_at(std::int64_t units);
+  // From now on these are the mechanics. The reading is then of the begin of a period, as an
+  // encoder that is sampled at SYNC; such an axis stops at once and knows no way between readings.
+  void couple(ForeignMechanics mechanics);
   [[nodiscard]] double position_units() const { return drive_.position_mm() * 1e6; }
   [[nodiscard]] double approach() const { return drive_.approach(); }
 
@@ -57,6 +67,7 @@ class Cia402Axis {
   double period_s_;
   double gain_;  // share of the distance to the command that one period covers
   AxisDrive drive_;
+  ForeignMechanics foreign_;  // empty: drive_
   std::int64_t zero_shift_ = 0;
   double step_ = 0.0;           // units, last period
   double previous_step_ = 0.0;  // the one before

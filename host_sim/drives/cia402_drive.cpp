@@ -78,6 +78,15 @@ void Cia402Drive::power_off() {
 
 void Cia402Drive::stand_at(std::int64_t units) {
   axis_.stand_at(units);
+  hold();
+}
+
+void Cia402Drive::couple(ForeignMechanics mechanics) {
+  axis_.couple(std::move(mechanics));
+  hold();
+}
+
+void Cia402Drive::hold() {
   demand_ = axis_.reading();
   target_arrived_ = false;
   publish();

@@ -82,6 +82,8 @@ class Cia402Drive final : private canopen::Application {
 
   // The axis is put somewhere, at rest; its reading moves along.
   void stand_at(std::int64_t units);
+  // The axis is another one from now on, see Cia402Axis.
+  void couple(ForeignMechanics mechanics);
   // Bit 8 of the statusword falls; the axis can be homed again.
   void lose_reference();
   // The probe signal changes, `time_ns` (≥ 0) after the begin of the servo period that the axis has
@@ -138,6 +140,7 @@ class Cia402Drive final : private canopen::Application {
   void abort_connection();
   void fail(canopen::ErrorCode code);
 
+  void hold();
   void take_input(std::uint8_t sync_counter);
   [[nodiscard]] std::int64_t wanted() const;
   [[nodiscard]] std::int64_t within_software_limits(std::int64_t wanted);

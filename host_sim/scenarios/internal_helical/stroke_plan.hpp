@@ -2,23 +2,18 @@
 // What the controller of the grinder commands, SYNC by SYNC: C indexes to the next slot while the
 // wheel stands outside the face, then Z and C follow the helix, up and down in turns.
 
-#include "comp/realtime/direction.hpp"
 #include "comp/surfaces/internal_gear.hpp"
 #include "host_sim/controller/straight_move.hpp"
+#include "host_sim/controller/watched_strokes.hpp"
 #include "host_sim/scenarios/internal_helical/constants.hpp"
 
 namespace volcomp::sim {
 
 // The targets that the drives take at one SYNC, in their units, and what is done at them.
-struct StrokeStep {
+struct StrokeStep : ProcessState {
   std::int64_t x = 0;  // nm
   std::int64_t z = 0;  // nm
   std::int64_t c = 0;  // 2^-31 turn, counted through
-  std::uint16_t slot = 0;
-  Direction stroke = Direction::unknown;
-  bool in_face = false;
-  bool stroke_end = false;  // C indexes
-  std::int32_t feed_nm_per_s = 0;
 };
 
 class StrokePlan {
