@@ -33,13 +33,21 @@ std::vector<std::string> write_tables(const std::filesystem::path& folder,
 }
 
 int run_internal_helical_command(const InternalHelicalArguments& arguments) {
-  const InternalHelicalResult run = run_watched(nullptr, [&arguments](const Progress& progress) {
-    return run_internal_helical(arguments.options, progress);
+  InternalHelicalOptions options = arguments.options;
+  std::unique_ptr<ScenarioBus> bus;
+  if (!arguments.node.integrated()) {
+    bus = std::make_unique<ScenarioBus>(arguments.node);
+    options.make_axes = bus->axes();
+    options.machine = machine_of(arguments, "internal_grinder");
+  }
+  const InternalHelicalResult run = run_watched(bus.get(), [&options](const Progress& progress) {
+    return run_internal_helical(options, progress);
   });
-  fmt::print("{}", internal_helical_summary(run));
+  fmt::print("{}transport: {}\n", internal_helical_summary(run), describe(arguments.node));
   const std::vector<std::string> tables = write_tables(arguments.table_folder, run);
   write_figures(arguments, internal_helical_figures(run, tables));
-  write_pages(arguments, internal_helical_document(run, arguments.command));
+  write_pages(arguments,
+              internal_helical_document(run, arguments.command, describe(arguments.node)));
   return internal_helical_verdict(run).ok ? 0 : 1;
 }
 
@@ -65,7 +73,13 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
       ->default_str("");
   helical->add_option("--tables", a->table_folder,
                       "Folder for the learned tables as files of controllers");
-  add_figure_options(*helical, *a);
+  add_output_options(*helical, *a);
+  helical->add_option(
+      "--can", a->node.can,
+      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}", kLinkForms));
+  helical
+      ->add_option("--log", a->node.log_file, "Write all frames to this file, as candump -L does")
+      ->needs("--can");
   helical->callback([a, &code] { code = run_internal_helical_command(*a); });
 }
 

@@ -82,18 +82,20 @@ json truth_table(const InternalHelicalResult& run) {
                t.visible_phase / kRadPerDegree, t.runout_phase / kRadPerDegree)}};
 }
 
-json provenance(const InternalHelicalResult& run, const std::string& command) {
+json provenance(const InternalHelicalResult& run, const std::string& command,
+                const std::string& transport) {
   return json::array({{"data", "simulated: no machine and no gear was measured"},
                       {"command", command},
                       {"version", kVersion},
                       {"learned", kLearningWays.at(static_cast<std::size_t>(run.options.way))},
                       {"seeds", fmt::format("1 to {}; curves are of seed 1", run.options.seeds)},
-                      {"transport", "integrated: a call per SYNC"}});
+                      {"transport", transport}});
 }
 
 }  // namespace
 
-json internal_helical_document(const InternalHelicalResult& run, const std::string& command) {
+json internal_helical_document(const InternalHelicalResult& run, const std::string& command,
+                               const std::string& transport) {
   const Verdict verdict = internal_helical_verdict(run);
   json sections =
       json::array({measure_table(run), tracking_charts(run), learning_chart(run), lag_charts(run),
@@ -110,7 +112,7 @@ json internal_helical_document(const InternalHelicalResult& run, const std::stri
                        run.gear.teeth, run.gear.module, kHelixAngle / kRadPerDegree, kFaceWidth_mm,
                        run.options.updates)},
           {"verdict", {{"ok", verdict.ok}, {"text", verdict.text}}},
-          {"provenance", provenance(run, command)},
+          {"provenance", provenance(run, command, transport)},
           {"sections", sections}};
 }
 

@@ -10,6 +10,7 @@
 namespace volcomp::sim {
 
 [[nodiscard]] nlohmann::json internal_helical_document(const InternalHelicalResult& run,
-                                                       const std::string& command);
+                                                       const std::string& command,
+                                                       const std::string& transport);
 
 }  // namespace volcomp::sim

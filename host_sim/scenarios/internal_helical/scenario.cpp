@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/internal_helical/bus_grinder.hpp"
 #include "host_sim/scenarios/internal_helical/integrated_grinder.hpp"
 
 namespace volcomp::sim {
@@ -14,7 +15,15 @@ namespace {
 std::unique_ptr<GrinderControl> make_control(const WatchedStrokes& watched,
                                              const InternalHelicalOptions& options,
                                              GrindingProcess& process) {
-  return std::make_unique<IntegratedGrinder>(watched, options.way, process.plant());
+  if (!options.make_axes)
+    return std::make_unique<IntegratedGrinder>(watched, options.way, process.plant());
+  if (options.way == LearningWay::one_table)
+    throw UserError(
+        "--wrong one-table: a node keeps a table for each direction; without --can "
+        "one table can be learned for both");
+  return std::make_unique<BusGrinder>(
+      grinder_axes(read_machine_file(options.machine), watched, options.make_axes),
+      process.standing(), process.plant());
 }
 
 // One grinder with its compensation, from the first gear to the last.

@@ -3,6 +3,9 @@
 // offsets of C learned in six updates of two rounds each, and the first and last gear inspected.
 // Seed 003 section 9.
 
+#include <filesystem>
+
+#include "host_sim/controller/bus_axes.hpp"
 #include "host_sim/scenarios/internal_helical/geometry_check.hpp"
 #include "host_sim/scenarios/internal_helical/grinder_control.hpp"
 #include "host_sim/scenarios/internal_helical/inspection.hpp"
@@ -18,6 +21,9 @@ struct InternalHelicalOptions {
   int updates = kLearningUpdates;
   LearningWay way = LearningWay::right;
   GrindingTruth truth;
+  // With the compensation on a bus; empty: integrated, and the machine file is not needed.
+  BusAxesFactory make_axes;
+  std::filesystem::path machine;
 };
 
 // A gear as it was ground and what was seen of it.

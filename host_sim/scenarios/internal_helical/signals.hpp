@@ -11,10 +11,12 @@
 
 namespace volcomp::sim {
 
-// Half the range on the flank, how much of it comes back, and whether it is worth a table.
+// Half the range on the flank, how much of it comes back, and whether it is worth a table. A node
+// says no more than the mean of every place: of what comes back nothing is known then.
 struct SignalReport {
   const char* name = "";
   double amplitude_um = 0.0;
+  bool knows_repeats = false;  // else the two below say nothing
   double ratio = 0.0;
   LearningVerdict verdict = LearningVerdict::too_small;
 };
