@@ -31,12 +31,12 @@ class BusGrinder final : public GrinderControl {
   // Why the node adds no learned offset although it has tables, in words; empty where it does.
   [[nodiscard]] std::string feed_trouble();
 
+  // An object of the node; the machine rests until it is there. `most`: bytes it may have.
+  [[nodiscard]] SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,
+                                       const std::string& what);
   [[nodiscard]] BusAxes& axes() { return *axes_; }
 
  private:
-  // The machine rests while the node answers.
-  [[nodiscard]] SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,
-                                       const std::string& what);
   [[nodiscard]] std::vector<double> read_floats(canopen::ObjectId object, std::size_t most,
                                                 const std::string& what);
   [[nodiscard]] double read_real(canopen::ObjectId object, const std::string& what);

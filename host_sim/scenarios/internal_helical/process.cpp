@@ -3,8 +3,7 @@
 namespace volcomp::sim {
 namespace {
 
-// Longer than every lag: a round begins with all axes at rest, whatever was done before it.
-constexpr int kDwell_ticks = 200;
+constexpr int kDwell_ticks = 200;  // longer than every lag
 
 }  // namespace
 
@@ -16,9 +15,13 @@ GrindingProcess::GrindingProcess(const InternalGear& gear, const GrindingTruth& 
                                  std::uint64_t seed)
     : teeth_(gear.teeth), plan_(gear, x_mm), plant_(gear, truth, plan_.standing(), seed) {}
 
-std::vector<StrokeTrace> GrindingProcess::round(const Sync& sync) {
+void GrindingProcess::rest(const Sync& sync) const {
   for (int tick = 0; tick < kDwell_ticks; ++tick)
-    sync(standing());
+    sync(plan_.standing());
+}
+
+std::vector<StrokeTrace> GrindingProcess::round(const Sync& sync) {
+  rest(sync);
   std::vector<StrokeTrace> traces;
   traces.reserve(static_cast<std::size_t>(teeth_));
   for (int k = 0; k < teeth_; ++k)

@@ -30,6 +30,8 @@ class GrindingProcess {
   std::vector<StrokeTrace> round(const Sync& sync);
   // The next slot.
   StrokeTrace pass(const Sync& sync);
+  // Stands until all axes are at rest, whatever was done before.
+  void rest(const Sync& sync) const;
 
   [[nodiscard]] GrinderPlant& plant() { return plant_; }
   [[nodiscard]] const StrokeStep& standing() const { return plan_.standing(); }
