@@ -34,11 +34,11 @@ std::vector<std::string> write_tables(const std::filesystem::path& folder,
 
 int run_internal_helical_command(const InternalHelicalArguments& arguments) {
   InternalHelicalOptions options = arguments.options;
+  options.machine = machine_of(arguments, "internal_grinder");
   std::unique_ptr<ScenarioBus> bus;
   if (!arguments.node.integrated()) {
     bus = std::make_unique<ScenarioBus>(arguments.node);
     options.make_axes = bus->axes();
-    options.machine = machine_of(arguments, "internal_grinder");
   }
   const InternalHelicalResult run = run_watched(bus.get(), [&options](const Progress& progress) {
     return run_internal_helical(options, progress);

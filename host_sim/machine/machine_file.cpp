@@ -149,7 +149,7 @@ void read_tables(const Section& s, MachineFile& file) {
 MachineFile read_machine(const toml::value& root, const std::string& name) {
   const Section top(root, name, "the machine file");
   top.allow_only({"name", "id", "convention", "side", "tool", "work", "body", "axis", "correction",
-                  "tables", "squareness", "probe"});
+                  "tables", "squareness", "probe", "gear", "wheel", "stroke"});
   MachineFile file;
   file.path = name;
   file.name = top.text("name");
@@ -180,6 +180,7 @@ MachineFile read_machine(const toml::value& root, const std::string& name) {
   }
   if (top.has("tables")) read_tables(top.table("tables"), file);
   if (top.has("probe")) file.probe = read_probe(top.table("probe"));
+  if (top.has("gear") || top.has("wheel") || top.has("stroke")) file.grinding = read_grinding(top);
   if (top.has("squareness")) file.squareness = read_squareness(top.table("squareness"));
   return file;
 }

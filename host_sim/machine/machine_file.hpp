@@ -9,6 +9,7 @@
 
 #include "comp/geometry/machine_chain.hpp"
 #include "comp/geometry/xyfz.hpp"
+#include "comp/surfaces/internal_gear.hpp"
 #include "comp/tables/abbe.hpp"
 #include "comp/tables/error_table.hpp"
 
@@ -55,6 +56,16 @@ struct CorrectionFile {
   double max_speed_rad_per_s = 0.0;
 };
 
+// What a grinder of internal gears grinds, and how: [gear], [wheel] and [stroke].
+struct GrindingFile {
+  InternalGear gear;
+  double width_mm = 0.0;         // of the gear
+  double wheel_radius_mm = 0.0;  // of a form wheel
+  double feed_mm_per_s = 0.0;    // of the stroke
+  double acceleration_mm_per_s2 = 200.0;
+  double overrun_mm = 10.0;  // beyond the gear, at each end
+};
+
 struct MachineFile {
   std::string path;
   std::string name;
@@ -69,6 +80,7 @@ struct MachineFile {
   Interpolation interpolation = Interpolation::catmull_rom;
   std::optional<SquarenessFile> squareness;
   std::optional<ProbeFile> probe;
+  std::optional<GrindingFile> grinding;
 
   [[nodiscard]] std::size_t axis_index(char letter) const;  // throws UserError
   // Throws UserError unless the NC axes are these, in this order.

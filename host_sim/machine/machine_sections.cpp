@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "comp/tables/plausibility.hpp"
+#include "comp/units.hpp"
 
 namespace volcomp::sim {
 
@@ -62,6 +63,57 @@ ProbeFile read_probe(const TomlSection& s) {
     s.complain("radius_mm", "'radius_mm' must be above 0 and at most 20");
   probe.delay_us = read_delay_us(s, "delay_us");
   return probe;
+}
+
+namespace {
+
+double number_within(const TomlSection& s, const std::string& key, double fallback, double lo,
+                     double hi) {
+  const double value = s.number_or(key, fallback);
+  if (!(value >= lo && value <= hi)) {
+    static_cast<void>(s.need(key));
+    s.complain(key, fmt::format("'{}' must be from {} to {}", key, lo, hi));
+  }
+  return value;
+}
+
+void read_gear(const TomlSection& s, GrindingFile& g) {
+  constexpr double kMandatory = 0.0;  // outside every range
+  s.allow_only({"teeth", "module_mm", "pressure_angle_deg", "helix_angle_deg", "width_mm"});
+  g.gear.teeth = static_cast<int>(s.integer("teeth", 5, 1000));
+  g.gear.module = s.number("module_mm");
+  g.gear.pressure_angle = s.number("pressure_angle_deg") * kPi / 180.0;
+  g.gear.helix_angle = s.number("helix_angle_deg") * kPi / 180.0;
+  s.check(derive(g.gear), "teeth");
+  g.width_mm = number_within(s, "width_mm", kMandatory, 4.0, 1000.0);
+}
+
+}  // namespace
+
+// A stroke that has not reached its feed at the gear would be watched while it accelerates.
+GrindingFile read_grinding(const TomlSection& top) {
+  GrindingFile g;
+  read_gear(top.table("gear"), g);
+  const TomlSection wheel = top.table("wheel");
+  wheel.allow_only({"radius_mm"});
+  g.wheel_radius_mm = wheel.number("radius_mm");
+  if (!(g.wheel_radius_mm > 0.0 && g.wheel_radius_mm < g.gear.r_tip))
+    wheel.complain("radius_mm", fmt::format("'radius_mm' must be above 0 and below the tip radius "
+                                            "of the gear, {:.3f}",
+                                            g.gear.r_tip));
+  const TomlSection stroke = top.table("stroke");
+  stroke.allow_only({"feed_mm_per_s", "acceleration_mm_per_s2", "overrun_mm"});
+  g.feed_mm_per_s = number_within(stroke, "feed_mm_per_s", 0.0, 0.1, 60.0);
+  g.acceleration_mm_per_s2 =
+      number_within(stroke, "acceleration_mm_per_s2", g.acceleration_mm_per_s2, 1.0, 1e5);
+  g.overrun_mm = number_within(stroke, "overrun_mm", g.overrun_mm, 0.1, 1000.0);
+  const double ramp_mm = 0.5 * g.feed_mm_per_s * g.feed_mm_per_s / g.acceleration_mm_per_s2;
+  if (g.overrun_mm < 2.0 * ramp_mm)
+    stroke.complain(stroke.has("overrun_mm") ? "overrun_mm" : "feed_mm_per_s",
+                    fmt::format("'overrun_mm' must be at least {:.3g}, twice the way that the "
+                                "feed takes to build up",
+                                2.0 * ramp_mm));
+  return g;
 }
 
 }  // namespace volcomp::sim

@@ -14,6 +14,9 @@ void read_correction_values(const TomlSection& s, CorrectionFile& c);
 
 [[nodiscard]] ProbeFile read_probe(const TomlSection& s);
 
+// [gear], [wheel] and [stroke] of the whole file.
+[[nodiscard]] GrindingFile read_grinding(const TomlSection& top);
+
 // 0…1000; 0 where nothing is said.
 [[nodiscard]] double read_delay_us(const TomlSection& s, const std::string& key);
 

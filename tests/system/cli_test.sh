@@ -43,6 +43,37 @@ expect 2 '--path' "$volcomp" run l300g --path sideways
 expect 2 'the axes must be X Y B A' "$volcomp" run l300g --machine "$machine"
 expect 2 'no-such-can0' "$volcomp" run l300g --can no-such-can0
 
+# A gear of one's own, ground; beside the controller and over the bus the same is learned.
+grinder=$source_dir/host_sim/machines/internal_grinder.toml
+sed 's/^teeth = .*/teeth = 51/;s/^radius_mm = .*/radius_mm = 25.0/;s/^width_mm = .*/width_mm = 10.0/;s/^overrun_mm = .*/overrun_mm = 2.0/' \
+  "$grinder" >"$work/grinder.toml"
+grind=("$volcomp" run internal-helical --machine "$work/grinder.toml" --seeds 1)
+expect 0 'transport: integrated' "${grind[@]}" --tables "$work/beside"
+expect 0 'transport: CAN loopback, 500 Hz' "${grind[@]}" --can loopback --tables "$work/on_bus" --json "$work/ground.json"
+diff -r "$work/beside" "$work/on_bus" || { echo 'FAILED: over the bus something else was learned'; failed=1; }
+grep -q '"transport": "CAN loopback' "$work/ground.json" || { echo 'FAILED: the figures do not say where the node was'; failed=1; }
+expect 2 '--wrong one-table: a node keeps a table for each direction' "${grind[@]}" --can loopback --wrong one-table
+expect 2 '--can' "${grind[@]}" --log "$work/never.log"
+expect 2 'no-such-can0' "${grind[@]}" --can no-such-can0
+expect 2 'the machine has no [gear], [wheel] and [stroke]' "$volcomp" run internal-helical --machine "$machine"
+bad_grinder() {
+  sed "$1" "$grinder" >"$work/bad.toml"
+  expect 2 "$2" "$volcomp" run internal-helical --seeds 1 --machine "$work/bad.toml"
+  one_line "$volcomp" run internal-helical --seeds 1 --machine "$work/bad.toml"
+}
+bad_grinder 's/^teeth = .*/teeth = 129/' "'teeth' of [gear] must be at most 128"
+bad_grinder 's/^teeth = .*/teeth = 11/' 'no_involute_at_tip'
+bad_grinder 's/^teeth = .*/teeth = 4/' "'teeth'"
+bad_grinder '/^teeth/d' "missing mandatory field 'teeth'"
+bad_grinder 's/^helix_angle_deg = .*/helix_angle_deg = 0.0/' "'helix_angle_deg' of [gear] is 0"
+bad_grinder 's/^helix_angle_deg = .*/helix_angle_deg = 46.0/' 'helix_angle'
+bad_grinder 's/^width_mm = .*/width_mm = 66.0/' "'width_mm' of [gear] must be at most 65"
+bad_grinder '/^width_mm/d' "missing mandatory field 'width_mm'"
+bad_grinder 's/^radius_mm = .*/radius_mm = 80.0/' "'radius_mm' must be above 0 and below the tip radius of the gear, 79.787"
+bad_grinder 's/^feed_mm_per_s = .*/feed_mm_per_s = 0.0/' "'feed_mm_per_s' must be from 0.1 to 60"
+bad_grinder 's/^overrun_mm = .*/overrun_mm = 0.5/' "'overrun_mm' must be at least 0.898"
+bad_grinder '/^\[stroke\]/,/^overrun/d' "stroke"
+
 # The whole road of a user's own data, with the run files of a simulated campaign.
 expect 0 'PASS' "$volcomp" run xyfz --draws 1 --report "$work/report" --json "$work/figures.json"
 for file in report/report.html report/report.json figures.json report/campaign/draw_001/runs_X.csv; do

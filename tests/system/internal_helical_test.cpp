@@ -19,6 +19,7 @@ namespace {
 
 InternalHelicalResult run(LearningWay way, int seeds) {
   InternalHelicalOptions options;
+  options.machine = bundled_machine("internal_grinder");
   options.way = way;
   options.seeds = seeds;
   return run_internal_helical(options, [](double, const std::string&) {});

@@ -87,7 +87,7 @@ json lag_chart(const InternalHelicalResult& run, const StrokeTrace& pass, const 
   constexpr std::size_t kEvery = 4;
   for (std::size_t i = 0; i < pass.at.size(); i += kEvery) {
     const LagErrors& e = pass.at[i];
-    if (std::abs(e.z) > 0.5 * kFaceWidth_mm) continue;
+    if (std::abs(e.z) > 0.5 * run.job.width_mm) continue;
     const auto flank = [&run](double e_z, double e_c) {
       return kUmPerMm *
              synchronisation_on_flank(run.gear, synchronisation_error(run.gear, e_z, e_c));
@@ -183,7 +183,7 @@ json stroke_table_chart(const InternalHelicalResult& run) {
                      axis_label("offset of C", "µrad"),
                      {series_of(kWays[0], z, scaled(t.stroke[0], kUradPerRad)),
                       series_of(kWays[1], z, scaled(t.stroke[1], kUradPerRad))});
-  chart["note"] = fmt::format("For {:g} mm/s only.", kStrokeFeed_mm_per_s);
+  chart["note"] = fmt::format("For {:g} mm/s only.", run.job.feed_mm_per_s);
   return chart;
 }
 

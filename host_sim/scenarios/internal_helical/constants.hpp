@@ -15,19 +15,8 @@ namespace volcomp::sim {
 
 inline constexpr double kRadPerDegree = kPi / 180.0;
 
-// Table 3 of the paper.
-inline constexpr int kHelicalTeeth = 79;
-inline constexpr double kHelicalModule_mm = 2.0;
-inline constexpr double kHelixAngle = 15.0 * kRadPerDegree;
-inline constexpr double kPressureAngle = 20.0 * kRadPerDegree;
-inline constexpr double kFaceWidth_mm = 45.0;
-inline constexpr double kWheelRadius_mm = 40.0;
-
-// Strokes.
-inline constexpr double kStrokeFeed_mm_per_s = 13.4;
-inline constexpr double kStrokeAcceleration_mm_per_s2 = 200.0;
-inline constexpr double kOverrun_mm = 10.0;
 inline constexpr double kStrokeTick_s = 2e-3;
+inline constexpr double kNodeSpacing_mm = 0.25;  // of the tables along the stroke
 
 struct GrindingTruth {
   // Position loops and what disturbs them.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/internal_helical/grinding_job.hpp"
 #include "host_sim/scenarios/internal_helical/signals.hpp"
 #include "host_sim/version.hpp"
 
@@ -72,11 +73,14 @@ bool geometry_ok(const GeometryCheck& g) {
 
 std::string measure_row(const InternalHelicalResult& run, const HelicalMeasure& m) {
   const EvaluationRange allowed = m.allowed();
-  return fmt::format("{:3}{:6}{:7}{:8.1f}{:8.1f}{:7.1f}{:9.1f} ..{:5.1f}  {:3}{:>8}{:>8}{:8.1f}\n",
-                     m.name, m.side, m.after ? "after" : "before", m.found.median, m.found.min,
-                     m.found.max, allowed.low, allowed.high, m.ok() ? "yes" : "NO",
-                     grade_text(helical_grade(run.gear, m, GearStandard::iso1328_1995)),
-                     grade_text(helical_grade(run.gear, m, GearStandard::iso1328_2013)), m.paper);
+  const std::string range = m.same_gear ? fmt::format("{:.1f} ..{:5.1f}  {:3}", allowed.low,
+                                                      allowed.high, m.ok() ? "yes" : "NO")
+                                        : "-     ";
+  const std::string paper = m.same_gear ? fmt::format("{:.1f}", m.paper) : "-";
+  return fmt::format("{:3}{:6}{:7}{:8.1f}{:8.1f}{:7.1f}{:>21}{:>8}{:>8}{:>8}\n", m.name, m.side,
+                     m.after ? "after" : "before", m.found.median, m.found.min, m.found.max, range,
+                     grade_text(helical_grade(run.job, m, GearStandard::iso1328_1995)),
+                     grade_text(helical_grade(run.job, m, GearStandard::iso1328_2013)), paper);
 }
 
 }  // namespace
@@ -110,16 +114,20 @@ std::vector<HelicalMeasure> helical_measures(const InternalHelicalResult& run) {
   constexpr GearDeviation kTotal = GearDeviation::total_pitch;
   constexpr GearDeviation kSingle = GearDeviation::single_pitch;
   constexpr GearDeviation kProfile = GearDeviation::profile;
-  return {{"Fp", "right", false, kTotal, total(kRight, false), {28.1, 32.3}, 28.8},
-          {"Fp", "right", true, kTotal, total(kRight, true), {22.8, 26.6}, 24.1},
-          {"Fp", "left", false, kTotal, total(kLeft, false), {24.1, 27.1}, 27.4},
-          {"Fp", "left", true, kTotal, total(kLeft, true), {18.2, 20.8}, 17.2},
-          {"fp", "right", false, kSingle, single(kRight, false), {5.4, 7.9}, 7.9},
-          {"fp", "right", true, kSingle, single(kRight, true), {3.2, 5.9}, 6.2},
-          {"fp", "left", false, kSingle, single(kLeft, false), {4.7, 8.2}, 5.8},
-          {"fp", "left", true, kSingle, single(kLeft, true), {3.4, 5.0}, 3.6},
-          {"Fa", "", false, kProfile, profile(false), {10.0, 11.7}, 11.3},
-          {"Fa", "", true, kProfile, profile(true), {6.7, 8.7}, 7.3}};
+  std::vector<HelicalMeasure> measures{
+      {"Fp", "right", false, kTotal, total(kRight, false), {28.1, 32.3}, 28.8},
+      {"Fp", "right", true, kTotal, total(kRight, true), {22.8, 26.6}, 24.1},
+      {"Fp", "left", false, kTotal, total(kLeft, false), {24.1, 27.1}, 27.4},
+      {"Fp", "left", true, kTotal, total(kLeft, true), {18.2, 20.8}, 17.2},
+      {"fp", "right", false, kSingle, single(kRight, false), {5.4, 7.9}, 7.9},
+      {"fp", "right", true, kSingle, single(kRight, true), {3.2, 5.9}, 6.2},
+      {"fp", "left", false, kSingle, single(kLeft, false), {4.7, 8.2}, 5.8},
+      {"fp", "left", true, kSingle, single(kLeft, true), {3.4, 5.0}, 3.6},
+      {"Fa", "", false, kProfile, profile(false), {10.0, 11.7}, 11.3},
+      {"Fa", "", true, kProfile, profile(true), {6.7, 8.7}, 7.3}};
+  for (HelicalMeasure& m : measures)
+    m.same_gear = is_of_the_paper(run.job);
+  return measures;
 }
 
 Spread sync_spread(const InternalHelicalResult& run, bool after) {
@@ -155,11 +163,12 @@ WrongWay wrong_way(const InternalHelicalResult& run) {
   return {"", 0.0, 0.0};
 }
 
-GearGrade helical_grade(const InternalGear& gear, const HelicalMeasure& measure,
+GearGrade helical_grade(const GrindingFile& job, const HelicalMeasure& measure,
                         GearStandard standard) {
   GearGrade grade;
-  require(grade_gear(standard, LimitRounding::rounded, {2.0 * gear.r, gear.module, kFaceWidth_mm},
-                     measure.kind, measure.found.median, grade),
+  require(grade_gear(standard, LimitRounding::rounded,
+                     {2.0 * job.gear.r, job.gear.module, job.width_mm}, measure.kind,
+                     measure.found.median, grade),
           "grade");
   return grade;
 }
@@ -174,16 +183,18 @@ Verdict internal_helical_verdict(const InternalHelicalResult& run) {
                        kLearningWays.at(static_cast<std::size_t>(run.options.way)), wrong.what,
                        wrong.found, wrong.beyond() ? "beyond" : "yet not beyond", wrong.threshold)};
   }
-  const bool judged = run.options.seeds >= kSeedsForMedians;
+  const bool same = is_of_the_paper(run.job);
+  const bool judged = same && run.options.seeds >= kSeedsForMedians;
   int outside = 0;
   for (const HelicalMeasure& m : helical_measures(run))
     outside += judged && !m.ok() ? 1 : 0;
   const bool learned = before >= kSyncGain * after;
   const std::string ranges =
-      !judged        ? fmt::format("medians are judged from {} seeds on", kSeedsForMedians)
+      !same          ? "ranges are known of the gear of the paper only"
+      : !judged      ? fmt::format("medians are judged from {} seeds on", kSeedsForMedians)
       : outside == 0 ? "all medians lie within the specified ranges"
                      : fmt::format("{} medians lie outside", outside);
-  const bool geometry = geometry_ok(run.geometry);
+  const bool geometry = !same || geometry_ok(run.geometry);
   return {outside == 0 && learned && geometry,
           fmt::format("Z and C are out of step by {:.2f} um rms on the flank before, {:.2f} after "
                       "{} updates ({:.1f} times less); {}{}.",
@@ -198,7 +209,7 @@ json internal_helical_figures(const InternalHelicalResult& run,
     json& place = m.side[0] == '\0' ? j[m.name] : j[m.name][m.side];
     place[m.after ? "after" : "before"] = spread_figures(m.found);
     for (const GearStandard standard : {GearStandard::iso1328_1995, GearStandard::iso1328_2013})
-      j["grades"].push_back(grade_figures(helical_grade(run.gear, m, standard), m));
+      j["grades"].push_back(grade_figures(helical_grade(run.job, m, standard), m));
   }
   j["sync_rms_um"] = {{"before", spread_figures(sync_spread(run, false))},
                       {"after", spread_figures(sync_spread(run, true))}};
@@ -224,7 +235,7 @@ json internal_helical_figures(const InternalHelicalResult& run,
 std::string internal_helical_summary(const InternalHelicalResult& run) {
   std::string text = fmt::format(
       "\ngear: {} teeth, module {:g}, helix {:g} deg, width {:g} mm; {} seeds, learned {}\n",
-      run.gear.teeth, run.gear.module, kHelixAngle / kRadPerDegree, kFaceWidth_mm,
+      run.gear.teeth, run.gear.module, run.gear.helix_angle / kRadPerDegree, run.job.width_mm,
       run.options.seeds, kLearningWays.at(static_cast<std::size_t>(run.options.way)));
   text += fmt::format(
       "wheel of 17 knots: flank within {:.3f} nm; first order against the exact envelope: {:.1f} "

@@ -27,6 +27,7 @@ struct HelicalMeasure {
   Spread found;                                   // µm
   EvaluationRange specified;                      // its lowest and highest of 16 seeds, µm
   double paper = 0.0;                             // µm
+  bool same_gear = true;                          // as theirs; else the two before say nothing
   [[nodiscard]] EvaluationRange allowed() const;  // for the median
   [[nodiscard]] bool ok() const;
 };
@@ -45,7 +46,7 @@ struct WrongWay {
 };
 [[nodiscard]] WrongWay wrong_way(const InternalHelicalResult& run);
 
-[[nodiscard]] GearGrade helical_grade(const InternalGear& gear, const HelicalMeasure& measure,
+[[nodiscard]] GearGrade helical_grade(const GrindingFile& job, const HelicalMeasure& measure,
                                       GearStandard standard);
 
 [[nodiscard]] Verdict internal_helical_verdict(const InternalHelicalResult& run);

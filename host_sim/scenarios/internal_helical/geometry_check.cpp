@@ -7,6 +7,7 @@
 #include "comp/surfaces/flank_envelope.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/internal_helical/grinding.hpp"
+#include "host_sim/scenarios/internal_helical/grinding_job.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -15,8 +16,12 @@ constexpr std::size_t kGrinderAxes = 4;
 constexpr Eigen::Index kLinearChannels = 3;
 
 struct Grinder {
-  InternalGear gear = helical_gear();
-  WheelSetup setup = helical_wheel(gear);
+  explicit Grinder(const GrindingFile& job)
+      : gear(job.gear), setup(form_wheel(job)), width_mm(job.width_mm) {}
+
+  InternalGear gear;
+  WheelSetup setup;
+  double width_mm;
   MachineChain chain = helical_chain();
 
   [[nodiscard]] WheelProfile profile(FlankSide side, std::size_t knots) const {
@@ -83,7 +88,7 @@ std::vector<double> many_errors(const Grinder& grinder, FlankSide side, const Wh
         errors[axis](channel) = random.normal(channel < kLinearChannels ? 5e-3 : 50e-6);
     }
     const double radius = random.uniform(grinder.gear.r_tip, grinder.gear.r + grinder.gear.module);
-    const double z = random.uniform(-0.5 * kFaceWidth_mm, 0.5 * kFaceWidth_mm);
+    const double z = grinder.width_mm * random.uniform(-0.5, 0.5);
     miss.push_back(grinder.miss({side, radius, z}, profile, errors));
   }
   return miss;
@@ -91,8 +96,8 @@ std::vector<double> many_errors(const Grinder& grinder, FlankSide side, const Wh
 
 }  // namespace
 
-GeometryCheck check_grinding_geometry() {
-  const Grinder grinder;
+GeometryCheck check_grinding_geometry(const GrindingFile& job) {
+  const Grinder grinder(job);
   Random random(1);
   GeometryCheck check;
   std::vector<double> all;

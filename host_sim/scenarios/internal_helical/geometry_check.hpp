@@ -2,6 +2,8 @@
 // The geometry that the simulation rests on, held against the exact envelope. Seed 003 sections 4
 // and 5.
 
+#include "host_sim/machine/machine_file.hpp"
+
 namespace volcomp::sim {
 
 struct GeometryCheck {
@@ -11,6 +13,6 @@ struct GeometryCheck {
 };
 
 // Throws UserError where there is no contact.
-[[nodiscard]] GeometryCheck check_grinding_geometry();
+[[nodiscard]] GeometryCheck check_grinding_geometry(const GrindingFile& job);
 
 }  // namespace volcomp::sim

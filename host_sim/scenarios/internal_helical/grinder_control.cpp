@@ -7,8 +7,6 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr double kFirstNode_mm = -0.5 * kFaceWidth_mm;
-
 // w, node spacing and passes are those of seed 003, addendum; limits keep a bad pass out and are
 // several times what the simulated machine needs.
 LearningRules stroke_rules(double pitch_mm) {
@@ -36,17 +34,18 @@ LearningRules slot_rules() {
 
 }  // namespace
 
-WatchedStrokes watched_strokes(const InternalGear& gear, double flank_per_x, LearningWay way) {
-  const double pitch_mm = way == LearningWay::coarse ? 1.0 : 0.25;
+WatchedStrokes watched_strokes(const GrindingFile& job, double flank_per_x, LearningWay way) {
+  const InternalGear& gear = job.gear;
+  const double pitch_mm = way == LearningWay::coarse ? 1.0 : kNodeSpacing_mm;
   WatchedStrokes w;
   w.slots = static_cast<std::uint16_t>(gear.teeth);
   w.monitor.turn_per_mm = gear.turn_per_mm;
   w.monitor.flank_per_rad = gear.normal_lever();
   w.monitor.flank_per_x = flank_per_x;
   w.monitor.tick_ns = static_cast<std::int32_t>(kStrokeTick_s * 1e9);
-  w.monitor.z0_nm = to_nm(kFirstNode_mm);
+  w.monitor.z0_nm = to_nm(-0.5 * job.width_mm);
   w.monitor.node_pitch_nm = static_cast<std::uint32_t>(to_nm(pitch_mm));
-  w.monitor.nodes = static_cast<std::size_t>(std::lround(kFaceWidth_mm / pitch_mm)) + 1;
+  w.monitor.nodes = static_cast<std::size_t>(std::lround(job.width_mm / pitch_mm)) + 1;
   w.monitor.order_wavelength_mm = kWavelengths_mm;
   w.offsets.rate = 20'000;     // 29 µrad per tick: the tables of two directions meet within 0.1 s
   w.offsets.stale_ticks = 10;  // 20 ms

@@ -5,7 +5,6 @@
 #include <array>
 #include <vector>
 
-#include "comp/surfaces/internal_gear.hpp"
 #include "host_sim/controller/watched_strokes.hpp"
 #include "host_sim/scenarios/internal_helical/stroke_plan.hpp"
 
@@ -24,7 +23,7 @@ inline constexpr std::array<const char*, 4> kLearningWays{"right", "c-alone", "o
 inline constexpr std::array<double, kMostLines> kWavelengths_mm{10.0, 5.0, 2.5, 1.25};
 
 // `flank_per_x`: magnitude of dn per error of X at the pitch circle.
-[[nodiscard]] WatchedStrokes watched_strokes(const InternalGear& gear, double flank_per_x,
+[[nodiscard]] WatchedStrokes watched_strokes(const GrindingFile& job, double flank_per_x,
                                              LearningWay way);
 
 // As the monitor has seen one or more rounds; µm on the flank.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/internal_helical/grinding_job.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -37,30 +38,15 @@ class ByPosition {
 
 }  // namespace
 
-InternalGear helical_gear() {
-  InternalGear gear;
-  gear.teeth = kHelicalTeeth;
-  gear.module = kHelicalModule_mm;
-  gear.pressure_angle = kPressureAngle;
-  gear.helix_angle = kHelixAngle;
-  require(derive(gear), "gear");
-  return gear;
-}
-
-WheelSetup helical_wheel(const InternalGear& gear) {
-  WheelSetup setup;
-  require(wheel_setup(gear, kWheelRadius_mm, gear.helix_angle, setup), "wheel");
-  return setup;
-}
-
 MachineChain helical_chain() {
   MachineChain chain;
   require(MachineChain::build(internal_grinder(GrinderY::none), chain), "grinder");
   return chain;
 }
 
-FlankGrinding::FlankGrinding(const InternalGear& gear, const GrindingTruth& truth)
-    : gear_(gear), truth_(truth) {
+FlankGrinding::FlankGrinding(const GrindingFile& job, const GrindingTruth& truth)
+    : job_(job), truth_(truth) {
+  const InternalGear& gear = job.gear;
   const double tip = volcomp::roll_length(gear, gear.r_tip);
   const double form = volcomp::roll_length(gear, gear.r + gear.module);
   for (std::size_t i = 0; i < kProfilePoints; ++i)
@@ -73,18 +59,18 @@ FlankGrinding::FlankGrinding(const InternalGear& gear, const GrindingTruth& trut
 }
 
 FlankGrinding::Place FlankGrinding::place_at(std::size_t side, double roll_length) const {
-  const WheelSetup setup = helical_wheel(gear_);
-  const double radius = std::hypot(gear_.r_b, roll_length);
+  const WheelSetup setup = form_wheel(job_);
+  const double radius = std::hypot(job_.gear.r_b, roll_length);
   const FlankPlace at{kHelicalSides[side], radius, 0.0};
   Place place;
   ContactInstant instant;
-  require(contact_instant(gear_, setup, at, instant), "contact");
+  require(contact_instant(job_.gear, setup, at, instant), "contact");
   place.stroke = instant.stroke;
-  require(flank_sensitivity(helical_chain(), gear_, setup, at, place.rows), "contact");
-  require(contact_curvature(gear_, setup, at.side, radius, place.kappa), "contact");
+  require(flank_sensitivity(helical_chain(), job_.gear, setup, at, place.rows), "contact");
+  require(contact_curvature(job_.gear, setup, at.side, radius, place.kappa), "contact");
   // Read in the transverse plane, less material towards the tip on both flanks.
   const double part = (roll_length - roll_.front()) / (roll_.back() - roll_.front()) - 0.5;
-  place.wheel_form = truth_.wheel_form_mm * std::cos(gear_.beta_b) * part;
+  place.wheel_form = truth_.wheel_form_mm * std::cos(job_.gear.beta_b) * part;
   return place;
 }
 
@@ -93,8 +79,8 @@ double FlankGrinding::flank_per_x() const { return std::abs(pitch_[0].rows[kGrin
 // The slot stands where slot 0 stands, the gear turned back: so is its run-out.
 double FlankGrinding::first_order(const Place& place, const LagErrors& errors,
                                   std::uint16_t slot) const {
-  const double angle = -slot_place(gear_, slot);
-  const double turned = errors.z * gear_.turn_per_mm + angle;
+  const double angle = -slot_place(job_.gear, slot);
+  const double turned = errors.z * job_.gear.turn_per_mm + angle;
   const double runout = truth_.runout_phase - angle;
   const SensitivityRow& c = place.rows[kGrinderC];
   return place.wheel_form + place.rows[kGrinderX](0) * errors.e_x +

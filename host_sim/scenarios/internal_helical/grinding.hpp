@@ -13,14 +13,11 @@ inline constexpr std::size_t kProfilePoints = 13;
 inline constexpr std::array<FlankSide, 2> kHelicalSides{FlankSide::left, FlankSide::right};
 inline constexpr std::array<const char*, 2> kHelicalSideNames{"left", "right"};
 
-// Table 3; throws UserError where comp refuses it.
-[[nodiscard]] InternalGear helical_gear();
-[[nodiscard]] WheelSetup helical_wheel(const InternalGear& gear);
 [[nodiscard]] MachineChain helical_chain();
 
 class FlankGrinding {
  public:
-  FlankGrinding(const InternalGear& gear, const GrindingTruth& truth);
+  FlankGrinding(const GrindingFile& job, const GrindingTruth& truth);
 
   // dn in mm of the flank that a pass has left, excess material positive: at the pitch circle, and
   // from the tip to the form circle.
@@ -45,7 +42,7 @@ class FlankGrinding {
                                    std::uint16_t slot) const;
   [[nodiscard]] double ground(const Place& place, const StrokeTrace& pass) const;
 
-  InternalGear gear_;
+  GrindingFile job_;
   GrindingTruth truth_;
   std::array<double, kProfilePoints> roll_{};
   std::array<Place, 2> pitch_{};

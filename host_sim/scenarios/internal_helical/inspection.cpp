@@ -19,7 +19,8 @@ HelicalInspection inspect_gear(const InternalGear& gear, const FlankGrinding& gr
     }
     require(evaluate_pitch(pitch.position, pitch.figures), "pitch");
   }
-  for (const std::size_t slot : kProfileSlots) {
+  for (int k = 0; k < kProfileSlots; ++k) {
+    const auto slot = static_cast<std::size_t>((k * gear.teeth + 1) / kProfileSlots);
     for (std::size_t side = 0; side < kHelicalSides.size(); ++side) {
       HelicalProfile profile{slot, side, {}, {}};
       for (std::size_t i = 0; i < kProfilePoints; ++i) {

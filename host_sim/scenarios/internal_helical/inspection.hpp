@@ -7,7 +7,8 @@
 
 namespace volcomp::sim {
 
-inline constexpr std::array<std::size_t, 4> kProfileSlots{0, 20, 39, 59};
+// Evenly around the gear; of 79 slots 0, 20, 39 and 59.
+inline constexpr int kProfileSlots = 4;
 
 struct HelicalPitch {
   std::vector<double> position;  // along the reference circle, towards +angle, µm

@@ -1,5 +1,7 @@
 #include "host_sim/scenarios/internal_helical/process.hpp"
 
+#include "host_sim/scenarios/internal_helical/grinding_job.hpp"
+
 namespace volcomp::sim {
 namespace {
 
@@ -11,9 +13,11 @@ double slot_place(const InternalGear& gear, std::uint16_t slot) {
   return -2.0 * kPi * slot / gear.teeth;
 }
 
-GrindingProcess::GrindingProcess(const InternalGear& gear, const GrindingTruth& truth, double x_mm,
+GrindingProcess::GrindingProcess(const GrindingFile& job, const GrindingTruth& truth,
                                  std::uint64_t seed)
-    : teeth_(gear.teeth), plan_(gear, x_mm), plant_(gear, truth, plan_.standing(), seed) {}
+    : teeth_(job.gear.teeth),
+      plan_(job, form_wheel(job).centre_distance),
+      plant_(job.gear, truth, plan_.standing(), seed) {}
 
 void GrindingProcess::rest(const Sync& sync) const {
   for (int tick = 0; tick < kDwell_ticks; ++tick)

@@ -22,8 +22,7 @@ class GrindingProcess {
   using Sync = std::function<void(const StrokeStep&)>;
 
   // `seed`: of everything random.
-  GrindingProcess(const InternalGear& gear, const GrindingTruth& truth, double x_mm,
-                  std::uint64_t seed);
+  GrindingProcess(const GrindingFile& job, const GrindingTruth& truth, std::uint64_t seed);
 
   // All slots once, up and down in turns, from rest. With an odd number of teeth every slot is
   // ground the other way in the next round.

@@ -18,11 +18,16 @@ json measure_table(const InternalHelicalResult& run) {
   json rows = json::array();
   for (const HelicalMeasure& m : helical_measures(run)) {
     const EvaluationRange allowed = m.allowed();
+    const std::string range =
+        m.same_gear ? fmt::format("{:.1f}…{:.1f}", allowed.low, allowed.high) : "–";
+    const json paper = m.same_gear ? json(m.paper) : json(nullptr);
     rows.push_back({fmt::format("{} {}", m.name, m.side), m.after ? "after" : "before",
-                    m.found.median, m.found.min, m.found.max,
-                    fmt::format("{:.1f}…{:.1f}", allowed.low, allowed.high), m.ok() ? "yes" : "no",
-                    grade_cell(helical_grade(run.gear, m, GearStandard::iso1328_1995)),
-                    grade_cell(helical_grade(run.gear, m, GearStandard::iso1328_2013)), m.paper});
+                    m.found.median, m.found.min, m.found.max, range,
+                    !m.same_gear ? "–"
+                    : m.ok()     ? "yes"
+                                 : "no",
+                    grade_cell(helical_grade(run.job, m, GearStandard::iso1328_1995)),
+                    grade_cell(helical_grade(run.job, m, GearStandard::iso1328_2013)), paper});
   }
   return {{"type", "table"},
           {"id", "deviations"},
@@ -109,8 +114,8 @@ json internal_helical_document(const InternalHelicalResult& run, const std::stri
           {"subtitle",
            fmt::format("{} teeth, module {:g}, helix {:g}°, width {:g} mm; offsets of C learned in "
                        "{} updates",
-                       run.gear.teeth, run.gear.module, kHelixAngle / kRadPerDegree, kFaceWidth_mm,
-                       run.options.updates)},
+                       run.gear.teeth, run.gear.module, run.gear.helix_angle / kRadPerDegree,
+                       run.job.width_mm, run.options.updates)},
           {"verdict", {{"ok", verdict.ok}, {"text", verdict.text}}},
           {"provenance", provenance(run, command, transport)},
           {"sections", sections}};

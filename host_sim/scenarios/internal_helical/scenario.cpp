@@ -7,12 +7,14 @@
 
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/internal_helical/bus_grinder.hpp"
+#include "host_sim/scenarios/internal_helical/grinding_job.hpp"
 #include "host_sim/scenarios/internal_helical/integrated_grinder.hpp"
 
 namespace volcomp::sim {
 namespace {
 
-std::unique_ptr<GrinderControl> make_control(const WatchedStrokes& watched,
+std::unique_ptr<GrinderControl> make_control(const MachineFile& machine,
+                                             const WatchedStrokes& watched,
                                              const InternalHelicalOptions& options,
                                              GrindingProcess& process) {
   if (!options.make_axes)
@@ -21,23 +23,22 @@ std::unique_ptr<GrinderControl> make_control(const WatchedStrokes& watched,
     throw UserError(
         "--wrong one-table: a node keeps a table for each direction; without --can "
         "one table can be learned for both");
-  return std::make_unique<BusGrinder>(
-      grinder_axes(read_machine_file(options.machine), watched, options.make_axes),
-      process.standing(), process.plant());
+  return std::make_unique<BusGrinder>(grinder_axes(machine, watched, options.make_axes),
+                                      process.standing(), process.plant());
 }
 
 // One grinder with its compensation, from the first gear to the last.
 class Campaign {
  public:
-  Campaign(const InternalGear& gear, const FlankGrinding& grinding,
+  Campaign(const MachineFile& machine, const GrindingFile& job, const FlankGrinding& grinding,
            const InternalHelicalOptions& options, std::uint64_t seed)
-      : gear_(gear),
+      : gear_(job.gear),
         grinding_(grinding),
         truth_(options.truth),
         updates_(options.updates),
-        process_(gear, options.truth, helical_wheel(gear).centre_distance, seed),
-        control_(make_control(watched_strokes(gear, grinding.flank_per_x(), options.way), options,
-                              process_)),
+        process_(job, options.truth, seed),
+        control_(make_control(machine, watched_strokes(job, grinding.flank_per_x(), options.way),
+                              options, process_)),
         measuring_(seed + 1'000'000) {}
 
   SeedResult run(HelicalDetail* detail) {
@@ -106,20 +107,22 @@ InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options
                                            const Progress& progress) {
   InternalHelicalResult run;
   run.options = options;
-  run.gear = helical_gear();
+  const MachineFile machine = read_machine_file(options.machine);
+  run.job = grinding_job(machine);
+  run.gear = run.job.gear;
   progress(0.0, "geometry against the exact envelope");
-  run.geometry = check_grinding_geometry();
+  run.geometry = check_grinding_geometry(run.job);
   const GrindingTruth& truth = options.truth;
-  const double lag_z = kStrokeFeed_mm_per_s / truth.gain_z;
-  const double lag_c = kStrokeFeed_mm_per_s * run.gear.turn_per_mm / truth.gain_c;
+  const double lag_z = run.job.feed_mm_per_s / truth.gain_z;
+  const double lag_c = run.job.feed_mm_per_s * run.gear.turn_per_mm / truth.gain_c;
   require(check_learning_target(LearningTarget::c_alone, true, true, run.gear.normal_lever(),
                                 run.gear.turn_per_mm, -lag_z, lag_c, run.lags),
           "lags");
-  const FlankGrinding grinding(run.gear, truth);
+  const FlankGrinding grinding(run.job, truth);
   run.roll_length.assign(grinding.roll_length().begin(), grinding.roll_length().end());
   for (int seed = 0; seed < options.seeds; ++seed) {
     progress(static_cast<double>(seed) / options.seeds, fmt::format("seed {}", seed + 1));
-    Campaign campaign(run.gear, grinding, options, static_cast<std::uint64_t>(seed) + 1);
+    Campaign campaign(machine, run.job, grinding, options, static_cast<std::uint64_t>(seed) + 1);
     run.seed.push_back(campaign.run(seed == 0 ? &run.detail : nullptr));
   }
   progress(1.0, "done");

@@ -21,9 +21,8 @@ struct InternalHelicalOptions {
   int updates = kLearningUpdates;
   LearningWay way = LearningWay::right;
   GrindingTruth truth;
-  // With the compensation on a bus; empty: integrated, and the machine file is not needed.
-  BusAxesFactory make_axes;
-  std::filesystem::path machine;
+  std::filesystem::path machine;  // file
+  BusAxesFactory make_axes;       // with the compensation on a bus; empty: integrated
 };
 
 // A gear as it was ground and what was seen of it.
@@ -50,6 +49,7 @@ struct HelicalDetail {
 
 struct InternalHelicalResult {
   InternalHelicalOptions options;
+  GrindingFile job;
   InternalGear gear;
   std::vector<double> roll_length;
   GeometryCheck geometry;

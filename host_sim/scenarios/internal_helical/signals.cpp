@@ -14,7 +14,7 @@ SignalReport judge(const InternalHelicalResult& run, const char* name, const Mon
                    const Repeatability& signal, GearDeviation feeds) {
   constexpr int kClass = 5;
   constexpr double kShare = 0.1;
-  const GearSize size{2.0 * run.gear.r, run.gear.module, kFaceWidth_mm};
+  const GearSize size{2.0 * run.gear.r, run.gear.module, run.job.width_mm};
   const double tolerance = gear_limits(GearStandard::iso1328_1995, size, kClass)
                                .rounded.at(static_cast<std::size_t>(feeds));
   const double um_per_rad = kUmPerMm * run.gear.normal_lever();

@@ -2,9 +2,9 @@
 // What the controller of the grinder commands, SYNC by SYNC: C indexes to the next slot while the
 // wheel stands outside the face, then Z and C follow the helix, up and down in turns.
 
-#include "comp/surfaces/internal_gear.hpp"
 #include "host_sim/controller/straight_move.hpp"
 #include "host_sim/controller/watched_strokes.hpp"
+#include "host_sim/machine/machine_file.hpp"
 #include "host_sim/scenarios/internal_helical/constants.hpp"
 
 namespace volcomp::sim {
@@ -19,7 +19,7 @@ struct StrokeStep : ProcessState {
 class StrokePlan {
  public:
   // `x_mm`: distance of the wheel from the axis of the gear.
-  StrokePlan(const InternalGear& gear, double x_mm);
+  StrokePlan(const GrindingFile& job, double x_mm);
 
   // Where the machine stands now, outside the face: before the first pass, or after the last one.
   [[nodiscard]] const StrokeStep& standing() const { return standing_; }
@@ -41,8 +41,13 @@ class StrokePlan {
   [[nodiscard]] Direction way() const {
     return pass_ % 2 == 0 ? Direction::forward : Direction::backward;
   }
+  [[nodiscard]] double travel_mm() const { return job_.width_mm + 2.0 * job_.overrun_mm; }
+  [[nodiscard]] double begin_mm() const {  // of the stroke
+    return way() == Direction::forward ? -0.5 * travel_mm() : 0.5 * travel_mm();
+  }
+  [[nodiscard]] double slot_rad() const { return 2.0 * kPi / job_.gear.teeth; }
 
-  InternalGear gear_;
+  GrindingFile job_;
   std::int64_t x_;
   Trapezoid stroke_;
   Trapezoid index_;
