@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "firmware/canopen/cob_id.hpp"
+#include "host_sim/data/temporary_folder.hpp"
 #include "host_sim/data/toml_text.hpp"
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/internal_helical/bus_grinder.hpp"
 #include "host_sim/scenarios/internal_helical/grinding_job.hpp"
 #include "host_sim/scenarios/internal_helical/integrated_grinder.hpp"
@@ -42,6 +44,10 @@ std::string refusal(const std::function<void()>& work) {
     return error.what();
   }
   return "not refused";
+}
+
+void replace(std::string& text, const std::string& from, const std::string& to) {
+  text.replace(text.find(from), from.size(), to);
 }
 
 struct Grinding {
@@ -120,12 +126,19 @@ INSTANTIATE_TEST_SUITE_P(InternalHelicalBus, EitherForm,
                          testing::Values(LearningWay::right, LearningWay::c_alone,
                                          LearningWay::coarse));
 
-// The whole scenario, cut to one update.
+// The whole scenario, on a smaller gear and cut to two updates.
 TEST(InternalHelicalBus, TheGearComesOutAlike) {
+  const TemporaryFolder folder;
+  std::string text = text_of_file(bundled_machine("internal_grinder"));
+  replace(text, "teeth = 79", "teeth = 51");
+  replace(text, "radius_mm = 40.0", "radius_mm = 25.0");
+  replace(text, "width_mm = 45.0", "width_mm = 20.0");
+  replace(text, "overrun_mm = 10.0", "overrun_mm = 4.0");
   InternalHelicalOptions options;
   options.seeds = 1;
-  options.updates = 1;
-  options.machine = bundled_machine("internal_grinder");
+  options.updates = 2;
+  options.machine = folder.path() / "small.toml";
+  write_whole_file(options.machine, text);
   const auto quiet = [](double, const std::string&) {};
   const InternalHelicalResult beside = run_internal_helical(options, quiet);
   options.make_axes = loopback_axes();
@@ -157,7 +170,7 @@ TEST(InternalHelicalBus, MachinesThatCannotDoItAreRefused) {
   const std::string text = text_of_file(bundled_machine("internal_grinder"));
   const auto with = [&text](const std::string& from, const std::string& to) {
     std::string changed = text;
-    changed.replace(changed.find(from), from.size(), to);
+    replace(changed, from, to);
     return refusal([&changed] {
       static_cast<void>(grinder_axes(parse_machine(changed, "mine.toml"),
                                      watched(LearningWay::right), loopback_axes()));
