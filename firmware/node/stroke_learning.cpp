@@ -242,7 +242,7 @@ Status StrokeService::accept(std::size_t size, std::uint32_t machine_id) {
   };
   stroke_[0].load(from(0));
   stroke_[1].load(from(mine.nodes));
-  slot_.load(from(2U * mine.nodes));
+  slot_.load(from(2 * std::size_t{mine.nodes}));
   objects_.table_feed = learned_feed(image);
   return {};
 }
