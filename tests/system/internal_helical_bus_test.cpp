@@ -57,6 +57,7 @@ struct Grinding {
     const auto sync = [&control](const StrokeStep& step) { control.cycle(step); };
     process.rest(sync);
     std::vector<StrokeTrace> traces;
+    traces.reserve(static_cast<std::size_t>(passes));
     for (int i = 0; i < passes; ++i)
       traces.push_back(process.pass(sync));
     return traces;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/realtime/helix_instances.hpp"
 #include "comp/tables/crc32.hpp"
 #include "comp/tables/little_endian.hpp"
 #include "firmware/node/node_objects.hpp"
@@ -64,6 +65,9 @@ void check(const MachineFile& machine, const BusSettings& settings, const Watche
                     "learned offset of C can change as fast as its tables need",
                     machine.path, 1e6 * rad / settings.period_us));
   }
+  require(std::make_unique<GrinderMonitor>()->configure(watched.monitor), machine.path);
+  require(check_rules(watched.along), machine.path);
+  require(check_rules(watched.around), machine.path);
 }
 
 }  // namespace

@@ -57,6 +57,7 @@ WatchedStrokes watched_strokes(const GrindingFile& job, double flank_per_x, Lear
 
 std::vector<double> orders_around(const std::vector<double>& slot_um) {
   std::vector<NodeSums> means;
+  means.reserve(slot_um.size());
   for (const double um : slot_um)
     means.push_back({1, um, um * um});
   std::vector<double> amplitude;

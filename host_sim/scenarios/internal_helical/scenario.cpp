@@ -41,10 +41,12 @@ class Campaign {
                               options, process_)),
         measuring_(seed + 1'000'000) {}
 
-  SeedResult run(HelicalDetail* detail) {
+  // `share`: told how much of it is done.
+  SeedResult run(HelicalDetail* detail, const std::function<void(double)>& share) {
     SeedResult result;
     for (int update = 0; update < updates_; ++update) {
       for (int i = 0; i < kRoundsPerUpdate; ++i) {
+        share((update * kRoundsPerUpdate + i) / (updates_ * kRoundsPerUpdate + 2.0));
         const GroundGear gear = grind(update == 0 && i == 0, detail, &HelicalDetail::pass_before);
         if (update == 0 && i == 0) result.before = gear;
         result.learning_um.push_back(gear.sync_rms_um);
@@ -121,9 +123,11 @@ InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options
   const FlankGrinding grinding(run.job, truth);
   run.roll_length.assign(grinding.roll_length().begin(), grinding.roll_length().end());
   for (int seed = 0; seed < options.seeds; ++seed) {
-    progress(static_cast<double>(seed) / options.seeds, fmt::format("seed {}", seed + 1));
+    const auto share = [&progress, &options, seed](double part) {
+      progress((seed + part) / options.seeds, fmt::format("seed {}", seed + 1));
+    };
     Campaign campaign(machine, run.job, grinding, options, static_cast<std::uint64_t>(seed) + 1);
-    run.seed.push_back(campaign.run(seed == 0 ? &run.detail : nullptr));
+    run.seed.push_back(campaign.run(seed == 0 ? &run.detail : nullptr, share));
   }
   progress(1.0, "done");
   return run;
