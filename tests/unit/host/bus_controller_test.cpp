@@ -63,6 +63,27 @@ TEST(BusController, SaysWhoIsSilent) {
   }
 }
 
+// 201Ah of the node: slot and flags (u16), feed in nm/s (i32), little-endian.
+TEST(BusController, TellsWhatIsGround) {
+  BusAxes axes(xyfz(), {});
+  std::vector<hal::CanFrame> seen;
+  axes.bus().bus().set_observer(
+      [&seen](std::uint64_t, const hal::CanFrame& frame, const hal::LoopbackBus::Port&) {
+        if (frame.id == 0x1FF) seen.push_back(frame);
+      });
+  ProcessState state;
+  state.slot = 300;
+  state.stroke = Direction::backward;
+  state.in_face = true;
+  state.feed_nm_per_s = 13'400'000;
+  axes.controller().send_process_state(state);
+  axes.run_cycle({0, 0, 0});
+  ASSERT_EQ(seen.size(), 1U);
+  ASSERT_EQ(seen[0].size, 8);
+  const std::array<std::uint8_t, 8> expected{0x2C, 0x01, 0x09, 0x00, 0xC0, 0x77, 0xCC, 0x00};
+  EXPECT_EQ(seen[0].data, expected);
+}
+
 TEST(BusController, RefusesTargetsBeyondTheWire) {
   BusAxes axes(xyfz(), {});
   axes.stand_at({0.0, 0.0, 0.0});
