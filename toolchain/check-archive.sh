@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Proves from their object files that the libraries of the target (comp, canopen, node, hal/linux) keep their
+# Proves from their object files that the libraries of the target (comp, c_interface, canopen, node, hal/linux) keep their
 # promises: no heap, no exceptions, no work before main, no mutable globals, no C library mathematics in comp/realtime.
 #
 #   toolchain/check-archive.sh [BUILD_FOLDER]   default build/host; a Release build
@@ -225,7 +225,8 @@ case "${1:-}" in
     build=${1:-build/host}
     check "$build/comp/libvolcomp_comp.a" "$build/comp/CMakeFiles/volcomp_comp.dir/realtime" ||
       die "the library comp breaks a promise, see FOUND above."
-    for library in firmware/canopen/libvolcomp_canopen firmware/node/libvolcomp_node hal/libvolcomp_hal_linux; do
+    for library in firmware/c_interface/libvolcomp_c firmware/canopen/libvolcomp_canopen firmware/node/libvolcomp_node \
+      hal/libvolcomp_hal_linux; do
       check "$build/$library.a" || die "$library breaks a promise, see FOUND above."
     done
     ;;

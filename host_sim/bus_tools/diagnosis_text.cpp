@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/realtime/status_text.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/node/storage.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
@@ -13,28 +14,9 @@ namespace {
 using canopen::ErrorCode;
 using canopen::NmtState;
 
-struct StatusName {
-  const char* words;
-  const char* key;
-};
-
-// By bit of the status word of an axis.
-constexpr std::array<StatusName, kStatusBits> kStatusNames{{
-    {"corrected", "valid"},
-    {"not referenced or not enabled, no correction", "not_homed"},
-    {"no position in time, correction held", "stale"},
-    {"no position for too long, correction ramped to zero", "dropped"},
-    {"position jumped, correction held", "implausible"},
-    {"beyond its table, correction of the end", "out_of_range"},
-    {"more than half a pitch beyond its table", "far_out_of_range"},
-    {"correction at its limit", "clamped"},
-    {"correction held back by its slew limit", "rate_limited"},
-    {"has not moved yet, mean of both directions", "direction_unknown"},
-    {"a change is being ramped in", "ramping"},
-    {"the correcting axes cannot act here", "no_authority"},
-    {"no tables", "no_tables"},
-    {"tables damaged in memory, correction ramped to zero", "table_damaged"},
-}};
+constexpr volcomp::StatusBit status_bit(std::size_t number) {
+  return static_cast<volcomp::StatusBit>(1U << number);
+}
 
 const char* words(NmtState state) {
   switch (state) {
@@ -125,7 +107,7 @@ std::string describe_axis(const AxisDiagnosis& a) {
       a.largest_offset, unit);
   for (std::size_t bit = 1; bit < a.began.size(); ++bit) {
     if (a.began[bit] == 0) continue;
-    text += fmt::format("  {} x {}\n", a.began[bit], kStatusNames[bit].words);
+    text += fmt::format("  {} x {}\n", a.began[bit], words(status_bit(bit)));
   }
   return text;
 }
@@ -133,7 +115,7 @@ std::string describe_axis(const AxisDiagnosis& a) {
 nlohmann::json axis_json(const AxisDiagnosis& a) {
   nlohmann::json began;
   for (std::size_t bit = 0; bit < a.began.size(); ++bit)
-    began[kStatusNames[bit].key] = a.began[bit];
+    began[code(status_bit(bit))] = a.began[bit];
   const char* const unit = a.rotary ? "urad" : "um";
   return {
       {"axis", a.number},   {"letter", a.letter != '\0' ? std::string(1, a.letter) : std::string()},
@@ -147,9 +129,9 @@ nlohmann::json axis_json(const AxisDiagnosis& a) {
 
 std::string describe_status(std::uint16_t status) {
   std::string text;
-  for (std::size_t bit = 0; bit < kStatusNames.size(); ++bit) {
+  for (std::size_t bit = 0; bit < kStatusBits; ++bit) {
     if ((unsigned{status} >> bit & 1U) == 0) continue;
-    text += (text.empty() ? "" : "; ") + std::string(kStatusNames[bit].words);
+    text += (text.empty() ? "" : "; ") + std::string(words(status_bit(bit)));
   }
   return text.empty() ? "not computed yet" : text;
 }

@@ -1,0 +1,191 @@
+// Setting up and the tick of volcomp.h.
+
+#include "firmware/c_interface/compensator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "comp/tables/image.hpp"
+
+namespace {
+
+using volcomp::AxisLimits;
+using volcomp::LoadedCompensator;
+using volcomp::LoadedMachine;
+using volcomp::Status;
+using volcomp::Vec3;
+using volcomp::c_interface::fine;
+using volcomp::c_interface::from;
+using volcomp::c_interface::refused;
+
+using Settings = LoadedCompensator::Settings;
+
+static_assert(volcomp::kStatusBits == VOLCOMP_STATUS_BITS);
+static_assert(VOLCOMP_UNITS_PER_TURN == volcomp::kUnitsPerTurn);
+
+Settings settings_of(const volcomp_settings& from) {
+  Settings s;
+  for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
+    const volcomp_axis_limits& l = from.axis[a];
+    s.axis[a] = {l.limit, l.rate, l.soft_rate, l.hysteresis, l.max_step};
+  }
+  s.source = from.positions == VOLCOMP_TARGET ? volcomp::PositionSource::target
+                                              : volcomp::PositionSource::actual;
+  s.machine_id = from.machine_id;
+  s.ramp_ticks = from.ramp_ticks;
+  s.stale_drop_ticks = from.stale_drop_ticks;
+  return s;
+}
+
+bool finite(const double* three) {
+  return std::isfinite(three[0]) && std::isfinite(three[1]) && std::isfinite(three[2]);
+}
+
+// The first tables after a start decide which machine this is; later ones have to match.
+Status adopt_machine(volcomp_compensator& c) {
+  if (c.activated) return {};
+  const LoadedMachine<VOLCOMP_AXES> machine{make_runtime_chain(c.tables.chain.description())};
+  if (same_chain(machine.chain, c.compensator.machine().chain)) return {};
+  if (machine.chain.axes > VOLCOMP_AXES) return refuse(volcomp::Reason::too_many_axes);
+  c.compensator.restart(machine);
+  return {};
+}
+
+Status stage(volcomp_compensator& c, volcomp::Span<const std::uint8_t> image,
+             const double* tool_mm) {
+  c.described = false;
+  if (const Status s = check_image(image, volcomp::kDefaultKnots, c.tables); !s.ok()) return s;
+  if (const Status s = adopt_machine(c); !s.ok()) return s;
+  if (tool_mm != nullptr) std::copy_n(tool_mm, 3, c.tables.chain.draft().tool_point.begin());
+  c.described = true;
+  c.image_crc = image_crc(image);
+  return c.compensator.stage(c.tables, c.tables.chain.tool_point(), c.image_crc);
+}
+
+volcomp_status counted(volcomp_compensator& c, const Status& status) {
+  const volcomp_status s = from(status);
+  if (s.reason == VOLCOMP_OK) return s;
+  c.last_rejection = s;
+  if (c.rejections < UINT32_MAX) ++c.rejections;
+  return s;
+}
+
+}  // namespace
+
+volcomp_status volcomp_create(void* memory, size_t bytes, volcomp_compensator** out) {
+  if (memory == nullptr) return refused(VOLCOMP_NULL_POINTER, "memory");
+  if (out == nullptr) return refused(VOLCOMP_NULL_POINTER, "out");
+  if (bytes < VOLCOMP_BYTES) return refused(VOLCOMP_MEMORY_TOO_SMALL, "bytes");
+  if (reinterpret_cast<std::uintptr_t>(memory) % alignof(volcomp_memory) != 0)
+    return refused(VOLCOMP_MEMORY_MISALIGNED, "memory");
+  *out = new (memory) volcomp_compensator;
+  return fine();
+}
+
+void volcomp_default_settings(volcomp_settings* out) {
+  const Settings s;
+  for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
+    const AxisLimits& l = s.axis[a];
+    out->axis[a] = {l.limit, l.rate, l.soft_rate, l.hysteresis, l.max_step};
+  }
+  out->positions = VOLCOMP_TARGET;
+  out->machine_id = s.machine_id;
+  out->ramp_ticks = s.ramp_ticks;
+  out->stale_drop_ticks = s.stale_drop_ticks;
+}
+
+volcomp_status volcomp_configure(volcomp_compensator* c, const volcomp_settings* settings) {
+  if (c == nullptr) return refused(VOLCOMP_NULL_POINTER, "compensator");
+  if (settings == nullptr) return refused(VOLCOMP_NULL_POINTER, "settings");
+  if (settings->positions != VOLCOMP_TARGET && settings->positions != VOLCOMP_ACTUAL)
+    return refused(VOLCOMP_BAD_SETTING, "positions");
+  return from(c->compensator.configure(settings_of(*settings)));
+}
+
+volcomp_status volcomp_stage(volcomp_compensator* c, const void* image, size_t bytes,
+                             const double* tool_mm) {
+  if (c == nullptr) return refused(VOLCOMP_NULL_POINTER, "compensator");
+  if (image == nullptr) return refused(VOLCOMP_NULL_POINTER, "image");
+  if (tool_mm != nullptr && !finite(tool_mm)) return refused(VOLCOMP_NOT_FINITE, "tool");
+  if (c->compensator.pending()) return from(refuse(volcomp::Reason::hand_over_pending));
+  const Status status = stage(*c, {static_cast<const std::uint8_t*>(image), bytes}, tool_mm);
+  c->staged = status.ok();
+  return counted(*c, status);
+}
+
+volcomp_status volcomp_start_from(volcomp_compensator* c, const int32_t offset[VOLCOMP_AXES]) {
+  if (c == nullptr) return refused(VOLCOMP_NULL_POINTER, "compensator");
+  if (offset == nullptr) return refused(VOLCOMP_NULL_POINTER, "offset");
+  std::array<std::int32_t, VOLCOMP_AXES> offsets{};
+  std::copy_n(offset, offsets.size(), offsets.begin());
+  return from(c->compensator.start_from(offsets));
+}
+
+// Points of the probe wait for the tick, so that tables and tool point change together.
+volcomp_status volcomp_activate(volcomp_compensator* c) {
+  if (c == nullptr) return refused(VOLCOMP_NULL_POINTER, "compensator");
+  if (!c->staged) return from(refuse(volcomp::Reason::not_staged));
+  c->staged = false;
+  const Status status = c->compensator.activate();
+  if (!status.ok()) return from(status);
+  c->activated = true;
+  c->probe.set_machine(c->tables.chain.description());
+  return fine();
+}
+
+void volcomp_deactivate(volcomp_compensator* c) { c->compensator.deactivate(); }
+
+volcomp_status volcomp_scrub(volcomp_compensator* c) {
+  if (c == nullptr) return refused(VOLCOMP_NULL_POINTER, "compensator");
+  return counted(*c, c->compensator.scrub());
+}
+
+bool volcomp_pending(const volcomp_compensator* c) { return c->compensator.pending(); }
+
+bool volcomp_active(const volcomp_compensator* c) { return c->compensator.active(); }
+
+void volcomp_describe(const volcomp_compensator* c, volcomp_machine* out) {
+  *out = {};
+  if (!c->described) return;
+  const volcomp::MachineChain& chain = c->tables.chain;
+  const volcomp::MachineDescription& machine = chain.description();
+  out->machine_id = c->tables.provenance.machine_id;
+  out->sequence = c->tables.provenance.sequence;
+  out->image_crc = c->image_crc;
+  out->axes = static_cast<std::uint32_t>(chain.axis_count());
+  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
+    out->letter[a] = chain.axis(a).letter;
+    out->rotary[a] = chain.axis(a).kind == volcomp::JointKind::rotary;
+  }
+  for (std::size_t i = 0; i < machine.correcting_count; ++i)
+    out->corrects[machine.correcting[i]] = true;
+}
+
+void volcomp_diagnose(const volcomp_compensator* c, volcomp_diagnostics* out) {
+  const volcomp::Diagnostics<VOLCOMP_AXES> d = c->compensator.diagnostics();
+  out->ticks = d.ticks;
+  out->activations = d.activations;
+  out->rejections = c->rejections;
+  out->active_crc = d.active_crc;
+  out->last_rejection = c->last_rejection;
+  for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
+    std::copy(d.began[a].begin(), d.began[a].end(), std::begin(out->began[a]));
+    out->largest[a] = d.largest[a];
+  }
+}
+
+void volcomp_tick(volcomp_compensator* c, const volcomp_input* in, volcomp_output* out) {
+  for (std::size_t a = 0; a < VOLCOMP_AXES; ++a)
+    c->in.axis[a] = {in->axis[a].position, in->axis[a].valid, in->axis[a].homed};
+  c->compensator.tick(c->in, c->out);
+  for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
+    out->offset[a] = c->out.offset[a];
+    out->status[a] = c->out.status[a];
+  }
+}
+
+int volcomp_direction(const volcomp_compensator* c, size_t axis) {
+  if (axis >= VOLCOMP_AXES) return VOLCOMP_UNKNOWN;
+  return static_cast<int>(c->compensator.direction(axis));
+}

@@ -1,0 +1,42 @@
+#pragma once
+// What stands behind a volcomp_compensator of volcomp.h.
+
+#include "comp/realtime/instances.hpp"
+#include "comp/realtime/probe_corrector.hpp"
+#include "comp/tables/tables_view.hpp"
+#include "firmware/c_interface/volcomp.h"
+
+struct volcomp_compensator {
+  volcomp::LoadedCompensator compensator;
+  volcomp::LoadedCompensator::Input in{};
+  volcomp::LoadedCompensator::Output out{};
+  volcomp::ProbeCorrector probe;
+  // Of the image staged last. What it says of the machine stays good; the values of its tables lie
+  // in bytes that the caller has taken back.
+  volcomp::TablesView tables{};
+  std::uint32_t image_crc = 0;
+  std::uint32_t rejections = 0;
+  volcomp_status last_rejection{VOLCOMP_OK, '\0', nullptr, -1, -1};
+  bool staged = false;     // and not yet activated
+  bool activated = false;  // at least once: the machine is decided
+  bool described = false;  // `tables` are of an image that was accepted
+};
+
+namespace volcomp::c_interface {
+
+static_assert(sizeof(volcomp_compensator) <= VOLCOMP_BYTES);
+static_assert(alignof(volcomp_compensator) <= alignof(volcomp_memory));
+static_assert(LoadedCompensator::kAxes == VOLCOMP_AXES && kDefaultKnots == VOLCOMP_KNOTS);
+
+inline volcomp_status fine() { return {VOLCOMP_OK, '\0', nullptr, -1, -1}; }
+
+inline volcomp_status refused(volcomp_reason reason, const char* field, int index = -1) {
+  return {reason, '\0', field, index, -1};
+}
+
+inline volcomp_status from(const Status& status) {
+  const Where& where = status.where;
+  return {static_cast<int>(status.reason), where.axis, where.field, where.index, where.channel};
+}
+
+}  // namespace volcomp::c_interface

@@ -1,0 +1,231 @@
+// Whatever volcomp.h is given: it says what is wrong with it, and the tables in use go on.
+
+#include <limits>
+#include <set>
+#include <string>
+
+#include "tests/unit/c_interface/support.hpp"
+
+namespace volcomp::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// The reason by its name, with the field where there is one.
+std::string text(const volcomp_status& s) {
+  const std::string code = volcomp_code(s.reason);
+  return s.field == nullptr ? code : code + " " + s.field;
+}
+
+TEST(CInterfaceRefuses, MemoryThatDoesNotServe) {
+  const auto memory = std::make_unique<std::array<volcomp_memory, 2>>();
+  unsigned char* const bytes = memory->front().bytes;
+  volcomp_compensator* c = nullptr;
+  EXPECT_EQ(text(volcomp_create(nullptr, VOLCOMP_BYTES, &c)), "null_pointer memory");
+  EXPECT_EQ(text(volcomp_create(bytes, VOLCOMP_BYTES, nullptr)), "null_pointer out");
+  EXPECT_EQ(text(volcomp_create(bytes, VOLCOMP_BYTES - 1, &c)), "memory_too_small bytes");
+  EXPECT_EQ(text(volcomp_create(bytes + 4, VOLCOMP_BYTES, &c)), "memory_misaligned memory");
+  EXPECT_EQ(c, nullptr);
+  EXPECT_EQ(text(volcomp_create(bytes, VOLCOMP_BYTES, &c)), "ok");
+  EXPECT_NE(c, nullptr);
+}
+
+TEST(CInterfaceRefuses, NullPointers) {
+  const Bytes image = encode(random_l300g(1));
+  CInstance c;
+  EXPECT_EQ(text(volcomp_stage(nullptr, image.data(), image.size(), nullptr)),
+            "null_pointer compensator");
+  EXPECT_EQ(text(volcomp_stage(c.get(), nullptr, 4, nullptr)), "null_pointer image");
+  EXPECT_EQ(text(volcomp_configure(c.get(), nullptr)), "null_pointer settings");
+  EXPECT_EQ(text(volcomp_configure_probe(c.get(), nullptr)), "null_pointer settings");
+  EXPECT_EQ(text(volcomp_start_from(c.get(), nullptr)), "null_pointer offset");
+  EXPECT_EQ(text(volcomp_activate(nullptr)), "null_pointer compensator");
+  EXPECT_EQ(text(volcomp_scrub(nullptr)), "null_pointer compensator");
+  EXPECT_EQ(text(volcomp_correct_touch(c.get(), nullptr, nullptr, nullptr)), "null_pointer touch");
+}
+
+TEST(CInterfaceRefuses, SettingsOutOfRangeByName) {
+  CInstance c;
+  volcomp_settings s;
+  const auto with = [&](auto change) {
+    volcomp_default_settings(&s);
+    change(s);
+    return text(volcomp_configure(c.get(), &s));
+  };
+  EXPECT_EQ(with([](volcomp_settings&) {}), "ok");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].limit = 0; }), "bad_setting limit");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].rate = 2'000'000'000; }), "bad_setting rate");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].soft_rate = 20'000; }),
+            "bad_setting soft_rate");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].hysteresis = -1; }), "bad_setting hysteresis");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].max_step = -1; }), "bad_setting max_step");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.ramp_ticks = 0; }), "bad_setting ramp_ticks");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.positions = 2; }), "bad_setting positions");
+  volcomp_default_settings(&s);
+  s.axis[3].limit = 0;
+  EXPECT_EQ(volcomp_configure(c.get(), &s).index, 3);
+}
+
+TEST(CInterfaceRefuses, ImagesAndKeepsTheTablesInUse) {
+  const MachineTables tables = random_l300g(2);
+  const Bytes good = encode(tables);
+  CInstance c;
+  EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
+  c.start(tables);
+  Random random(3);
+  const auto q = random_probing_pose(random);
+  c.tick(q);
+  const std::int32_t before = c.tick(q).offset[0];
+  ASSERT_NE(before, 0);
+
+  Bytes bad = good;
+  bad[0] = 'X';
+  EXPECT_EQ(text(c.stage(bad)), "bad_magic");
+  bad = good;
+  bad.pop_back();
+  EXPECT_EQ(text(c.stage(bad)), "image_truncated");
+  bad = good;
+  bad[bad.size() / 2] ^= 1U;
+  EXPECT_EQ(text(c.stage(bad)), "crc_mismatch");
+  MachineTables other = tables;
+  other.axis[2].value[1][4][5] = std::numeric_limits<float>::infinity();
+  const volcomp_status status = c.stage(encode(other));
+  EXPECT_EQ(text(status), "not_finite");
+  EXPECT_EQ(status.axis, 'B');
+  EXPECT_EQ(status.index, 4);
+  EXPECT_EQ(status.channel, 5);
+  EXPECT_EQ(text(c.stage(encode(xyfz_tables(1e3, 1e-5, random)))), "axes_mismatch");
+  other = tables;
+  other.machine.body[1].joint.offset[0] += 1.0;
+  EXPECT_EQ(text(c.stage(encode(other))), "machine_mismatch");
+  const std::array<double, 3> tool{0.0, kNan, 0.0};
+  EXPECT_EQ(text(c.stage(good, tool.data())), "not_finite tool");
+
+  // Nothing of all this can be activated.
+  EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
+  EXPECT_TRUE(volcomp_active(c.get()));
+  EXPECT_EQ(c.tick(q).offset[0], before);
+  volcomp_diagnostics d;
+  volcomp_diagnose(c.get(), &d);
+  EXPECT_EQ(d.rejections, 6U);
+  EXPECT_EQ(text(d.last_rejection), "machine_mismatch");
+  EXPECT_EQ(d.active_crc, image_crc({good.data(), good.size()}));
+}
+
+// A good image that was staged does not survive a bad one: what would be activated is unclear.
+TEST(CInterfaceRefuses, ActivationAfterABadImage) {
+  const Bytes good = encode(random_l300g(4));
+  CInstance c;
+  ASSERT_EQ(c.stage(good).reason, VOLCOMP_OK);
+  EXPECT_EQ(text(c.stage({1, 2, 3})), "bad_magic");
+  EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
+}
+
+// Before the first activation the machine is open; afterwards changes wait for the tick.
+TEST(CInterfaceRefuses, ChangesWhileOneIsPending) {
+  Random random(5);
+  const MachineTables tables = random_l300g(6);
+  CInstance c;
+  ASSERT_EQ(c.stage(encode(xyfz_tables(1e3, 1e-5, random))).reason, VOLCOMP_OK);
+  volcomp_machine m;
+  volcomp_describe(c.get(), &m);
+  EXPECT_STREQ(m.letter, "XYZ");
+  c.start(tables);
+  volcomp_describe(c.get(), &m);
+  EXPECT_STREQ(m.letter, "XYBA");
+  EXPECT_EQ(m.axes, 4U);
+  EXPECT_TRUE(!m.rotary[1] && m.rotary[2] && m.corrects[2] && !m.corrects[3]);
+  EXPECT_TRUE(volcomp_pending(c.get()));
+  EXPECT_EQ(text(c.stage(encode(tables))), "hand_over_pending");
+  volcomp_touch touch{};
+  volcomp_feature feature{};
+  volcomp_point point;
+  EXPECT_EQ(text(volcomp_correct_touch(c.get(), &touch, &feature, &point)), "hand_over_pending");
+  c.tick(random_probing_pose(random));
+  EXPECT_EQ(text(volcomp_correct_touch(c.get(), &touch, &feature, &point)), "ok");
+}
+
+TEST(CInterfaceRefuses, SettingsOfTheProbeByName) {
+  CInstance c;
+  volcomp_probe_settings s;
+  const auto with = [&](auto change) {
+    volcomp_default_probe_settings(&s);
+    change(s);
+    return text(volcomp_configure_probe(c.get(), &s));
+  };
+  using Settings = volcomp_probe_settings;
+  EXPECT_EQ(with([](Settings&) {}), "ok");
+  EXPECT_EQ(with([](Settings& x) { x.delay_s = 0.06; }), "bad_setting delay");
+  EXPECT_EQ(with([](Settings& x) { x.latch_delay_s[4] = -0.06; }), "bad_setting latch delay");
+  EXPECT_EQ(with([](Settings& x) { x.radius[7] = kNan; }), "not_finite radius");
+  EXPECT_EQ(with([](Settings& x) { x.radius[0] = -1.0; }), "bad_setting radius");
+  EXPECT_EQ(with([](Settings& x) { x.rotation[0] = kNan; }), "not_finite rotation");
+  EXPECT_EQ(with([](Settings& x) { x.rotation[0] = -1.0; }), "not_a_rotation rotation");
+  EXPECT_EQ(with([](Settings& x) { x.translation[2] = kNan; }), "not_finite translation");
+  EXPECT_EQ(with([](Settings& x) { x.translation[2] = 1e14; }), "bad_setting translation");
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.position[1] = kNan; }), "not_finite uncertainty");
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.correlation = 1.1; }), "bad_setting correlation");
+}
+
+TEST(CInterfaceRefuses, TouchesByName) {
+  CInstance c;
+  volcomp_touch touch{};
+  volcomp_feature feature{};
+  volcomp_point point;
+  const auto correct = [&] {
+    return text(volcomp_correct_touch(c.get(), &touch, &feature, &point));
+  };
+  EXPECT_EQ(correct(), "ok");
+  EXPECT_EQ(point.verdict, VOLCOMP_NO_MACHINE);
+  c.start(random_l300g(7));
+  Random random(8);
+  c.tick(random_probing_pose(random));
+  touch.axis[1].velocity = kNan;
+  EXPECT_EQ(correct(), "not_finite velocity");
+  touch.axis[1].velocity = 1e14;
+  EXPECT_EQ(correct(), "bad_setting velocity");
+  touch.axis[1].velocity = 0.0;
+  touch.axis[3].direction = 3;
+  EXPECT_EQ(correct(), "bad_setting direction");
+  touch.axis[3].direction = VOLCOMP_UNKNOWN;
+  feature.normal[0] = 0.5;
+  EXPECT_EQ(correct(), "bad_setting normal");
+  feature.normal[0] = kNan;
+  EXPECT_EQ(correct(), "not_finite normal");
+  feature.normal[0] = 0.0;
+  for (volcomp_latch& latch : touch.axis)
+    latch.position = std::numeric_limits<std::int64_t>::min();  // held at the tables' ends
+  EXPECT_EQ(correct(), "ok");
+  EXPECT_EQ(point.verdict, VOLCOMP_UNCERTIFIED);
+  volcomp_deactivate(c.get());
+  c.tick(random_probing_pose(random));
+  EXPECT_EQ(correct(), "ok");
+  EXPECT_EQ(point.verdict, VOLCOMP_UNCORRECTED);
+}
+
+TEST(CInterfaceText, EveryNumberHasAName) {
+  std::set<std::string> names;
+  for (int reason = -2; reason < 300; ++reason) {
+    const std::string code = volcomp_code(reason);
+    ASSERT_FALSE(std::string(volcomp_sentence(reason)).empty());
+    EXPECT_TRUE(code == "unknown" || names.insert(code).second) << code;
+  }
+  EXPECT_EQ(names.count("memory_misaligned"), 1U);
+  EXPECT_EQ(names.count("hand_over_pending"), 1U);
+  EXPECT_STREQ(volcomp_sentence(VOLCOMP_CRC_MISMATCH),
+               "The checksum is wrong; the image is damaged.");
+  names.clear();
+  for (unsigned bit = 0; bit < VOLCOMP_STATUS_BITS; ++bit) {
+    EXPECT_TRUE(names.insert(volcomp_status_code(1U << bit)).second);
+    EXPECT_STRNE(volcomp_status_words(1U << bit), "unknown");
+  }
+  EXPECT_STREQ(volcomp_status_code(VOLCOMP_CLAMPED | VOLCOMP_RAMPING), "clamped");
+  EXPECT_STREQ(volcomp_status_code(0), "unknown");
+  EXPECT_STREQ(volcomp_status_words(1U << VOLCOMP_STATUS_BITS), "unknown");
+  EXPECT_STREQ(volcomp_verdict_code(VOLCOMP_RETRACTING), "retracting");
+  EXPECT_STREQ(volcomp_verdict_code(VOLCOMP_NO_MACHINE), "no_machine");
+  EXPECT_STREQ(volcomp_verdict_sentence(15), "unknown");
+}
+
+}  // namespace
+}  // namespace volcomp::test
