@@ -220,10 +220,21 @@ MachineFile read_machine_file(const std::filesystem::path& path) {
   return parse_machine(text_of_file(path), path.string());
 }
 
+namespace {
+
+// An installed program has them beside it, one that was just built in its source folder.
+std::filesystem::path machines_folder() {
+  if (const char* const folder = std::getenv("VOLCOMP_MACHINES"); folder != nullptr) return folder;
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  auto installed = self.parent_path().parent_path() / "share/volcomp/machines";
+  return std::filesystem::exists(installed, error) ? installed : VOLCOMP_MACHINES_DIR;
+}
+
+}  // namespace
+
 std::filesystem::path bundled_machine(const std::string& name) {
-  const char* const folder = std::getenv("VOLCOMP_MACHINES");
-  std::filesystem::path path =
-      std::filesystem::path(folder != nullptr ? folder : VOLCOMP_MACHINES_DIR) / (name + ".toml");
+  std::filesystem::path path = machines_folder() / (name + ".toml");
   if (!std::filesystem::exists(path)) {
     throw UserError(fmt::format(
         "{}: no such machine file (set VOLCOMP_MACHINES or give --machine FILE)", path.string()));

@@ -1,30 +1,30 @@
-# The INTERFACE targets that carry include folders, definitions and flags.
+# The INTERFACE targets that carry include folders, definitions and flags. In comp, because this folder has to serve
+# alone, too.
+include_guard(GLOBAL)
+include("${CMAKE_CURRENT_LIST_DIR}/eigen.cmake")
 
 # volcomp_eigen: what every user of a comp header has to see in the same way. EIGEN_DONT_VECTORIZE
-# changes the alignment of Eigen's types, so it belongs to the binary interface of comp.
-find_path(VOLCOMP_EIGEN_INCLUDE_DIR Eigen/Core
-  PATHS /usr/include /usr/local/include
-  PATH_SUFFIXES eigen3
-  NO_CMAKE_FIND_ROOT_PATH
-  DOC "folder that contains Eigen/Core")
-if(NOT VOLCOMP_EIGEN_INCLUDE_DIR)
-  message(FATAL_ERROR
-    "Eigen 3.4 is missing: install libeigen3-dev or set VOLCOMP_EIGEN_INCLUDE_DIR to the folder that contains Eigen/Core.")
-endif()
-
+# changes the alignment of Eigen's types, so it belongs to the binary interface of comp; with a fused
+# multiply-add that the source does not ask for, what is compiled elsewhere would compute other bits.
 add_library(volcomp_eigen INTERFACE)
-target_include_directories(volcomp_eigen INTERFACE "${PROJECT_SOURCE_DIR}")
-target_include_directories(volcomp_eigen SYSTEM INTERFACE "${VOLCOMP_EIGEN_INCLUDE_DIR}")
+get_filename_component(volcomp_root "${CMAKE_CURRENT_LIST_DIR}" DIRECTORY)
+target_include_directories(volcomp_eigen INTERFACE "$<BUILD_INTERFACE:${volcomp_root}>")
+target_include_directories(volcomp_eigen SYSTEM INTERFACE "$<BUILD_INTERFACE:${VOLCOMP_EIGEN_INCLUDE_DIR}>")
 target_compile_definitions(volcomp_eigen INTERFACE
   EIGEN_DONT_VECTORIZE EIGEN_NO_IO EIGEN_NO_MALLOC EIGEN_MPL2_ONLY)
+target_compile_options(volcomp_eigen INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>")
+target_compile_features(volcomp_eigen INTERFACE cxx_std_17)
 
-# volcomp_flags: the warnings, all of them errors, and one arithmetic on every machine (no fused
-# multiply-add that the source does not ask for). Every target of the project links it PRIVATE.
+# volcomp_flags: the warnings, and the same arithmetic. Every target of the project links it PRIVATE. In the project
+# itself warnings are errors; the compiler of somebody who uses it may know more of them.
 add_library(volcomp_flags INTERFACE)
 set(volcomp_cxx_flags
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wcast-align
-  -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wformat=2 -Werror
+  -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wformat=2
   -ffp-contract=off)
+if(CMAKE_PROJECT_NAME STREQUAL "volcomp")
+  list(APPEND volcomp_cxx_flags -Werror)
+endif()
 target_compile_options(volcomp_flags INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:${volcomp_cxx_flags}>")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   if(CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Builds the HAL component in a fresh Debian 12 with LinuxCNC and proves in its simulated realtime that it puts out what
+# volcomp.h computes. Not part of toolchain/test.sh: it needs root, debootstrap and 250 MB of packages.
+#
+#   toolchain/test-linuxcnc.sh
+#
+# VOLCOMP_MIRROR is the Debian archive (default http://deb.debian.org/debian).
+script_folder=$(dirname "${BASH_SOURCE[0]}")
+# shellcheck source=toolchain/common.sh
+. "$script_folder/common.sh"
+# shellcheck source=toolchain/fresh-root.sh
+. toolchain/fresh-root.sh
+
+case "${1:-}" in
+  '') ;;
+  -h | --help) usage; exit 0 ;;
+  *) die "unknown argument \"$1\" (try --help)." ;;
+esac
+build_preset package --target volcomp volcomp_c
+make_root
+in_root apt-get install -y -qq --no-install-recommends linuxcnc-uspace linuxcnc-uspace-dev gcc make pkg-config \
+  > build/log/linuxcnc.txt 2>&1 || { tail -n 5 build/log/linuxcnc.txt; die "LinuxCNC could not be installed."; }
+copy_to_root firmware/linuxcnc firmware/integrated/xyfz.vct tests/system/linuxcnc
+(cd "$root/source" && awk -f tests/system/linuxcnc/gear_runs.awk)
+build/package/host_sim/volcomp build-tables --machine host_sim/machines/l300g.toml --model abbe \
+  --runs "$root"/source/{X,Y,B,A}.csv --out "$root/source/gear.vct" > build/log/gear.txt
+DESTDIR=$root cmake --install build/package --prefix /usr --component dev > build/log/install.txt
+in_root bash /source/tests/system/linuxcnc/hal_test.sh /source /source/gear.vct
