@@ -8,6 +8,7 @@ make_root() {
   [ "$(id -u)" = 0 ] || die "making a fresh Debian needs root."
   root=$(mktemp -d /var/tmp/volcomp-root.XXXXXX)
   trap drop_root EXIT
+  chmod 755 "$root"  # not everybody in there is root
   log=$root.log
   debootstrap --variant=minbase bookworm "$root" "${VOLCOMP_MIRROR:-http://deb.debian.org/debian}" > "$log" 2>&1 ||
     { tail -n 5 "$log"; die "debootstrap could not make a fresh Debian."; }

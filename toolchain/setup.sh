@@ -10,7 +10,7 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 
 build_packages=(g++ cmake ninja-build binutils ca-certificates libeigen3-dev libfmt-dev libcli11-dev
   libtoml11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libbenchmark-dev)
-check_packages=(ccache git clang clang-format clang-tidy cppcheck llvm python3 shellcheck)
+check_packages=(ccache git clang clang-format clang-tidy cppcheck llvm pkg-config python3 shellcheck)
 bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
 board_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib g++-aarch64-linux-gnu
   qemu-system-arm gdb-multiarch)

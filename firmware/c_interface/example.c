@@ -91,17 +91,17 @@ static struct volcomp_status commission(size_t bytes, struct volcomp_compensator
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    fputs("usage: volcomp-servo-c TABLE_IMAGE\n", stderr);
+    (void)fputs("usage: volcomp-servo-c TABLE_IMAGE\n", stderr);
     return 2;
   }
   FILE* file = fopen(argv[1], "rb");
   const size_t bytes = file == NULL ? 0 : fread(image, 1, sizeof image, file);
-  if (file != NULL) fclose(file);
+  if (file != NULL) (void)fclose(file);
 
   struct volcomp_compensator* compensation = NULL;
   const struct volcomp_status status = commission(bytes, &compensation);
   if (status.reason != VOLCOMP_OK) {
-    fprintf(stderr, "volcomp-servo-c: %s: %s\n", argv[1], volcomp_sentence(status.reason));
+    (void)fprintf(stderr, "volcomp-servo-c: %s: %s\n", argv[1], volcomp_sentence(status.reason));
     return 2;
   }
 

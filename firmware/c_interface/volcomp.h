@@ -24,7 +24,6 @@
 // It lies beside the other forms in firmware and not in comp: comp is C++ and knows nobody; this
 // folder knows comp and nothing else.
 
-// NOLINTBEGIN(modernize-*) plain C
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -325,6 +324,5 @@ const char* volcomp_verdict_sentence(int verdict);
 #ifdef __cplusplus
 }
 #endif
-// NOLINTEND(modernize-*)
 
 #endif

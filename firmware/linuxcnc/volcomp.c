@@ -141,7 +141,7 @@ static int load_image(void) {
     return -ENOENT;
   }
   const size_t size = fread(bytes, 1, sizeof bytes, file);
-  fclose(file);
+  (void)fclose(file);
   struct volcomp_status status = volcomp_create(&memory, sizeof memory, &compensation);
   if (status.reason == VOLCOMP_OK) status = volcomp_stage(compensation, bytes, size, NULL);
   if (status.reason != VOLCOMP_OK) return refused(image, &status);

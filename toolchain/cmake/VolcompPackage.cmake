@@ -22,6 +22,9 @@ install(DIRECTORY comp DESTINATION "${volcomp_headers}" COMPONENT dev
 install(FILES hal/axis_port.hpp DESTINATION "${volcomp_headers}/hal" COMPONENT dev)
 install(FILES firmware/integrated/servo_loop.hpp DESTINATION "${volcomp_headers}/firmware/integrated" COMPONENT dev)
 install(FILES firmware/c_interface/volcomp.h DESTINATION "${volcomp_headers}" COMPONENT dev)
+# LinuxCNC's components are built on the machine they run on.
+install(FILES firmware/linuxcnc/volcomp.c firmware/linuxcnc/Makefile
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp/linuxcnc" COMPONENT dev)
 
 configure_package_config_file(toolchain/cmake/volcomp-config.cmake.in "${volcomp_made}/volcomp-config.cmake"
   INSTALL_DESTINATION "${volcomp_config}")

@@ -90,7 +90,7 @@ refused() {
   fi
 }
 
-cp "$source_dir"/firmware/linuxcnc/{Makefile,volcomp.c} "$work"
+cp /usr/share/volcomp/linuxcnc/* "$work"
 make -C "$work" install >"$work/make.txt" 2>&1 || { cat "$work/make.txt"; fail 'the component cannot be built'; }
 # shellcheck disable=SC2046  # words
 gcc -std=c99 -pedantic -Wall -Wextra -Werror -o "$work/reference" "$source_dir/tests/system/linuxcnc/reference.c" \
