@@ -19,7 +19,8 @@
 // unless a function says "no tick may come". Two compensators know nothing of each other.
 //
 // Functions that can fail return a volcomp_status; where they refuse, everything is as before, and
-// the tables in use stay active. The command line tool `volcomp build-tables` writes table images.
+// the tables in use stay active; the others need good pointers. The command line tool
+// `volcomp build-tables` writes table images.
 //
 // It lies beside the other forms in firmware and not in comp: comp is C++ and knows nobody; this
 // folder knows comp and nothing else.

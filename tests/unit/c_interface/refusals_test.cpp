@@ -203,6 +203,46 @@ TEST(CInterfaceRefuses, TouchesByName) {
   EXPECT_EQ(point.verdict, VOLCOMP_UNCORRECTED);
 }
 
+// A drive that holds an offset is led from there, not jumped to 0.
+TEST(CInterfaceStart, GoesOnFromTheOffsetsOfTheDrives) {
+  const Bytes image = encode(random_l300g(9));
+  std::array<std::int32_t, VOLCOMP_AXES> held{90'000, -80'000, 70'000, 0, 0};
+  CInstance c;
+  ASSERT_EQ(c.stage(image).reason, VOLCOMP_OK);
+  ASSERT_EQ(volcomp_start_from(c.get(), held.data()).reason, VOLCOMP_OK);
+  ASSERT_EQ(volcomp_activate(c.get()).reason, VOLCOMP_OK);
+  Random random(10);
+  const auto q = random_probing_pose(random);
+  volcomp_settings defaults;
+  volcomp_default_settings(&defaults);
+  for (int n = 0; n < 400; ++n) {
+    const volcomp_output& out = c.tick(q);
+    for (std::size_t a = 0; a < 3; ++a) {
+      ASSERT_LE(std::abs(out.offset[a] - held[a]), defaults.axis[a].rate) << "tick " << n;
+      held[a] = out.offset[a];
+    }
+  }
+  held[1] = 1'073'741'825;
+  EXPECT_EQ(text(volcomp_start_from(c.get(), held.data())), "bad_setting start offset");
+}
+
+// One bit of the memory in which the active tables lie.
+TEST(CInterfaceScrub, FindsABitThatChanged) {
+  CInstance c;
+  c.start(random_l300g(11));
+  Random random(12);
+  const auto q = random_probing_pose(random);
+  c.tick(q);
+  ASSERT_NE(c.tick(q).offset[0], 0);
+  EXPECT_EQ(text(volcomp_scrub(c.get())), "ok");
+  c.bytes()[30'000] ^= 4U;
+  EXPECT_EQ(text(volcomp_scrub(c.get())), "crc_mismatch");
+  c.tick(q);
+  const volcomp_output& out = c.tick(q);
+  EXPECT_EQ(out.offset[0], 0);
+  EXPECT_NE(out.status[0] & VOLCOMP_TABLE_DAMAGED, 0);
+}
+
 TEST(CInterfaceText, EveryNumberHasAName) {
   std::set<std::string> names;
   for (int reason = -2; reason < 300; ++reason) {

@@ -30,6 +30,7 @@ class CInstance {
   CInstance() { EXPECT_EQ(volcomp_create(memory_.get(), sizeof *memory_, &c_).reason, VOLCOMP_OK); }
 
   [[nodiscard]] volcomp_compensator* get() const { return c_; }
+  [[nodiscard]] unsigned char* bytes() const { return memory_->bytes; }
   volcomp_status stage(const Bytes& image, const double* tool_mm = nullptr) {
     return volcomp_stage(c_, image.data(), image.size(), tool_mm);
   }
