@@ -52,15 +52,32 @@ Status adopt_machine(volcomp_compensator& c) {
   return {};
 }
 
+volcomp_machine describe(const volcomp::TablesView& tables, std::uint32_t image_crc) {
+  const volcomp::MachineChain& chain = tables.chain;
+  const volcomp::MachineDescription& description = chain.description();
+  volcomp_machine m{};
+  m.machine_id = tables.provenance.machine_id;
+  m.sequence = tables.provenance.sequence;
+  m.image_crc = image_crc;
+  m.axes = static_cast<std::uint32_t>(chain.axis_count());
+  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
+    m.letter[a] = chain.axis(a).letter;
+    m.rotary[a] = chain.axis(a).kind == volcomp::JointKind::rotary;
+  }
+  for (std::size_t i = 0; i < description.correcting_count; ++i)
+    m.corrects[description.correcting[i]] = true;
+  return m;
+}
+
 Status stage(volcomp_compensator& c, volcomp::Span<const std::uint8_t> image,
              const double* tool_mm) {
-  c.described = false;
   if (const Status s = check_image(image, volcomp::kDefaultKnots, c.tables); !s.ok()) return s;
   if (const Status s = adopt_machine(c); !s.ok()) return s;
   if (tool_mm != nullptr) std::copy_n(tool_mm, 3, c.tables.chain.draft().tool_point.begin());
-  c.described = true;
-  c.image_crc = image_crc(image);
-  return c.compensator.stage(c.tables, c.tables.chain.tool_point(), c.image_crc);
+  const std::uint32_t crc = image_crc(image);
+  const Status status = c.compensator.stage(c.tables, c.tables.chain.tool_point(), crc);
+  if (status.ok()) c.machine = describe(c.tables, crc);
+  return status;
 }
 
 volcomp_status counted(volcomp_compensator& c, const Status& status) {
@@ -145,22 +162,7 @@ bool volcomp_pending(const volcomp_compensator* c) { return c->compensator.pendi
 
 bool volcomp_active(const volcomp_compensator* c) { return c->compensator.active(); }
 
-void volcomp_describe(const volcomp_compensator* c, volcomp_machine* out) {
-  *out = {};
-  if (!c->described) return;
-  const volcomp::MachineChain& chain = c->tables.chain;
-  const volcomp::MachineDescription& machine = chain.description();
-  out->machine_id = c->tables.provenance.machine_id;
-  out->sequence = c->tables.provenance.sequence;
-  out->image_crc = c->image_crc;
-  out->axes = static_cast<std::uint32_t>(chain.axis_count());
-  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-    out->letter[a] = chain.axis(a).letter;
-    out->rotary[a] = chain.axis(a).kind == volcomp::JointKind::rotary;
-  }
-  for (std::size_t i = 0; i < machine.correcting_count; ++i)
-    out->corrects[machine.correcting[i]] = true;
-}
+void volcomp_describe(const volcomp_compensator* c, volcomp_machine* out) { *out = c->machine; }
 
 void volcomp_diagnose(const volcomp_compensator* c, volcomp_diagnostics* out) {
   const volcomp::Diagnostics<VOLCOMP_AXES> d = c->compensator.diagnostics();

@@ -11,15 +11,14 @@ struct volcomp_compensator {
   volcomp::LoadedCompensator::Input in{};
   volcomp::LoadedCompensator::Output out{};
   volcomp::ProbeCorrector probe;
-  // Of the image staged last. What it says of the machine stays good; the values of its tables lie
+  // Of the image given last. What it says of the machine stays good; the values of its tables lie
   // in bytes that the caller has taken back.
   volcomp::TablesView tables{};
-  std::uint32_t image_crc = 0;
+  volcomp_machine machine{};  // of the image accepted last
   std::uint32_t rejections = 0;
   volcomp_status last_rejection{VOLCOMP_OK, '\0', nullptr, -1, -1};
   bool staged = false;     // and not yet activated
   bool activated = false;  // at least once: the machine is decided
-  bool described = false;  // `tables` are of an image that was accepted
 };
 
 namespace volcomp::c_interface {

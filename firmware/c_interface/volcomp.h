@@ -144,7 +144,8 @@ struct volcomp_status volcomp_configure(struct volcomp_compensator* c,
 // of the image or, after a change of the tool, for `tool_mm` (three, frame of the tool holder; NULL
 // = that of the image). The bytes are not needed afterwards. Until the first activation every
 // staged image may bring another machine, and no tick may come; later ones must be of the same
-// machine. Refuses null_pointer, not_finite, hand_over_pending, too_many_axes, machine_mismatch and
+// machine. Whatever becomes of an image, one that was staged before it cannot be activated any
+// more. Refuses null_pointer, not_finite, hand_over_pending, too_many_axes, machine_mismatch and
 // whatever can be wrong with an image.
 struct volcomp_status volcomp_stage(struct volcomp_compensator* c, const void* image, size_t bytes,
                                     const double* tool_mm);
@@ -168,12 +169,12 @@ struct volcomp_status volcomp_scrub(struct volcomp_compensator* c);
 bool volcomp_pending(const struct volcomp_compensator* c);
 bool volcomp_active(const struct volcomp_compensator* c);
 
-// Of the image staged last.
+// Of the image accepted last.
 struct volcomp_machine {
   uint32_t machine_id;
   uint32_t sequence;   // of the image, as it was built
   uint32_t image_crc;  // its closing CRC-32
-  uint32_t axes;       // 0: nothing was staged yet
+  uint32_t axes;       // 0: there was none yet
   char letter[VOLCOMP_AXES + 1];
   bool rotary[VOLCOMP_AXES];
   bool corrects[VOLCOMP_AXES];  // takes offsets; those of the others stay 0

@@ -110,6 +110,9 @@ TEST(CInterfaceRefuses, ImagesAndKeepsTheTablesInUse) {
   EXPECT_EQ(d.rejections, 6U);
   EXPECT_EQ(text(d.last_rejection), "machine_mismatch");
   EXPECT_EQ(d.active_crc, image_crc({good.data(), good.size()}));
+  volcomp_machine m;
+  volcomp_describe(c.get(), &m);
+  EXPECT_EQ(m.image_crc, d.active_crc);
 }
 
 // A good image that was staged does not survive a bad one: what would be activated is unclear.
