@@ -33,7 +33,7 @@ class Entries {
       if (!(words >> key)) continue;
       if (!(words >> value) || words >> more) throw UserError(at_line(line, "expected: key value"));
       if (!lines_.emplace(key, Line{value, line}).second)
-        throw UserError(at_line(line, key + " is there twice"));
+        throw UserError(at_line(line, printable(key) + " is there twice"));
     }
   }
 

@@ -35,13 +35,20 @@ LinuxcncComp read_linuxcnc(const std::string& text, int type) {
   table.type = type;
   std::istringstream stream(text);
   std::string row;
+  bool ended = false;
   for (int line = 1; std::getline(stream, row); ++line) {
     std::istringstream words(row);
     std::string nominal;
     std::string forward;
     std::string reverse;
     std::string more;
-    if (!(words >> nominal)) continue;
+    if (!(words >> nominal)) {
+      ended = true;
+      continue;
+    }
+    if (ended) throw UserError(at_line(line, "LinuxCNC reads nothing after an empty line"));
+    if (table.nominal.size() == kLinuxcncEntries)
+      throw UserError(at_line(line, fmt::format("more than {} entries", kLinuxcncEntries)));
     if (!(words >> forward >> reverse) || words >> more)
       throw UserError(at_line(line, "expected: nominal forward reverse"));
     const double at = read_decimal(nominal, line);
@@ -55,7 +62,7 @@ LinuxcncComp read_linuxcnc(const std::string& text, int type) {
     table.forward.push_back(trim(forward));
     table.reverse.push_back(trim(reverse));
   }
-  if (table.nominal.size() < 2 || table.nominal.size() > kLinuxcncEntries)
+  if (table.nominal.size() < 2)
     throw UserError(
         fmt::format("{} entries; 2 to {} are allowed", table.nominal.size(), kLinuxcncEntries));
   return table;

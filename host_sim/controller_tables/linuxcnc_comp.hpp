@@ -1,7 +1,9 @@
 #pragma once
 // LinuxCNC screw compensation: lines `nominal forward reverse`. COMP_FILE_TYPE 0: both are
 // positions, the trim is nominal − value; 1: both are trims. A trim is added to the motor command
-// and taken out of the displayed feedback. Seed 003 section 10.
+// and taken out of the displayed feedback. Seed 003 section 10; usrmotLoadComp() in
+// src/emc/motion/usrmotintf.cc of LinuxCNC, which stops without a word at the first line that is
+// not three numbers: here such a line is refused.
 
 #include <string>
 #include <vector>

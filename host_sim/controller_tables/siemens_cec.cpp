@@ -80,7 +80,7 @@ class Reader {
     } else if (v.name == "AN_CEC_MULT_BY_TABLE") {
       check_product(v);
     } else {
-      throw UserError(at_line(v.line, "unknown variable " + v.name));
+      throw UserError(at_line(v.line, "unknown variable " + printable(v.name)));
     }
   }
 

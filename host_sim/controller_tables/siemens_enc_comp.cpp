@@ -66,7 +66,7 @@ EncCompTable read_enc_comp(const std::string& text, bool rotary) {
     } else if (v.name == "AA_ENC_COMP_IS_MODULO") {
       table.modulo = read_integer(v.value, v.line) != 0;
     } else {
-      throw UserError(at_line(v.line, "unknown variable " + v.name));
+      throw UserError(at_line(v.line, "unknown variable " + printable(v.name)));
     }
   }
   table.offset = complete_entries(entries, "$AA_ENC_COMP");

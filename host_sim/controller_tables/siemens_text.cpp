@@ -11,6 +11,13 @@
 namespace volcomp::sim {
 namespace {
 
+// The next line without the carriage return of files that come from a control.
+bool next_line(std::istream& stream, std::string& row) {
+  if (!std::getline(stream, row)) return false;
+  if (!row.empty() && row.back() == '\r') row.pop_back();
+  return true;
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -46,10 +53,10 @@ std::vector<SystemVariable> read_system_variables(const std::string& text,
   int line = 0;
   for (const std::string& wanted : {header, std::string("CHANDATA(1)")}) {
     ++line;
-    if (!std::getline(stream, row) || row != wanted)
+    if (!next_line(stream, row) || row != wanted)
       throw UserError(at_line(line, "expected " + wanted));
   }
-  while (std::getline(stream, row)) {
+  while (next_line(stream, row)) {
     ++line;
     if (row == "M17") return variables;
     if (!row.empty()) variables.push_back(read_assignment(row, line));

@@ -16,7 +16,7 @@ Number read_all(const std::string& text, int line, const char* kind) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc{} || stop != end)
-    throw UserError(at_line(line, fmt::format("'{}' is not {}", text, kind)));
+    throw UserError(at_line(line, fmt::format("'{}' is not {}", printable(text), kind)));
   return value;
 }
 
@@ -37,6 +37,13 @@ double read_decimal(const std::string& text, int line) {
 
 long long read_integer(const std::string& text, int line) {
   return read_all<long long>(text, line, "an integer");
+}
+
+std::string printable(const std::string& text) {
+  std::string out = text.substr(0, 40);
+  for (char& c : out)
+    c = (c >= ' ' && c <= '~') ? c : '?';
+  return out;
 }
 
 std::string at_line(int line, const std::string& complaint) {

@@ -17,6 +17,9 @@ namespace volcomp::sim {
 [[nodiscard]] double read_decimal(const std::string& text, int line);
 [[nodiscard]] long long read_integer(const std::string& text, int line);
 
+// What a complaint quotes of a file that may hold anything: 40 printable characters at most.
+[[nodiscard]] std::string printable(const std::string& text);
+
 // The line in front of a complaint about it.
 [[nodiscard]] std::string at_line(int line, const std::string& complaint);
 

@@ -13,15 +13,26 @@ namespace volcomp::sim {
 
 [[nodiscard]] std::vector<std::string_view> cells_of(std::string_view line);
 
+// Separated by blanks.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line);
+
+// What is before "//".
+[[nodiscard]] std::string_view without_comment(std::string_view line);
+
 // Cells may hold anything; only their printable beginning is quoted back.
 [[nodiscard]] std::string quoted(std::string_view cell);
 
-// The lines of a file that have content: not empty, not a comment (#).
+// The lines of a file. Throws UserError for a line no table has (64 KiB), for UTF-16 and when the
+// file cannot be read to its end.
 class CsvLines {
  public:
   CsvLines(std::istream& stream, std::string name) : stream_(stream), name_(std::move(name)) {}
 
+  // The next line that has content: not empty, not a comment (#).
   bool next(std::string& line);
+
+  // The next line.
+  bool any(std::string& line);
 
   [[nodiscard]] const std::string& name() const { return name_; }
 
@@ -32,6 +43,8 @@ class CsvLines {
   [[nodiscard]] double number(std::string_view cell, const std::string& what = {}) const;
 
  private:
+  bool read_line(std::string& line);
+
   std::istream& stream_;
   std::string name_;
   std::size_t line_ = 0;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -13,11 +14,12 @@
 #include "comp/units.hpp"
 #include "host_sim/data/csv_cells.hpp"
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/data/whole_file.hpp"
 
 namespace volcomp::sim {
 namespace {
 
-constexpr std::size_t kMaxReadings = 1'000'000;
+constexpr std::size_t kMaxRuns = 1000;  // both directions together
 
 struct Unit {
   const char* name;
@@ -60,14 +62,11 @@ class Reader {
       if (columns_.empty()) {
         read_header(line);
       } else {
-        readings_.push_back(read_reading(line));
-        if (readings_.size() > kMaxReadings)
-          fail(fmt::format("more than {} readings", kMaxReadings));
-        place(readings_.back());
+        place(read_reading(line));
       }
     }
     if (columns_.empty()) throw UserError(lines_.name() + ": the file is empty");
-    if (readings_.empty())
+    if (positions_.empty())
       throw UserError(lines_.name() + ": there is no reading after the header");
     return finish();
   }
@@ -133,6 +132,11 @@ class Reader {
       if (seen[i] == 0)
         fail(fmt::format("the header lacks the column {} [missing_field]", kNames[i]));
     }
+    // ISO 841: X, Y, Z are linear, A, B, C turn; another letter may be either.
+    const bool turns = std::string_view("ABC").find(letter_) != std::string_view::npos;
+    const bool linear = std::string_view("XYZ").find(letter_) != std::string_view::npos;
+    if (target_is_angle_ ? linear : turns)
+      fail(fmt::format("the unit of the targets is of the wrong kind for axis {}", letter_));
   }
 
   Reading read_reading(std::string_view line) const {
@@ -178,6 +182,7 @@ class Reader {
       positions_.push_back(r.target);
     }
     auto& run = runs_[{r.up, r.run}];
+    if (runs_.size() > kMaxRuns) fail(fmt::format("more than {} runs", kMaxRuns));
     if (run.size() <= it->second) run.resize(it->second + 1);
     if (run[it->second])
       fail(fmt::format("run {} {} has target {} twice", r.run, r.up ? "up" : "down", r.target));
@@ -208,7 +213,6 @@ class Reader {
   char letter_ = '\0';
   bool target_is_angle_ = false;
   std::vector<Column> columns_;
-  std::vector<Reading> readings_;
   std::vector<double> positions_;
   std::map<long, std::size_t> target_index_;
   std::map<std::pair<bool, long>, std::vector<std::optional<ErrorMotion>>> runs_;
@@ -257,10 +261,9 @@ void write_runs(std::ostream& stream, const RunsFile& runs) {
 }
 
 void write_runs_file(const std::filesystem::path& path, const RunsFile& runs) {
-  std::ofstream stream(path);
-  write_runs(stream, runs);
-  stream.close();
-  if (!stream) throw UserError(path.string() + ": cannot be written");
+  std::ostringstream text;
+  write_runs(text, runs);
+  write_whole_file(path, text.str());
 }
 
 }  // namespace volcomp::sim

@@ -35,12 +35,14 @@ struct RunViews {
   std::vector<Run> down;
 };
 
-// Throws UserError with file and line: malformed number, unknown or missing unit, unknown column,
-// duplicate reading.
+// Throws UserError with file and line: malformed number, unknown or missing unit, unit of the wrong
+// kind, unknown column, duplicate reading, more than 512 targets or 1000 runs, a file that is no
+// text.
 [[nodiscard]] RunsFile read_runs(std::istream& stream, const std::string& name);
 [[nodiscard]] RunsFile read_runs_file(const std::filesystem::path& path);
 
 void write_runs(std::ostream& stream, const RunsFile& runs);
+// Whole or not at all.
 void write_runs_file(const std::filesystem::path& path, const RunsFile& runs);
 
 }  // namespace volcomp::sim

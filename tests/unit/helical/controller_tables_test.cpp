@@ -184,11 +184,25 @@ TEST(ControllerTableFile, ComplaintsNameTheLine) {
             "line 2: expected: nominal forward reverse");
   EXPECT_EQ(complaint([] { (void)sim::read_linuxcnc("0 0 0\n0 0 0\n", 1); }),
             "line 2: nominal positions must ascend");
+  EXPECT_EQ(complaint([] { (void)sim::read_linuxcnc("0 0 0\n\n1 0 0\n", 1); }),
+            "line 3: LinuxCNC reads nothing after an empty line");
+  EXPECT_EQ(complaint([] { (void)sim::read_linuxcnc("0 \xFF\x01 0\n", 1); }),
+            "line 1: '?\?' is not a number");
   EXPECT_EQ(
       complaint([] { (void)sim::read_ssfk("kopf.log_achs_nr 1\nkopf.log_achs_nr 1\n", false); }),
       "line 2: kopf.log_achs_nr is there twice");
   EXPECT_EQ(complaint([] { (void)sim::read_ssfk("a b c\n", false); }),
             "line 1: expected: key value");
+}
+
+// Files that come from a control end their lines as Windows does.
+TEST(ControllerTableFile, CarriageReturnsDoNotMatter) {
+  std::string text;
+  ASSERT_TRUE(write_enc_comp({"Z1", {0.01, 0.02, 0.03}, 0, 1, false, false}, text).ok());
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2))
+    text.insert(at, 1, '\r');
+  EXPECT_DOUBLE_EQ(sim::read_enc_comp(text, false).offset.at(1), 0.02);
+  EXPECT_EQ(sim::read_linuxcnc("0 0 0\r\n1 2 3\r\n", 1).reverse.at(1), 3.0);
 }
 
 // Nine tables of the XYFZ machine: what they miss is what they say.

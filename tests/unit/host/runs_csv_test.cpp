@@ -93,6 +93,42 @@ TEST(RunsCsv, RefusalsNameTheLine) {
   EXPECT_THAT(refusal(good + "0,2,up,1,2,3,4,5,6\n"), HasSubstr("[run_length]"));
 }
 
+TEST(RunsCsv, TargetsHaveTheUnitOfTheirAxis) {
+  using testing::HasSubstr;
+  const std::string rest =
+      ",run,direction,EXX [um],EYX [um],EZX [um],EAX [urad],EBX [urad],ECX [urad]\n";
+  std::string rotary = rest;
+  for (std::size_t at = rotary.find("X ["); at != std::string::npos; at = rotary.find("X [", at))
+    rotary[at] = 'C';
+  EXPECT_THAT(refusal("target [deg]" + rest), HasSubstr("x.csv:1: the unit of the targets is of "
+                                                        "the wrong kind for axis X"));
+  EXPECT_THAT(refusal("target [mm]" + rotary), HasSubstr("wrong kind for axis C"));
+  EXPECT_EQ(parse("target [deg]" + rotary + "180,1,up,0,0,0,0,0,0\n").positions.at(0), kPi);
+}
+
+TEST(RunsCsv, WhatIsNoTextOfRunsIsRefusedInOneSentence) {
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal(std::string("\xFF\xFEt\0a\0", 6)), HasSubstr("x.csv:1: the file is UTF-16"));
+  EXPECT_THAT(refusal("target [mm],run,direction,EXX [\xB5m]\n"), HasSubstr("unknown unit \"?m\""));
+  EXPECT_THAT(refusal(std::string(100000, 'x')), HasSubstr("x.csv:1: the line is longer"));
+  EXPECT_THAT(refusal(std::string(100, '\0')), HasSubstr("x.csv:1: column \"????"));
+  EXPECT_THAT(refusal(std::string(kHeader) + "# caf\xE9\n-10,1,\xFF,1,2,3,4,5,6\n"),
+              HasSubstr("x.csv:3: direction is \"?\""));
+}
+
+// A million lines are refused where they become too many, not when memory ends.
+TEST(RunsCsv, TooManyTargetsOrRunsAreRefusedAtTheirLine) {
+  using testing::HasSubstr;
+  std::string targets = kHeader;
+  std::string runs = kHeader;
+  for (int i = 1; i <= 1'000'000; ++i) {
+    targets += std::to_string(i) + ",1,up,1,2,3,4,5,6\n";
+    runs += "5," + std::to_string(i) + ",up,1,2,3,4,5,6\n";
+  }
+  EXPECT_THAT(refusal(targets), HasSubstr("x.csv:514: more than 512 targets"));
+  EXPECT_THAT(refusal(runs), HasSubstr("x.csv:1002: more than 1000 runs"));
+}
+
 // A NaN is a reading, and the table builder is the one to refuse it, with run and target.
 TEST(RunsCsv, NanReadingsReachTheBuilder) {
   const RunsFile f = parse(std::string(kHeader) + "-10,1,up,nan,2,3,4,5,6\n0,1,up,0,0,0,0,0,0\n");
