@@ -13,6 +13,8 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
 void add_internal_helical_command(CLI::App& run, const std::string& command, int& code);
 void add_l300g_command(CLI::App& run, const std::string& command, int& code);
 void add_build_tables_command(CLI::App& app, int& code);
+void add_export_tables_command(CLI::App& app, int& code);
+void add_import_command(CLI::App& app, int& code);
 void add_machine_command(CLI::App& app, int& code);
 void add_list_command(CLI::App& app, int& code);
 void add_device_files_command(CLI::App& app, int& code);

@@ -25,6 +25,8 @@ int run(int argc, char** argv) {
   int code = 0;
   volcomp::sim::add_run_command(app, argc, argv, code);
   volcomp::sim::add_build_tables_command(app, code);
+  volcomp::sim::add_export_tables_command(app, code);
+  volcomp::sim::add_import_command(app, code);
   volcomp::sim::add_machine_command(app, code);
   volcomp::sim::add_list_command(app, code);
   volcomp::sim::add_device_files_command(app, code);

@@ -1,0 +1,29 @@
+#include "host_sim/exchange/table_model.hpp"
+
+#include "comp/tables/image.hpp"
+#include "host_sim/bus_tools/table_transfer.hpp"
+#include "host_sim/data/user_error.hpp"
+
+namespace volcomp::sim {
+
+TableModel table_model(const MachineTables& tables, const std::string& name) {
+  TableModel out;
+  require(MachineChain::build(tables.machine, out.model.chain), name);
+  out.model.tool_point = out.model.chain.tool_point();
+  out.model.directions = tables.directions;
+  for (std::size_t a = 0; a < out.model.chain.axis_count(); ++a) {
+    out.tables.push_back(std::make_unique<ErrorTable>());
+    dequantise(tables.axis[a], out.model.chain.axis(a), *out.tables.back());
+    out.model.table[a] = out.tables.back().get();
+  }
+  return out;
+}
+
+std::unique_ptr<MachineTables> read_tables_file(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> image = read_image_file(path);
+  auto tables = std::make_unique<MachineTables>();
+  require(decode_image({image.data(), image.size()}, kTableKnots, *tables), path.string());
+  return tables;
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,25 @@
+#pragma once
+// The tables of an image as a model in double: what is exported is what the node would compute.
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "comp/tables/machine_tables.hpp"
+#include "comp/tables/volumetric_model.hpp"
+
+namespace volcomp::sim {
+
+// Owns the tables its model points at.
+struct TableModel {
+  std::vector<std::unique_ptr<ErrorTable>> tables;  // by NC axis, mm and rad
+  VolumetricModel model;
+};
+
+// Throws UserError with `name` when the machine is refused.
+[[nodiscard]] TableModel table_model(const MachineTables& tables, const std::string& name);
+
+// An image file (.vct), checked as the node checks it. Throws UserError naming the file.
+[[nodiscard]] std::unique_ptr<MachineTables> read_tables_file(const std::filesystem::path& path);
+
+}  // namespace volcomp::sim
