@@ -15,6 +15,7 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code);
 void add_build_tables_command(CLI::App& app, int& code);
 void add_export_tables_command(CLI::App& app, int& code);
 void add_import_command(CLI::App& app, int& code);
+void add_check_lever_command(CLI::App& app, int& code);
 void add_machine_command(CLI::App& app, int& code);
 void add_list_command(CLI::App& app, int& code);
 void add_device_files_command(CLI::App& app, int& code);

@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
   volcomp::sim::add_build_tables_command(app, code);
   volcomp::sim::add_export_tables_command(app, code);
   volcomp::sim::add_import_command(app, code);
+  volcomp::sim::add_check_lever_command(app, code);
   volcomp::sim::add_machine_command(app, code);
   volcomp::sim::add_list_command(app, code);
   volcomp::sim::add_device_files_command(app, code);

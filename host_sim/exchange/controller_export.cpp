@@ -28,7 +28,9 @@ struct OwnTable {
 
 Eigen::Index component(std::size_t axis) { return static_cast<Eigen::Index>(axis); }
 
-std::string lower(char letter) { return std::string(1, static_cast<char>(letter + ('a' - 'A'))); }
+std::string lower(char letter) {
+  return fmt::format("{}", static_cast<char>(letter + ('a' - 'A')));
+}
 
 void check_axes(const VolumetricModel& model, const std::string& name) {
   std::string letters;
