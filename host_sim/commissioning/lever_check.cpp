@@ -33,6 +33,7 @@ std::map<double, ErrorMotion> means(const RunsFile& runs) {
 
 std::vector<ErrorMotion> values_of(const std::map<double, ErrorMotion>& means) {
   std::vector<ErrorMotion> values;
+  values.reserve(means.size());
   for (const auto& [position, value] : means)
     values.push_back(value);
   return values;
