@@ -58,7 +58,7 @@ async function main(argv) {
   const { file, id, width, height } = parse(argv);
   const report = await load(file);
   const section = find(report, id, file);
-  const usual = section.type === 'group' ? 640 : 420;
+  const usual = section.type === 'group' ? 320 * Math.max(2, Math.ceil(section.charts.length / 2)) : 420;
   process.stdout.write(svgFigure(section, report, { width, height: height ?? usual }));
 }
 
