@@ -6,7 +6,7 @@
 A header that no source of these folders includes is checked through a source that includes only it. A file
 that was clean is checked again only after it, a header of ours that it includes, its flags, .clang-tidy or
 clang-tidy itself has changed; delete BUILD_FOLDER/tidy to check everything again. The path-sensitive analyzer
-looks at the code of the target only: programs of the host meet the sanitizers in every test. Their sources are
+looks at the code of the target only: programs of the host meet the sanitizers in every test. Sources are
 checked several at a time, for most of the time goes into the headers of others; those that do not compile
 together are checked apart. The price: an unused using-declaration is not seen there.
 """
@@ -25,7 +25,7 @@ import time
 FOLDERS = ("comp", "hal", "firmware", "host_sim")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIG = ROOT / ".clang-tidy"
-AT_A_TIME = 8
+AT_A_TIME, ANALYZED_AT_A_TIME = 8, 4
 # Another compiler's; without it, too, a file has to include what it uses.
 PRECOMPILED = re.compile(r" -Winvalid-pch| -include \S+/cmake_pch\.hxx")
 
@@ -36,6 +36,10 @@ class Failure(Exception):
 
 def is_ours(path):
     return any(ROOT / folder in path.parents for folder in FOLDERS)
+
+
+def is_analyzed(path):
+    return ROOT / "host_sim" not in path.parents
 
 
 def read_entries(build):
@@ -97,12 +101,17 @@ class Task:
 
 
 def tasks_of_sources(entries, includes, everything, folder):
-    """Each source alone, but those of host_sim with the same flags a few at a time."""
+    """Sources of one top folder with the same flags, a few at a time."""
     alike = {}
     for source, entry in sorted(entries.items()):
         flags = re.sub(r" -(o|c) \S+", "", entry["command"])
-        alike.setdefault(flags if ROOT / "host_sim" in source.parents else source, []).append(source)
-    groups = [sources[at:at + AT_A_TIME] for sources in alike.values() for at in range(0, len(sources), AT_A_TIME)]
+        alike.setdefault((flags, is_analyzed(source)), []).append(source)
+    for (_, analyzed), sources in alike.items():
+        count = ANALYZED_AT_A_TIME if analyzed else AT_A_TIME
+        yield from tasks_of_groups([sources[at:at + count] for at in range(0, len(sources), count)], entries, includes, everything, folder)
+
+
+def tasks_of_groups(groups, entries, includes, everything, folder):
     for group in groups:
         entry = entries[group[0]]
         files = set(group).union(*(includes.get(source, everything) for source in group))
@@ -136,7 +145,7 @@ def run_tidy(source, analyzed, database):
 
 def check(task, database):
     start = time.monotonic()
-    analyzed = ROOT / "host_sim" not in task.about[0].parents
+    analyzed = is_analyzed(task.about[0])
     findings = run_tidy(task.source, analyzed, database)
     # Together they may just not compile: names of one file alone.
     if findings and len(task.about) > 1:

@@ -11,12 +11,6 @@ namespace {
 constexpr std::array<Direction, 2> kDirections{Direction::forward, Direction::backward};
 constexpr std::size_t kSlotTable = 2;
 
-Status bad(const char* field) {
-  Where where;
-  where.field = field;
-  return refuse(Reason::bad_setting, where);
-}
-
 Status other_feed(std::int32_t feed_nm_per_s) {
   Where where;
   where.has_value = true;

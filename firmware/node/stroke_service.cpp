@@ -24,15 +24,15 @@ std::int64_t difference(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b));
 }
 
-Status bad(const char* field) {
+}  // namespace
+
+// --- settings
+
+Status StrokeService::bad(const char* field) {
   Where where;
   where.field = field;
   return refuse(Reason::bad_setting, where);
 }
-
-}  // namespace
-
-// --- settings
 
 HelixMonitorSettings StrokeService::monitor_settings(std::uint32_t period_us) const {
   HelixMonitorSettings s;

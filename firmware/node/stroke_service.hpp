@@ -89,6 +89,7 @@ class StrokeService {
     bool known = false;
   };
 
+  static Status bad(const char* field);
   [[nodiscard]] HelixMonitorSettings monitor_settings(std::uint32_t period_us) const;
   Status start_learners();
   [[nodiscard]] LearningRules stroke_rules() const;

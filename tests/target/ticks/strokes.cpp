@@ -13,14 +13,12 @@
 
 #include "comp/units.hpp"
 #include "firmware/node/stroke_service.hpp"
-#include "hal/mps2/instruction_counter.hpp"
-#include "tests/target/stop.hpp"
 #include "tests/target/text.hpp"
+#include "tests/target/ticks/cost.hpp"
 
 namespace volcomp::target {
 namespace {
 
-using hal::mps2::InstructionCounter;
 using node::LearnCommand;
 using node::StrokeCycle;
 
@@ -31,21 +29,6 @@ constexpr std::int32_t kEnd_nm = 26'800'000;
 constexpr std::uint16_t kSlots = 79;
 constexpr int kRounds = 2;
 constexpr int kSlotsGround = 6;
-
-InstructionCounter counter;
-
-void require(const Status& status) {
-  if (!status.ok()) stop(sentence(status.reason));
-}
-
-template <class Work>
-std::uint32_t instructions_of(const Work& work) {
-  const std::uint32_t start = InstructionCounter::ticks();
-  const std::uint32_t before = InstructionCounter::ticks();
-  work();
-  const std::uint32_t after = InstructionCounter::ticks();
-  return counter.between(before, after) - counter.between(start, before);
-}
 
 struct Span32 {
   std::uint32_t least = UINT32_MAX;

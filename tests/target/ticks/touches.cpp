@@ -18,34 +18,16 @@
 #include "comp/realtime/touch_collector.hpp"
 #include "comp/surfaces/face_grid.hpp"
 #include "comp/surfaces/face_touch.hpp"
-#include "hal/mps2/instruction_counter.hpp"
 #include "tests/bench/machines.hpp"
-#include "tests/target/stop.hpp"
 #include "tests/target/text.hpp"
+#include "tests/target/ticks/cost.hpp"
 #include "tests/target/ticks/motion.hpp"
 
 namespace volcomp::target {
 namespace {
 
-using hal::mps2::InstructionCounter;
-
 constexpr int kTouches = 2'000;
 constexpr std::int64_t kPeriod_ns = 2'000'000;
-
-InstructionCounter counter;
-
-void require(const Status& status) {
-  if (!status.ok()) stop(sentence(status.reason));
-}
-
-template <class Work>
-std::uint32_t instructions_of(const Work& work) {
-  const std::uint32_t start = InstructionCounter::ticks();
-  const std::uint32_t before = InstructionCounter::ticks();
-  work();
-  const std::uint32_t after = InstructionCounter::ticks();
-  return counter.between(before, after) - counter.between(start, before);
-}
 
 class TouchRun {
  public:
