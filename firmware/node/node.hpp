@@ -164,6 +164,7 @@ class Node final : private canopen::Application {
   [[nodiscard]] StrokeAxisReport stroke_report(std::size_t axis) const;
   void restart_strokes();
   void stop_strokes();
+  bool report_strokes(const Status& status);
   canopen::AbortCode switch_strokes(StrokeCommand command);
   canopen::AbortCode learn(LearnCommand command);
   void read_strokes(std::uint16_t index);

@@ -41,6 +41,7 @@ std::int32_t Node::tick_strokes() {
     cycle.axis[i] = stroke_report(strokes_.axis(i));
   cycle.syncs = static_cast<std::uint16_t>(1U + missed - syncs_missed_);
   cycle.has_state = arrived_.process_state;
+  cycle.corrected = running_ && (correcting_axes() & bit(strokes_.axis(kC))) != 0;
   syncs_missed_ = missed;
   return strokes_.tick(cycle);
 }
@@ -51,7 +52,8 @@ void Node::restart_strokes() {
   for (std::size_t i = 0; i < kStrokeAxes; ++i)
     scale[i] = scale_[strokes_.axis(i)];
   syncs_missed_ = device_.sync().missed();
-  strokes_.restart(scale, objects_.communication.cycle_period_us);
+  static_cast<void>(
+      report_strokes(strokes_.restart(scale, objects_.communication.cycle_period_us)));
 }
 
 void Node::stop_strokes() { strokes_.stop(); }
@@ -62,22 +64,26 @@ void Node::poll_strokes() {
   if (device_.state() == canopen::NmtState::operational) strokes_.work();
 }
 
-// Stored settings come one after the other: they are taken over when all of them are there.
-AbortCode Node::switch_strokes(StrokeCommand command) {
-  if (command == StrokeCommand::off || device_.state() == canopen::NmtState::boot_up) {
-    strokes_.switch_off();
-    return AbortCode::none;
-  }
-  const Status status = strokes_.switch_on(objects_.communication.cycle_period_us);
+// 2500h:0B, :0C; what was refused is off.
+bool Node::report_strokes(const Status& status) {
   objects_.stroke.reason = number_of(status);
   const char* name = status.where.field != nullptr ? status.where.field : "";
   for (char& letter : objects_.stroke.field) {
     letter = *name;
     if (*name != '\0') ++name;
   }
-  if (status.ok()) return AbortCode::none;
-  objects_.stroke.command = static_cast<std::uint8_t>(StrokeCommand::off);
-  return AbortCode::invalid_value;
+  if (!status.ok()) objects_.stroke.command = static_cast<std::uint8_t>(StrokeCommand::off);
+  return status.ok();
+}
+
+// Stored settings come one after the other: they are taken over when all of them are there.
+AbortCode Node::switch_strokes(StrokeCommand command) {
+  if (command == StrokeCommand::off || device_.state() == canopen::NmtState::boot_up) {
+    strokes_.switch_off();
+    return AbortCode::none;
+  }
+  const bool on = report_strokes(strokes_.switch_on(objects_.communication.cycle_period_us));
+  return on ? AbortCode::none : AbortCode::invalid_value;
 }
 
 AbortCode Node::learn(LearnCommand command) {
@@ -122,9 +128,8 @@ void Node::load_learned(Span<const std::uint8_t> piece, std::size_t& size) {
 // When all settings are there.
 void Node::load_strokes(std::size_t learned_size) {
   if (objects_.stroke.command == static_cast<std::uint8_t>(StrokeCommand::off)) return;
-  const Status status = strokes_.switch_on(objects_.communication.cycle_period_us);
-  objects_.stroke.reason = number_of(status);
-  if (!status.ok() || learned_size == 0) return;
+  const bool on = report_strokes(strokes_.switch_on(objects_.communication.cycle_period_us));
+  if (!on || learned_size == 0) return;
   if (finish_learned(learned_size) == AbortCode::none)
     objects_.stroke.learn_reason = number_of(strokes_.learn(LearnCommand::resume));
 }

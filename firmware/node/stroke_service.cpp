@@ -7,6 +7,7 @@ namespace volcomp::node {
 namespace {
 
 constexpr std::uint32_t kUsualPeriod_us = 1000;  // while 1006h is 0
+constexpr std::uint32_t kLongestPeriod_us = 1'000'000;
 constexpr std::int32_t kNsPerUs = 1000;
 
 // Places in 2504h.
@@ -34,12 +35,18 @@ Status StrokeService::bad(const char* field) {
   return refuse(Reason::bad_setting, where);
 }
 
+// 0, which the monitor refuses, for a period that no stroke is watched with.
+std::int32_t StrokeService::tick_ns(std::uint32_t period_us) {
+  if (period_us > kLongestPeriod_us) return 0;
+  return static_cast<std::int32_t>(period_us == 0 ? kUsualPeriod_us : period_us) * kNsPerUs;
+}
+
 HelixMonitorSettings StrokeService::monitor_settings(std::uint32_t period_us) const {
   HelixMonitorSettings s;
   s.turn_per_mm = objects_.gear[0];
   s.flank_per_rad = objects_.gear[1];
   s.flank_per_x = objects_.gear[2];
-  s.tick_ns = static_cast<std::int32_t>(period_us == 0 ? kUsualPeriod_us : period_us) * kNsPerUs;
+  s.tick_ns = tick_ns(period_us);
   s.z0_nm = objects_.first_node_nm;
   s.node_pitch_nm = objects_.pitch_nm;
   s.nodes = objects_.nodes;
@@ -75,9 +82,9 @@ LearningRules StrokeService::slot_rules() const {
 
 Status StrokeService::start_learners() {
   for (auto& learner : stroke_) {
-    if (const Status s = learner.start(stroke_rules(), objects_.nodes); !s.ok()) return s;
+    if (const Status s = learner.start(along_, settings_.nodes); !s.ok()) return s;
   }
-  return slot_.start(slot_rules(), objects_.slots);
+  return slot_.start(around_, slots_);
 }
 
 Status StrokeService::switch_on(std::uint32_t period_us) {
@@ -101,26 +108,30 @@ Status StrokeService::take_settings(std::uint32_t period_us) {
   if (const Status s = monitor_.configure(settings); !s.ok()) return s;
   if (const Status s = offsets_.configure({objects_.rate, objects_.stale_cycles}); !s.ok())
     return s;
+  settings_ = settings;
+  along_ = stroke_rules();
+  around_ = slot_rules();
+  slots_ = objects_.slots;
   if (const Status s = start_learners(); !s.ok()) return s;
   objects_.table_feed = 0;
-  settings_ = settings;
   axis_ = axis;
   forget();
   return {};
 }
 
-void StrokeService::restart(const std::array<WireScale, kStrokeAxes>& scale,
-                            std::uint32_t period_us) {
+Status StrokeService::restart(const std::array<WireScale, kStrokeAxes>& scale,
+                              std::uint32_t period_us) {
   for (std::size_t i = 0; i < kStrokeAxes; ++i)
     commanded_[i] = {scale[i], {}, 0, 0, false};
   state_known_ = false;
   flags_ = 0;
   offsets_.restart();
-  const HelixMonitorSettings now = monitor_settings(period_us);
-  if (now.tick_ns == settings_.tick_ns) return;
-  settings_.tick_ns = now.tick_ns;
-  if (!monitor_.configure(settings_).ok()) on_ = false;
+  if (tick_ns(period_us) == settings_.tick_ns) return {};
+  settings_.tick_ns = tick_ns(period_us);
+  const Status status = monitor_.configure(settings_);
+  on_ = status.ok();
   forget();
+  return status;
 }
 
 // --- tick
@@ -178,7 +189,7 @@ StrokeState StrokeService::state(const StrokeCycle& cycle) const {
   s.in_face = has(flags_, kInFace);
   s.stroke_end = has(flags_, kStrokeEnd);
   s.fresh = cycle.has_state && z.has_target && c.has_target && c.has_actual;
-  s.homed = z.homed && c.homed;
+  s.homed = z.homed && c.homed && cycle.corrected;
   return s;
 }
 
@@ -199,6 +210,7 @@ std::int32_t StrokeService::tick(const StrokeCycle& cycle) {
   take_commands(cycle);
   const std::int32_t offset = offsets_.tick(state(cycle));
   show(offset);
+  if (!cycle.corrected) objects_.offset_status = kNoAuthority;
   return offset;
 }
 

@@ -30,6 +30,7 @@ struct StrokeCycle {
   std::array<StrokeAxisReport, kStrokeAxes> axis{};
   std::uint16_t syncs = 1;  // since the cycle before
   bool has_state = false;   // 201Ah arrived
+  bool corrected = false;   // C gets offsets of this node
 };
 
 class StrokeService {
@@ -45,8 +46,9 @@ class StrokeService {
   // Also as after power-on.
   void switch_off() { on_ = false; }
   [[nodiscard]] bool on() const { return on_; }
-  // OPERATIONAL begins: nothing is known of the axes.
-  void restart(const std::array<WireScale, kStrokeAxes>& scale, std::uint32_t period_us);
+  // OPERATIONAL begins: nothing is known of the axes. Refused, and strokes are off: bad_setting
+  // ("tick_ns": a period above 1 s).
+  Status restart(const std::array<WireScale, kStrokeAxes>& scale, std::uint32_t period_us);
   // Numbers of X, Z and C, from 0.
   [[nodiscard]] std::size_t axis(std::size_t which) const { return axis_[which]; }
 
@@ -90,6 +92,7 @@ class StrokeService {
   };
 
   static Status bad(const char* field);
+  [[nodiscard]] static std::int32_t tick_ns(std::uint32_t period_us);
   [[nodiscard]] HelixMonitorSettings monitor_settings(std::uint32_t period_us) const;
   Status start_learners();
   [[nodiscard]] LearningRules stroke_rules() const;
@@ -120,7 +123,11 @@ class StrokeService {
   GrinderOffsets offsets_{};
   std::array<OffsetLearner<kStrokeNodes>, 2> stroke_{};
   OffsetLearner<kGearSlots> slot_{};
+  // As they were taken over: the objects may have changed since.
   HelixMonitorSettings settings_{};
+  LearningRules along_{};
+  LearningRules around_{};
+  std::size_t slots_ = 0;
   std::array<std::size_t, kStrokeAxes> axis_{};
   bool on_ = false;
 

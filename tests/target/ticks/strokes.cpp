@@ -93,7 +93,7 @@ class Grinder {
   void tick(std::int32_t z, std::uint16_t slot, bool up, bool end) {
     const bool in_face = z >= -kFace_nm && z <= kFace_nm;
     StrokeCycle cycle;
-    cycle.has_state = true;
+    cycle.has_state = cycle.corrected = true;
     const std::int32_t lag = up ? -160'000 : 160'000;
     const std::int32_t c = turned(z);
     cycle.axis[0] = {44'000'000, 44'000'300, true, true, true};

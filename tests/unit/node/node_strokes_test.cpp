@@ -311,6 +311,34 @@ TEST_F(StrokeSettings, OffNothingIsWatched) {
   EXPECT_EQ(grinder.bench.number(0x2510, 1), 0U);
 }
 
+// Without tables of the machine nothing is sent to C: no offset is pretended.
+TEST_F(StrokeSettings, WithoutTablesOfTheMachineThereIsNoOffset) {
+  ASSERT_EQ(switch_on(), AbortCode::none);
+  grinder.bench.nmt(canopen::NmtCommand::start);
+  const auto error = [](auto, bool, double) { return Errors{0.0, 40e-6}; };
+  grinder.grind(error);
+  ASSERT_EQ(grinder.learn(LearnCommand::learn), AbortCode::none);
+  grinder.grind(error);
+  EXPECT_EQ(grinder.bench.number(0x2524, 4), 0U);
+  EXPECT_EQ(grinder.bench.number(0x2524, 3), kNoAuthority);
+}
+
+// Settings written since they were taken over wait for 2500h:01.
+TEST_F(StrokeSettings, StartingOverKeepsThoseInForce) {
+  grinder.start();
+  const auto error = [](auto, bool, double) { return Errors{0.0, 40e-6}; };
+  grinder.grind(error);
+  grinder.bench.nmt(canopen::NmtCommand::enter_pre_operational);
+  ASSERT_EQ(grinder.bench.set<std::uint16_t>(0x2500, 6, 5), AbortCode::none);
+  ASSERT_EQ(grinder.learn(LearnCommand::start_over), AbortCode::none);
+  EXPECT_EQ(grinder.means(1).size(), 11U);
+}
+
+TEST_F(StrokeSettings, APeriodOfSecondsIsRefused) {
+  ASSERT_EQ(grinder.bench.set<std::uint32_t>(0x1006, 0, 10'000'000), AbortCode::none);
+  expect_refused(Reason::bad_setting, "tick_ns");
+}
+
 // --- store
 
 // Saved, powered off, back: the offset is there from the end of the first stroke on.

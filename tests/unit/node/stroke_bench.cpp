@@ -24,25 +24,15 @@ std::vector<T> values_of(const Bytes& bytes) {
   return values;
 }
 
-Body moving(std::uint8_t lower, JointKind kind, Axis axis, std::uint8_t nc_axis, char letter) {
-  Body body;
-  body.lower = lower;
-  body.joint.kind = kind;
-  body.joint.axis = axis;
-  body.joint.nc_axis = nc_axis;
-  body.joint.letter = letter;
-  return body;
-}
-
 }  // namespace
 
 MachineTables stroke_tables() {
   MachineTables t;
   t.provenance.machine_id = 1003;
   t.provenance.sequence = 1;
-  t.machine.body[1] = moving(1, JointKind::prismatic, Axis::x, 0, 'X');
-  t.machine.body[2] = moving(2, JointKind::rotary, Axis::z, 2, 'C');
-  t.machine.body[3] = moving(1, JointKind::prismatic, Axis::z, 1, 'Z');
+  t.machine.body[1] = test::moving_body(1, JointKind::prismatic, Axis::x, 1, 0, 'X');
+  t.machine.body[2] = test::moving_body(2, JointKind::rotary, Axis::z, 1, 2, 'C');
+  t.machine.body[3] = test::moving_body(1, JointKind::prismatic, Axis::z, 1, 1, 'Z');
   t.machine.body_count = 4;
   t.machine.work_body = 3;
   t.machine.tool_body = 4;
