@@ -52,7 +52,7 @@ class Grinder {
     objects_->frequency_hz = {25.0, 50.0, 0.0, 0.0};
     objects_->least_samples = {1, 1};
     require(service_->switch_on(kPeriod_us));
-    service_->restart({node::WireScale{}, node::WireScale{}, {512, 1, true}}, kPeriod_us);
+    require(service_->restart({node::WireScale{}, node::WireScale{}, {512, 1, true}}, kPeriod_us));
   }
 
   void measure() {
