@@ -164,6 +164,12 @@ const char* code(Reason reason) {
       return "surface_not_determined";
     case Reason::not_converged:
       return "not_converged";
+    case Reason::bad_thermal:
+      return "bad_thermal";
+    case Reason::expired:
+      return "expired";
+    case Reason::cannot_orient:
+      return "cannot_orient";
   }
   return "unknown";
 }
@@ -171,6 +177,34 @@ const char* code(Reason reason) {
 const char* sentence(Reason reason) {
   if (const char* const text = loading_sentence(reason); text != nullptr) return text;
   switch (reason) {
+    case Reason::missing_field:
+      return "A mandatory field is absent; there is no default for it.";
+    case Reason::no_runs:
+      return "There is no run in either direction.";
+    case Reason::run_length:
+      return "A run has another number of readings than there are targets.";
+    case Reason::too_many_runs:
+      return "There are more than 100 runs in one direction.";
+    case Reason::positions_not_monotone:
+      return "The target positions are not in order.";
+    case Reason::positions_duplicate:
+      return "A target position occurs twice.";
+    case Reason::positions_not_uniform:
+      return "The target positions are not equally spaced and resampling was not allowed.";
+    case Reason::gap_too_large:
+      return "A gap between targets is more than twice the median spacing; resampling would invent "
+             "data.";
+    case Reason::reference_out_of_range:
+      return "The reference knot lies outside the table.";
+    case Reason::unit_suspected:
+      return "The magnitude is implausible; micrometres, arc seconds, microradians or metres were "
+             "probably given instead of mm and rad.";
+    case Reason::lever_mismatch:
+      return "The lever self-test failed: sign, unit or order of the angles or arms is wrong.";
+    case Reason::lever_spread_too_small:
+      return "The angles change too little for the lever self-test to mean anything.";
+    case Reason::too_few_points:
+      return "There are too few points for this evaluation.";
     case Reason::length_mismatch:
       return "Two lists that belong together have different lengths.";
     case Reason::coincident:

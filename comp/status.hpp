@@ -89,6 +89,9 @@ enum class Reason : std::uint8_t {
   partial,
   surface_not_determined,
   not_converged,
+  bad_thermal,
+  expired,
+  cannot_orient,
 };
 
 // What a Status points at. A negative number or an empty name means "does not apply".
@@ -126,7 +129,7 @@ Status refuse_value(Reason reason, const char* field, double value);
 // One plain sentence for a person, without the place.
 [[nodiscard]] const char* sentence(Reason reason);
 
-// The same for what a machine or its tables can be refused for; nullptr for other reasons.
+// The same for what an image or a setting can be refused for; nullptr for other reasons.
 [[nodiscard]] const char* loading_sentence(Reason reason);
 
 }  // namespace volcomp

@@ -22,6 +22,9 @@ set(volcomp_cxx_flags
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wcast-align
   -Wshadow -Wold-style-cast -Wnon-virtual-dtor -Woverloaded-virtual -Wformat=2
   -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  list(APPEND volcomp_cxx_flags -Wreserved-identifier)
+endif()
 if(CMAKE_PROJECT_NAME STREQUAL "volcomp")
   list(APPEND volcomp_cxx_flags -Werror)
 endif()
@@ -75,5 +78,12 @@ endfunction()
 function(volcomp_precompile target)
   if(VOLCOMP_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
+# volcomp_precompiled_by(TARGET OTHER): the headers of another target, which is compiled with the same flags.
+function(volcomp_precompiled_by target other)
+  if(VOLCOMP_PRECOMPILE)
+    target_precompile_headers(${target} REUSE_FROM ${other})
   endif()
 endfunction()

@@ -22,16 +22,6 @@ constexpr std::int64_t clamp_position(std::int64_t q) {
   return q;
 }
 
-// Rotary positions are counted through: two million turns either way, far enough from the ends of
-// int64 that differences and offsets cannot overflow.
-inline constexpr std::int64_t kMaxTurningPosition = std::int64_t{1} << 61;
-
-constexpr std::int64_t clamp_turning(std::int64_t q) {
-  if (q > kMaxTurningPosition) return kMaxTurningPosition;
-  if (q < -kMaxTurningPosition) return -kMaxTurningPosition;
-  return q;
-}
-
 // Nearest run-time unit of a commissioning value (`units` per mm or rad), half away from zero,
 // saturating at ±kMaxPosition. The argument must be finite.
 constexpr std::int64_t to_units(double value, double units) {

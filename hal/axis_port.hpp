@@ -4,9 +4,11 @@
 // class with these two members:
 //
 //   struct MyAxisPort {
-//     void sample(volcomp::TickInput<N>& in) noexcept;         // all axes at one instant:
-//     position, valid, homed void apply(const volcomp::TickOutput<N>& out) noexcept;  // added to
-//     the command of the next servo period
+//     // all axes at one instant: position, valid, homed
+//     void sample(volcomp::TickInput<N>& in) noexcept;
+//
+//     // added to the command of the next servo period
+//     void apply(const volcomp::TickOutput<N>& out) noexcept;
 //   };
 //
 // sample(): linear axes in nm, rotary axes in 2^-40 turn counted through; `valid` false when the

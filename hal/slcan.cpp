@@ -102,16 +102,10 @@ SlcanLine::Event SlcanLine::take(char c) {
 }
 
 SlcanRequest SlcanDevice::take(char c) {
-  switch (line_.take(c)) {
-    case SlcanLine::Event::line:
-      return take_line(line_.line());
-    case SlcanLine::Event::too_long:
-      return answer(kSlcanError);
-    case SlcanLine::Event::nothing:
-    case SlcanLine::Event::refused:  // a host does not refuse; its line goes on
-      break;
-  }
-  return {};
+  const SlcanLine::Event event = line_.take(c);
+  if (event == SlcanLine::Event::line) return take_line(line_.line());
+  if (event == SlcanLine::Event::too_long) return answer(kSlcanError);
+  return {};  // a host does not refuse; its line goes on
 }
 
 // Hosts send empty lines to end whatever was begun before; nobody waits for an answer.

@@ -4,7 +4,8 @@
     toolchain/coverage.py [BUILD_FOLDER]   default build/host-asan
 
 Prints a table and keeps it as BUILD_FOLDER/coverage.txt, with the annotated sources in BUILD_FOLDER/coverage.
-A line or branch of a template counts as run when one of its instances has run it.
+A line or branch of a template counts as run when one of its instances has run it. Fails when fewer than 95 % of the
+branches have run, and says which files lack most.
 """
 import json
 import os
@@ -14,6 +15,7 @@ import subprocess
 import sys
 
 FOLDERS = ("comp", "hal", "firmware")
+LEAST_BRANCHES = 95.0  # percent
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
@@ -67,6 +69,21 @@ def table(report):
     return "\n".join([head, *body, row("total", report["totals"])])
 
 
+def uncovered(file):
+    return file["summary"]["branches"]["notcovered"]
+
+
+# Compared as counted, not as rounded for the table.
+def check_branches(report):
+    branches = report["totals"]["branches"]
+    if 100.0 * branches["covered"] >= LEAST_BRANCHES * branches["count"]:
+        return
+    worst = sorted(report["files"], key=uncovered, reverse=True)[:10]
+    names = "".join(f'\n  {uncovered(file):>4}  {pathlib.Path(file["filename"]).relative_to(ROOT)}' for file in worst)
+    raise Failure(f'{branches["covered"]} of {branches["count"]} branches have run, '
+                  f'{LEAST_BRANCHES:g} % are wanted; most are missing in{names}')
+
+
 def main():
     if len(sys.argv) > 1 and sys.argv[1] in ("-h", "--help"):
         print(__doc__.strip())
@@ -79,10 +96,12 @@ def main():
     if not programs:
         raise Failure(f'there is no program in {build}: build and test the preset "host-asan" first.')
     profile = merge_profiles(build)
-    text = table(json.loads(llvm_cov("export", programs, profile, "-summary-only"))["data"][0])
+    report = json.loads(llvm_cov("export", programs, profile, "-summary-only"))["data"][0]
+    text = table(report)
     (build / "coverage.txt").write_text(text + "\n")
     llvm_cov("show", programs, profile, "-format=html", f"-output-dir={build / 'coverage'}")
     print(text)
+    check_branches(report)
 
 
 if __name__ == "__main__":

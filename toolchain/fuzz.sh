@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs libFuzzer programs and fails on the first crash, hang or sanitizer report.
 #
-#   toolchain/fuzz.sh PROGRAM...      each for VOLCOMP_FUZZ_SECONDS (default 15) seconds, VOLCOMP_JOBS at a time
+#   toolchain/fuzz.sh PROGRAM...      each for VOLCOMP_FUZZ_SECONDS (default 10) seconds, VOLCOMP_JOBS at a time
 #
 # fuzz_NAME starts from tests/data/corpus/NAME, which is only read, and takes its dictionary from
 # tests/data/corpus/NAME.dict. What makes a program fail is kept in build/fuzz/findings.
@@ -10,7 +10,7 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 # shellcheck source=toolchain/common.sh
 . "$script_folder/common.sh"
 
-readonly seconds=${VOLCOMP_FUZZ_SECONDS:-15}
+readonly seconds=${VOLCOMP_FUZZ_SECONDS:-10}
 readonly findings=build/fuzz/findings
 readonly corpus=tests/data/corpus
 

@@ -8,9 +8,9 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 # shellcheck source=toolchain/common.sh
 . "$script_folder/common.sh"
 
-build_packages=(g++ cmake ninja-build binutils ca-certificates libeigen3-dev libfmt-dev libcli11-dev
-  libtoml11-dev nlohmann-json3-dev libgtest-dev libgmock-dev libbenchmark-dev)
-check_packages=(ccache git clang clang-format clang-tidy cppcheck llvm pkg-config python3 shellcheck)
+build_packages=(g++ cmake ninja-build binutils ca-certificates pkg-config libeigen3-dev libfmt-dev libcli11-dev
+  libtoml11-dev nlohmann-json3-dev libssl-dev libcpp-httplib-dev libgtest-dev libgmock-dev libbenchmark-dev)
+check_packages=(ccache chromium fish git clang clang-format clang-tidy cppcheck llvm man-db mandoc python3 shellcheck zsh)
 bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
 board_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib g++-aarch64-linux-gnu
   qemu-system-arm gdb-multiarch)

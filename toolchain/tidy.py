@@ -3,6 +3,7 @@
 
     toolchain/tidy.py [BUILD_FOLDER]   default build/host
 
+The build may compile several sources at once; their own flags are those of BUILD_FOLDER/tidy, configured without.
 A header that no source of these folders includes is checked through a source that includes only it. A file
 that was clean is checked again only after it, a header of ours that it includes, its flags, .clang-tidy or
 clang-tidy itself has changed; delete BUILD_FOLDER/tidy to check everything again. The path-sensitive analyzer
@@ -25,7 +26,7 @@ import time
 FOLDERS = ("comp", "hal", "firmware", "host_sim")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIG = ROOT / ".clang-tidy"
-AT_A_TIME, ANALYZED_AT_A_TIME = 8, 4
+AT_A_TIME, ANALYZED_AT_A_TIME = 8, 4  # 8: UNITY_BUILD_BATCH_SIZE of CMake
 # Another compiler's; without it, too, a file has to include what it uses.
 PRECOMPILED = re.compile(r" -Winvalid-pch| -include \S+/cmake_pch\.hxx")
 
@@ -42,11 +43,21 @@ def is_analyzed(path):
     return ROOT / "host_sim" not in path.parents
 
 
-def read_entries(build):
+def configure_apart(build):
+    """The folder with compile_commands.json of every source by itself, configured like the build."""
+    if not (build / "CMakeCache.txt").exists():
+        raise Failure(f"{build} is not configured: build first.")
+    folder = build / "tidy"
+    run = subprocess.run(["cmake", "--preset", "host", "-B", str(folder), "-DVOLCOMP_TOGETHER=OFF"], cwd=ROOT,
+                         capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        raise Failure(f"{folder} cannot be configured:\n{run.stdout}{run.stderr}")
+    return folder
+
+
+def read_entries(folder):
     """Source -> its entry in compile_commands.json."""
-    database = build / "compile_commands.json"
-    if not database.exists():
-        raise Failure(f"{database} is missing: configure and build first.")
+    database = folder / "compile_commands.json"
     entries = {}
     for entry in json.loads(database.read_text()):
         source = pathlib.Path(entry["directory"], entry["file"]).resolve()
@@ -58,13 +69,13 @@ def read_entries(build):
 
 
 def read_includes(build):
-    """Source -> the files of ours that it includes, as the build has noted them."""
+    """Source, or several at once -> the files of ours that it includes, as the build has noted them."""
     listing = subprocess.run(["ninja", "-C", str(build), "-t", "deps"], capture_output=True, text=True, check=True)
     includes = {}
     for block in listing.stdout.split("\n\n"):
         paths = [pathlib.Path(os.path.normpath(build / line.strip()))
                  for line in block.splitlines() if line.startswith(" ")]
-        if paths:
+        if paths and block.startswith(FOLDERS):
             includes.setdefault(paths[0], set()).update(p for p in paths[1:] if ROOT in p.parents)
     return includes
 
@@ -101,27 +112,27 @@ class Task:
 
 
 def tasks_of_sources(entries, includes, everything, folder):
-    """Sources of one top folder with the same flags, a few at a time."""
+    """Sources of one target with the same flags, a few at a time: those of the host as the build has compiled them."""
     alike = {}
-    for source, entry in sorted(entries.items()):
+    for source, entry in entries.items():
         flags = re.sub(r" -(o|c) \S+", "", entry["command"])
-        alike.setdefault((flags, is_analyzed(source)), []).append(source)
-    for (_, analyzed), sources in alike.items():
+        target = re.search(r" -o (\S+?\.dir)/", entry["command"])
+        alike.setdefault((flags, target and target[1], is_analyzed(source)), []).append(source)
+    for (_, _, analyzed), sources in alike.items():
         count = ANALYZED_AT_A_TIME if analyzed else AT_A_TIME
-        yield from tasks_of_groups([sources[at:at + count] for at in range(0, len(sources), count)], entries, includes, everything, folder)
+        for at in range(0, len(sources), count):
+            yield task_of(sources[at:at + count], entries, includes, everything, folder)
 
 
-def tasks_of_groups(groups, entries, includes, everything, folder):
-    for group in groups:
-        entry = entries[group[0]]
-        files = set(group).union(*(includes.get(source, everything) for source in group))
-        if len(group) == 1:
-            yield Task(group[0], group, entry, files)
-            continue
-        wrapper = folder / ("_".join(group[0].relative_to(ROOT).parts) + "_and_more.cpp")
-        wrapper.write_text("".join(f'#include "{source.relative_to(ROOT)}"  // NOLINT\n' for source in group))
-        command = entry["command"].replace(entry["file"], str(wrapper))
-        yield Task(wrapper, group, dict(entry, file=str(wrapper), command=command), files)
+def task_of(group, entries, includes, everything, folder):
+    entry = entries[group[0]]
+    files = set(group).union(*(includes.get(source, everything) for source in group))
+    if len(group) == 1:
+        return Task(group[0], group, entry, files)
+    wrapper = folder / ("_".join(group[0].relative_to(ROOT).parts) + f"_and_{len(group) - 1}_more.cpp")
+    wrapper.write_text("".join(f'#include "{source.relative_to(ROOT)}"  // NOLINT\n' for source in group))
+    command = entry["command"].replace(entry["file"], str(wrapper))
+    return Task(wrapper, group, dict(entry, file=str(wrapper), command=command), files)
 
 
 def fingerprint(version, entry, files):
@@ -154,8 +165,8 @@ def check(task, database):
 
 
 def all_tasks(build, temporary):
-    entries, includes = read_entries(build), read_includes(build)
-    seen = set().union(*(includes.get(source, set()) for source in entries))
+    entries, includes = read_entries(configure_apart(build)), read_includes(build)
+    seen = set().union(*includes.values())
     everything = {path for folder in FOLDERS for path in (ROOT / folder).rglob("*.hpp")
                   if "node_modules" not in path.parts}
     # Which other headers such a header includes is not known, so it depends on all of them.
@@ -170,7 +181,7 @@ def all_tasks(build, temporary):
 def check_all(build, temporary):
     tasks = all_tasks(build, temporary)
     version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
-    memory = build / "tidy"
+    memory = build / "tidy" / "clean"
     memory.mkdir(exist_ok=True)
     waiting = []
     for task in tasks:
@@ -201,7 +212,7 @@ def main():
     if len(sys.argv) > 1 and sys.argv[1] in ("-h", "--help"):
         print(__doc__.strip())
         return
-    for command in ("clang-tidy", "ninja"):
+    for command in ("clang-tidy", "cmake", "ninja"):
         if shutil.which(command) is None:
             raise Failure(f'the command "{command}" is missing: run toolchain/setup.sh first.')
     build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/host").resolve()

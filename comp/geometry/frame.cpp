@@ -41,9 +41,14 @@ Mat3 axis_rotation(Axis axis, double angle) {
 }
 
 Frame joint_offset(const Joint& joint) {
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  return {Eigen::Map<const RowMajor>(joint.orientation.data()),
-          Eigen::Map<const Vec3>(joint.offset.data())};
+  Frame offset;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto i = static_cast<Eigen::Index>(row);
+    for (std::size_t column = 0; column < 3; ++column)
+      offset.R(i, static_cast<Eigen::Index>(column)) = joint.orientation[3 * row + column];
+    offset.t(i) = joint.offset[row];
+  }
+  return offset;
 }
 
 Frame joint_motion(const Joint& joint, double q) {

@@ -61,8 +61,13 @@ Status check_joints(const MachineDescription& d, std::size_t& axes) {
   return {};
 }
 
-// The correcting axes exist, and none is named twice.
+// The correcting axes exist, and none is named twice. Those that orient the tool exist; what else
+// they have to be is known to Compensator::stage().
 Status check_correcting(const MachineDescription& d, std::size_t axes) {
+  for (std::size_t o = 0; o < d.orienting_count; ++o) {
+    if (d.orienting_count > kMaxOrienting || d.orienting[o] >= axes)
+      return refuse(Reason::cannot_orient);
+  }
   for (std::size_t c = 0; c < d.correcting_count; ++c) {
     Where where;
     where.field = "correcting";

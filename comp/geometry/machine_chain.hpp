@@ -48,7 +48,8 @@ class MachineChain {
   }
   [[nodiscard]] bool has_rotary() const;
   [[nodiscard]] Vec3 tool_point() const {
-    return Eigen::Map<const Vec3>(description_.tool_point.data());
+    const auto& p = description_.tool_point;
+    return {p[0], p[1], p[2]};
   }
 
   // Error motion of a body: the one of its NC axis, or its constant one.

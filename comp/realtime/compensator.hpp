@@ -3,6 +3,9 @@
 //
 //   error → inverse Jacobian → clamp → ramp → round → slew → output
 //
+// Where axes orient the tool, they come first, and what their offsets do to the tool point is
+// part of the error that the others take away.
+//
 // The slew limit comes last because it is the promise made to the drive: whatever happened before,
 // including a change of tables in the middle of a ramp, no output moves by more than `rate` in one
 // tick.
@@ -19,6 +22,7 @@
 #include "comp/realtime/limiter.hpp"
 #include "comp/realtime/motion_inverse.hpp"
 #include "comp/realtime/tick_types.hpp"
+#include "comp/realtime/tool_turning.hpp"
 #include "comp/realtime/touch.hpp"
 
 namespace volcomp {
@@ -41,13 +45,15 @@ template <class Machine, std::size_t Knots = kDefaultKnots>
 class Compensator {
  public:
   static constexpr std::size_t kAxes = Machine::kAxes;
+  static constexpr bool kOrients = Machine::kOrienting != 0;
   using Input = TickInput<kAxes>;
   using Output = TickOutput<kAxes>;
   using Settings = CompensatorSettings<kAxes>;
   using Tables = TableSet<kAxes, Knots>;
 
   Compensator() : Compensator(Machine{}) {}
-  // A machine with more axes than fit is treated as none: every stage() is then refused.
+  // A machine with more axes than fit is treated as none: every stage() is then refused, as is one
+  // whose axes orient the tool where Machine has no room for that.
   explicit Compensator(const Machine& machine)
       : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {
     next_.ramp.restart(settings_.ramp_ticks);
@@ -67,12 +73,26 @@ class Compensator {
   // jumping to 0. Refuses bad_setting beyond ±2^30 units (1.07 m): no drive stands there.
   [[gnu::cold]] Status start_from(const std::array<std::int32_t, kAxes>& offsets);
 
-  // Folds tables for a functional point into the spare buffer. Used for new tables and for a tool
-  // change alike. On refusal the active tables go on. `image_crc` is what diagnostics will report.
-  // Not while a hand-over is pending. A node stages the view of an image (check_image); tables in
-  // memory are for the host: their view takes 4 KB of stack.
+  // Folds tables for a functional point and axes as grown as the view says into the spare buffer.
+  // Used for new tables, for a change of the tool and for axes that have become warmer alike. On
+  // refusal the active tables go on. `image_crc` is what diagnostics will report. Not while a
+  // hand-over is pending. A node stages the view of an image (check_image); tables in memory are
+  // for the host: their view takes 4 KB of stack.
   Status stage(const TablesView& tables, const Vec3& tool_point, std::uint32_t image_crc);
-  Status stage(const MachineTables& tables, const Vec3& tool_point, std::uint32_t image_crc);
+  Status stage(const MachineTables& tables, const Vec3& tool_point, std::uint32_t image_crc,
+               const Temperatures& temperatures = kUnknownTemperatures);
+
+  // Folds tables of another machine: whatever becomes of it, this one and its tables go on. When it
+  // is ok, adopt() that machine, or stage() again.
+  [[gnu::cold]] Status stage_for(const RuntimeChain& chain, const TablesView& tables,
+                                 const Vec3& tool_point, std::uint32_t image_crc);
+
+  // restart() for the machine of stage_for(), with the tables it staged. Only while no tick can
+  // come.
+  [[gnu::cold]] void adopt(const Machine& machine);
+
+  // No change is being ramped in: time for the next one.
+  [[nodiscard]] bool at_rest() const { return (ramps_ & 1U) == 0 && !pending(); }
 
   // Hands the staged set over: active from the next tick, ramped in. Refuses not_staged.
   Status activate();
@@ -119,7 +139,7 @@ class Compensator {
 
   // No two accepted positions of a linear axis are further apart.
   static constexpr std::int64_t kAnyStep = 2 * kMaxPosition;
-  static constexpr std::int64_t kAnyTurn = 2 * kMaxTurningPosition;
+  static constexpr std::int64_t kAnyTurn = std::int64_t{1} << 62;  // half of what wraps
   static constexpr std::uint16_t kNoStatusYet = 1U << 15U;
 
   struct AxisState {
@@ -156,12 +176,24 @@ class Compensator {
     std::uint32_t activations = 0;
   };
 
+  // What an orienting axis may turn in this tick, 2^-32 turn.
+  struct TurnRange {
+    float low;
+    float high;
+  };
+  struct Orienting {
+    std::array<TurnRange, kMaxOrienting> range;
+    std::array<float, kMaxOrienting> excess;  // found within it
+  };
+  struct NotOrienting {};
+
   using Places = std::array<Located, kAxes>;
   // What a tick works on. A compiled-in machine keeps it in registers as long as all is as usual.
   struct Work {
     Places at;
     kernel::Columns column;
     kernel::Excess excess;
+    std::conditional_t<kOrients, Orienting, NotOrienting> turns;
   };
 
   // The state of a correcting axis; that of a loaded machine has been looked up once.
@@ -190,6 +222,16 @@ class Compensator {
                     Output& out);
   bool find_excess(const Tables& set, Work& work, Float3& error_nm) const;
   bool find_kept_excess(const Tables& set, Work& work, Float3& error_nm) const;
+
+  // compensator_orienting.inl; nothing where the machine does not orient
+  static Status check_orienting(const MachineChain& chain);
+  void allow_turns(Work& work) const;
+  void take_turns(const Tables& set, Work& work, Float3& error_nm) const;
+  [[nodiscard]] float* excess_of(std::size_t axis);
+  template <class Visit>
+  void for_each_orienting(const Visit& visit);
+  void put_out_turns(const Work& work, float ramp, std::uint32_t usual, Output& out);
+
   void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t usual,
                EverydayBits& changed, Output& out);
 
@@ -214,8 +256,8 @@ class Compensator {
   void take_machine();
   void apply_limits(std::size_t axis);
   Status open_spare(const Provenance& provenance);
-  [[gnu::cold]] Status fold_into_spare(const TablesView& tables, const Vec3& tool_point,
-                                       std::uint32_t image_crc);
+  [[gnu::cold]] Status fold_into_spare(const RuntimeChain& chain, const TablesView& tables,
+                                       const Vec3& tool_point, std::uint32_t image_crc);
   Status reject(const Status& status);
   static std::uint32_t checksum(const Tables& set);
   [[nodiscard]] bool rotary(std::size_t axis) const {
@@ -253,4 +295,5 @@ class Compensator {
 #include "comp/realtime/compensator_background.inl"
 #include "comp/realtime/compensator_exceptions.inl"
 #include "comp/realtime/compensator_latch.inl"
+#include "comp/realtime/compensator_orienting.inl"
 #include "comp/realtime/compensator_tick.inl"

@@ -73,7 +73,6 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   request_.store(Request::none, std::memory_order_relaxed);
   damaged_.store(false, std::memory_order_relaxed);
   now_ = {};
-  spare_ = 0;
   staged_ = false;
   diagnostics_ = {};
   report_ = {};
@@ -135,13 +134,13 @@ Status Compensator<Machine, Knots>::open_spare(const Provenance& provenance) {
 }
 
 template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::fold_into_spare(const TablesView& tables,
+Status Compensator<Machine, Knots>::fold_into_spare(const RuntimeChain& chain,
+                                                    const TablesView& tables,
                                                     const Vec3& tool_point,
                                                     std::uint32_t image_crc) {
   FoldReport report;
   Tables& spare = buffer_[static_cast<std::size_t>(spare_)];
-  const Status status =
-      fold_tables(tables, machine_.chain, tool_point, TableSetView(spare), report);
+  const Status status = fold_tables(tables, chain, tool_point, TableSetView(spare), report);
   if (!status.ok()) return status;
   spare.image_crc = image_crc;
   spare.checksum = checksum(spare);
@@ -151,20 +150,39 @@ Status Compensator<Machine, Knots>::fold_into_spare(const TablesView& tables,
 }
 
 template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::stage(const TablesView& tables, const Vec3& tool_point,
-                                          std::uint32_t image_crc) {
+Status Compensator<Machine, Knots>::stage_for(const RuntimeChain& chain, const TablesView& tables,
+                                              const Vec3& tool_point, std::uint32_t image_crc) {
   Status status = open_spare(tables.provenance);
-  if (status.ok()) status = fold_into_spare(tables, tool_point, image_crc);
+  if (status.ok()) status = check_orienting(tables.chain);
+  if (status.ok()) status = fold_into_spare(chain, tables, tool_point, image_crc);
   return status.ok() ? status : reject(status);
 }
 
 template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec3& tool_point,
+Status Compensator<Machine, Knots>::stage(const TablesView& tables, const Vec3& tool_point,
                                           std::uint32_t image_crc) {
+  return stage_for(machine_.chain, tables, tool_point, image_crc);
+}
+
+template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::adopt(const Machine& machine) {
+  const bool staged = staged_;
+  const FoldReport report = report_;
+  restart(machine);
+  staged_ = staged;
+  report_ = report;
+}
+
+template <class Machine, std::size_t Knots>
+Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec3& tool_point,
+                                          std::uint32_t image_crc,
+                                          const Temperatures& temperatures) {
   TablesView view;
   Status status = open_spare(tables.provenance);
   if (status.ok()) status = view_tables(tables, view);
-  if (status.ok()) status = fold_into_spare(view, tool_point, image_crc);
+  view.strain = strains(view, temperatures);
+  if (status.ok()) status = check_orienting(view.chain);
+  if (status.ok()) status = fold_into_spare(machine_.chain, view, tool_point, image_crc);
   return status.ok() ? status : reject(status);
 }
 

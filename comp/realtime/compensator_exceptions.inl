@@ -21,6 +21,8 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::begin_change() {
   VOLCOMP_UNROLL
   for (std::size_t c = 0; c < kMaxCorrecting; ++c)
     corrected(c).ramp_from = static_cast<float>(corrected(c).output);
+  for_each_orienting([](AxisState& s, std::size_t)
+                         VOLCOMP_INLINE_LAMBDA { s.ramp_from = static_cast<float>(s.output); });
   ramps_ |= 1U;
 }
 
@@ -31,6 +33,12 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::end_change() {
   VOLCOMP_UNROLL
   for (std::size_t c = 0; c < kMaxCorrecting; ++c)
     corrected(c).ramp_from = 0.0F;
+  for_each_orienting([](AxisState& s, std::size_t) VOLCOMP_INLINE_LAMBDA { s.ramp_from = 0.0F; });
+}
+
+// A rotary position may wrap: int64 is a whole number of turns.
+constexpr std::int64_t held_in_range(std::int64_t position, bool turns) {
+  return turns ? position : clamp_position(position);
 }
 
 // Whether every axis has reported at last.
@@ -39,9 +47,8 @@ bool Compensator<Machine, Knots>::all_known(const Input& in) {
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     AxisState& s = axis_[a];
     if (s.known || !in.axis[a].valid) continue;
-    const std::int64_t position = in.axis[a].position;
     s.known = true;
-    s.seen = rotary(a) ? clamp_turning(position) : clamp_position(position);
+    s.seen = held_in_range(in.axis[a].position, rotary(a));
     --unknown_axes_;
   }
   return unknown_axes_ == 0;
@@ -55,8 +62,7 @@ template <class Machine, std::size_t Knots>
   AxisState& s = axis_[axis];
   const bool turns = rotary(axis);
   if (s.steady) s.position = s.seen;
-  const std::int64_t position =
-      turns ? clamp_turning(sample.position) : clamp_position(sample.position);
+  const std::int64_t position = held_in_range(sample.position, turns);
   const std::uint64_t moved =
       static_cast<std::uint64_t>(position) - static_cast<std::uint64_t>(s.seen);
   const bool plausible = !s.known || moved + s.most_step <= 2 * s.most_step;
@@ -156,7 +162,8 @@ bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t 
     began &= began - 1U;
   }
   const EverydayBits bits = everyday_bits(status);
-  const bool everyday = status == everyday_status(bits);
+  bool everyday = status == everyday_status(bits);
+  if constexpr (kOrients) everyday = everyday && (corrects || status == kValid);  // no tally
   if (corrects) tally_.resume(c, bits);
   s.status = static_cast<std::uint16_t>(everyday ? 0U : status);
   const bool far =
@@ -176,10 +183,9 @@ template <class Machine, std::size_t Knots>
   for (std::size_t a = 0; a < chain.axes; ++a) {
     std::uint32_t status = axis_[a].exception;
     axis_[a].exception = 0;
-    const std::size_t c = chain.correcting_index[a];
-    if (c != kNotCorrecting) {
+    if (const float* const excess = excess_of(a); excess != nullptr) {
       status |= gate;
-      put_out_unusual(axis_[a], work_.excess[c], ramp, status);
+      put_out_unusual(axis_[a], *excess, ramp, status);
     }
     if (damaged) status |= kTableDamaged;
     if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
@@ -196,6 +202,7 @@ template <class Machine, std::size_t Knots>
   for (std::size_t a = 0; a < machine_.chain.axes; ++a)
     axis_[a].exception = static_cast<std::uint16_t>(take_sample(a, in.axis[a]));
   work_.excess = {};
+  if constexpr (kOrients) work_.turns.excess = {};
   return active() ? kStale : kNoTables;
 }
 
@@ -206,8 +213,9 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::tick_unusual(const Input& in, f
   std::uint32_t gate = 0;
   if (!active() || !follow_unusual(in)) {
     gate = idle(in);
-  } else if (!find_kept_excess(*now_.active, work_, error_nm_)) {
-    gate = kNoAuthority;
+  } else {
+    allow_turns(work_);
+    if (!find_kept_excess(*now_.active, work_, error_nm_)) gate = kNoAuthority;
   }
   finish_unusual(gate, ramp, out);
 }

@@ -20,6 +20,7 @@ PoseError Compensator<Machine, Knots>::error_at(
     locate_any(set->lookup[a], static_cast<std::uint32_t>(r), turns, set->rows[a].data(),
                latched[a].direction, mean[a], work.at[a]);
   }
+  if constexpr (kOrients) work.turns.range = {};
   Float3 e{};
   static_cast<void>(find_kept_excess(*set, work, e));
   error.base = {static_cast<double>(e[0]), static_cast<double>(e[1]), static_cast<double>(e[2])};

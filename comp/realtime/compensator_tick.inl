@@ -102,6 +102,11 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::find_excess(const Tables& set, 
     return true;
   }
   error_nm = kernel::recursive_error(machine_, set, work.at, work.column);
+  if constexpr (kOrients) {
+    Float3 left_nm = error_nm;
+    if (chain.orienting_count != 0) take_turns(set, work, left_nm);
+    return kernel::varying_excess(machine_, work.column, left_nm, work.excess);
+  }
   return kernel::varying_excess(machine_, work.column, error_nm, work.excess);
 }
 
@@ -165,6 +170,7 @@ void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
   if (VOLCOMP_RARELY(set == nullptr || guarded_axes_ != 0) ||
       !follow_usual(in, *set, usual, w.at, out))
     return detail::tick_unusual(*this, in, ramp, out);
+  allow_turns(w);
   const bool possible = Machine::kCompiledIn ? find_excess(*set, w, error_nm_)
                                              : find_kept_excess(*set, work_, error_nm_);
   if (VOLCOMP_RARELY(!possible)) return detail::tick_unusual(*this, in, ramp, out);
@@ -173,6 +179,7 @@ void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
     put_out(c, w.excess[c], ramp, usual, changed, out);
   });
   tally_.enter(kAllValid ^ changed);
+  put_out_turns(w, ramp, usual, out);
 }
 
 }  // namespace volcomp

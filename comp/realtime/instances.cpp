@@ -1,4 +1,4 @@
-// The ready-made forms of the compensator, compiled once into the library: a loaded machine of up
+// The ready-made forms of the compensator, compiled once into the library: loaded machines of up
 // to five axes and the XYFZ machine of seed 001 compiled in. Also what the build inspects to prove
 // that the tick needs no library.
 
@@ -6,7 +6,7 @@
 
 namespace volcomp {
 
-template class Compensator<LoadedMachine<5>>;
+template class Compensator<PositionMachine>;
 template class Compensator<CompiledMachine<kXyfzMachine>>;
 
 }  // namespace volcomp

@@ -12,6 +12,7 @@ namespace volcomp {
 
 inline constexpr std::uint8_t kNotCorrecting = 0xFF;
 inline constexpr std::uint8_t kNotCarried = 0xFF;
+inline constexpr std::uint8_t kNotOrienting = 0xFF;
 
 // What a joint does to a point: one jump of a loaded machine.
 enum class Motion : std::uint8_t { along_x, along_y, along_z, about_x, about_y, about_z, none };
@@ -39,6 +40,8 @@ struct RuntimeStep {
   [[nodiscard]] constexpr bool corrects() const { return correcting != kNotCorrecting; }
   [[nodiscard]] constexpr bool carried() const { return column != kNotCarried; }
 };
+
+inline constexpr float kTurnsPerRad = 683565275.6F;  // 2^32 / 2π, an output in a radian
 
 // What is known beforehand of the Jacobian of the correcting axes, and saves the tick work.
 enum class InverseForm : std::uint8_t {
@@ -71,6 +74,8 @@ struct RuntimeChain {
   std::uint8_t tool_steps = 0;
   std::uint8_t axes = 0;
   std::uint8_t correcting_count = 0;
+  std::uint8_t orienting_count = 0;
+  std::array<std::uint8_t, kMaxOrienting> orienting{};    // NC axes
   std::array<std::uint8_t, kMaxCorrecting> correcting{};  // NC axes
   std::array<std::uint8_t, kMaxAxes> correcting_index{};  // by NC axis, or kNotCorrecting
   std::array<JointKind, kMaxAxes> kind{};                 // by NC axis
@@ -81,6 +86,13 @@ struct RuntimeChain {
   bool has_constant_error = false;
   std::uint8_t tool_columns = 0;  // carried along the tool branch; those of the work branch follow
   InversePlan inverse{};
+
+  [[nodiscard]] constexpr std::uint8_t orienting_index(std::size_t axis) const {
+    for (std::uint8_t o = 0; o < orienting_count; ++o) {
+      if (orienting[o] == axis) return o;
+    }
+    return kNotOrienting;
+  }
 };
 
 namespace detail {
@@ -132,7 +144,6 @@ constexpr bool is_aligned(const RuntimeChain& chain, std::size_t i) {
 }
 
 constexpr InversePlan plan_inverse(const RuntimeChain& chain) {
-  constexpr float kTurnsPerRad = 683565275.6F;  // 2^32 / 2π
   InversePlan plan;
   for (std::size_t c = 0; c < chain.correcting_count; ++c)
     plan.units[c] = chain.kind[chain.correcting[c]] == JointKind::rotary ? kTurnsPerRad : 1.0F;
@@ -222,6 +233,8 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
     chain.correcting[c] = machine.correcting[c];
     chain.correcting_index[machine.correcting[c]] = c;
   }
+  chain.orienting_count = machine.orienting_count;
+  chain.orienting = machine.orienting;
   bool any_rotary = false;
   for (std::size_t i = 0; i < chain.steps; ++i) {
     RuntimeStep& step = chain.step[i];
@@ -239,11 +252,13 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
   return chain;
 }
 
-// True when tables made for `b` may run on `a`: same walk, same geometry.
-constexpr bool same_chain(const RuntimeChain& a, const RuntimeChain& b) {
+// True when tables made for `b` may run on `a`: same walk, same geometry. Asked when tables are
+// taken over, not by the tick; a copy of it in every caller costs flash.
+[[gnu::noinline]] constexpr bool same_chain(const RuntimeChain& a, const RuntimeChain& b) {
   const auto differ = [](float x, float y) { return x < y || x > y; };
   if (a.steps != b.steps || a.tool_steps != b.tool_steps || a.axes != b.axes ||
-      a.correcting_count != b.correcting_count) {
+      a.correcting_count != b.correcting_count || a.orienting_count != b.orienting_count ||
+      a.orienting[0] != b.orienting[0] || a.orienting[1] != b.orienting[1]) {
     return false;
   }
   for (std::size_t i = 0; i < a.steps; ++i) {
@@ -271,14 +286,17 @@ template <const MachineDescription& Description, RuntimeModel Model = RuntimeMod
 struct CompiledMachine {
   static constexpr RuntimeChain chain = make_runtime_chain(Description, Model);
   static constexpr std::size_t kAxes = chain.axes;
+  static constexpr std::size_t kOrienting = chain.orienting_count;
   static constexpr bool kCompiledIn = true;
 };
 
-// A machine read from a validated image; `Axes` bounds the memory.
-template <std::size_t Axes>
+// A machine read from a validated image; `Axes` bounds the memory. `Orienting`: how many axes may
+// orient the tool, 0 or kMaxOrienting; 0 costs nothing.
+template <std::size_t Axes, std::size_t Orienting = 0>
 struct LoadedMachine {
   RuntimeChain chain{};
   static constexpr std::size_t kAxes = Axes;
+  static constexpr std::size_t kOrienting = Orienting;
   static constexpr bool kCompiledIn = false;
 };
 

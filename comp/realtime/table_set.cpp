@@ -83,14 +83,23 @@ ErrorMotion at_tool_point(const AxisPlace& place, const Vec3& lever, const Error
 // chain): a = σ(R δ + R ε × c) + direction·q, w = σ R ε.
 class RowSource {
  public:
-  RowSource(const TablesView& tables, std::size_t axis, const AxisPlace* folded)
-      : table_(tables.axis[axis]), direction_(tables.directions[axis]), folded_(folded) {}
+  // Own function, for the flash of small boards.
+  [[gnu::noinline]] RowSource(const TablesView& tables, std::size_t axis, const AxisPlace* folded)
+      : table_(tables.axis[axis]),
+        joint_(tables.chain.axis(axis)),
+        direction_(tables.directions[axis]),
+        folded_(folded),
+        grows_(tables.expansion[axis].input != kNoTemperature),
+        strain_(tables.strain[axis]),
+        fixed_nm_(kNmPerMm * static_cast<double>(tables.expansion[axis].fixed_mm)) {}
 
   [[nodiscard]] ErrorMotion value(std::size_t travel, std::size_t knot) const {
     ErrorMotion e = channels_of(table_, travel, knot);
-    if (folded_ == nullptr) return e;
     const TableGrid& grid = table_.grid();
     const auto q_nm = static_cast<double>(grid.q0 + grid.pitch * static_cast<std::int64_t>(knot));
+    if (grows_)
+      e(static_cast<Eigen::Index>(joint_.axis)) += thermal_growth(joint_, strain_, q_nm, fixed_nm_);
+    if (folded_ == nullptr) return e;
     ErrorMotion row = at_tool_point(*folded_, kNmPerMm * folded_->lever, e);
     row.head<3>() = added(translation(row), q_nm, direction_);
     return row;
@@ -98,8 +107,12 @@ class RowSource {
 
  private:
   const AxisTableView& table_;
+  const Joint& joint_;
   const Vec3& direction_;
   const AxisPlace* folded_;
+  bool grows_;
+  double strain_;
+  double fixed_nm_;
 };
 
 // Rows of one axis and the differences to the next knot, periodic or ending flat.

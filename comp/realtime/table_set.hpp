@@ -69,10 +69,10 @@ inline constexpr double kMaxBound_nm = 1.0e7;    // 10 mm: beyond it the tables 
 inline constexpr double kClaimBound_nm = 1.0e6;  // 1 mm
 inline constexpr double kMaxContraction = 1e-2;
 
-// Folds the tables for `tool_point` (mm, tool frame) in double and writes them in float. Background
-// only. Refuses axes_mismatch (other number of axes), machine_mismatch (another chain),
-// not_finite, what check_knots refuses, bound_exceeded, contraction_exceeded, no_authority; the set
-// is then partly written and must not be activated.
+// Folds the tables for `tool_point` (mm, tool frame), axes as grown as `tables` says, in double and
+// writes them in float. Background only. Refuses axes_mismatch (other number of axes),
+// machine_mismatch (another chain), not_finite, what check_knots refuses, bound_exceeded,
+// contraction_exceeded, no_authority; the set is then partly written and must not be activated.
 Status fold_tables(const TablesView& tables, const RuntimeChain& runtime, const Vec3& tool_point,
                    const TableSetView& set, FoldReport& report);
 

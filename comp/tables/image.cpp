@@ -24,6 +24,9 @@ void write_machine(LittleEndianWriter& w, const MachineDescription& m) {
   w.u8(m.correcting_count);
   for (const std::uint8_t axis : m.correcting)
     w.u8(axis);
+  w.u8(m.orienting_count);
+  for (const std::uint8_t axis : m.orienting)
+    w.u8(axis);
   w.f64s(m.tool_point);
   for (std::size_t k = 0; k < m.body_count; ++k) {
     const Body& body = m.body[k];
@@ -71,6 +74,7 @@ Status encode_image(const MachineTables& tables, Span<std::uint8_t> out, std::si
   w.u32(tables.provenance.machine_id);
   w.u32(tables.provenance.sequence);
   w.i64(tables.provenance.built_unix_s);
+  w.i64(tables.provenance.expires_unix_s);
   w.f32(tables.provenance.temperature_C);
   for (const char c : tables.provenance.stamp)
     w.u8(static_cast<std::uint8_t>(c));
@@ -83,6 +87,9 @@ Status encode_image(const MachineTables& tables, Span<std::uint8_t> out, std::si
     w.u32(table.knots);
     w.u8(table.periodic ? 1 : 0);
     w.f64s(tables.directions[a]);
+    w.f32(tables.expansion[a].per_K);
+    w.f32(tables.expansion[a].fixed_mm);
+    w.u8(tables.expansion[a].input);
     for (const auto& column : table.value) {
       for (std::uint32_t i = 0; i < table.knots; ++i) {
         for (const float v : column[i])
@@ -105,6 +112,7 @@ Status decode_image(Span<const std::uint8_t> image, std::size_t capacity, Machin
   if (const Status s = check_image(image, capacity, view); !s.ok()) return s;
   out.provenance = view.provenance;
   out.directions = view.directions;
+  out.expansion = view.expansion;
   if (const Status s = read_machine(image, out.machine); !s.ok()) return s;
   for (std::size_t a = 0; a < view.chain.axis_count(); ++a) {
     AxisTable& table = out.axis[a];

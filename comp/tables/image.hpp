@@ -4,13 +4,15 @@
 //
 //   header   magic "VCT1" · version u16 · axes u8 · bodies u8 · bytes u32 (whole image) ·
 //   machine_id u32 · sequence u32 ·
-//            built_unix_s i64 · temperature_C f32 · stamp char[16]
-//   machine  work u8 · tool u8 · correcting count u8 · correcting u8[3] · tool point f64[3] ·
-//   bodies body     lower u8 · kind u8 · axis u8 · sign i8 · NC axis u8 · letter u8 · offset f64[3]
+//            built_unix_s i64 · expires_unix_s i64 (0: never) · temperature_C f32 · stamp char[16]
+//   machine  work u8 · tool u8 · correcting count u8 · correcting u8[3] · orienting count u8 ·
+//            orienting u8[2] · tool point f64[3] · bodies
+//   body     lower u8 · kind u8 · axis u8 · sign i8 · NC axis u8 · letter u8 · offset f64[3]
 //   · orientation f64[9] ·
 //            constant error f64[6]
-//   axis     q0 i64 · pitch i64 · knots u32 · periodic u8 · direction f64[3] · forward
-//   f32[knots][6] · backward likewise ·
+//   axis     q0 i64 · pitch i64 · knots u32 · periodic u8 · direction f64[3] ·
+//            expansion per K f32 · its fixed point, mm, f32 · temperature input u8 (255: none) ·
+//            forward f32[knots][6] · backward likewise ·
 //            crc32c u32 over this block, so that a damaged image can name the axis (not crc32: the
 //            one at the end would not depend on the block any more, see crc32.hpp)
 //   end      crc32 u32 over everything before it
@@ -21,7 +23,7 @@
 
 namespace volcomp {
 
-inline constexpr std::uint16_t kImageVersion = 2;
+inline constexpr std::uint16_t kImageVersion = 4;
 
 // Bytes the image of these tables takes.
 [[nodiscard]] std::size_t image_size(const MachineTables& tables);
@@ -31,8 +33,9 @@ Status encode_image(const MachineTables& tables, Span<std::uint8_t> out, std::si
 
 // Validates, and gives a view of the tables where they lie: nothing is copied but the machine
 // description. Order: bad_magic, version_unknown, image_truncated, crc_mismatch (where.axis if it
-// can be told), then the machine (as MachineChain::build), then per axis too_few_knots,
-// too_many_knots (> capacity), pitch_not_positive, travel_too_long, not_finite; image_truncated
+// can be told), bad_thermal (header), then the machine (as MachineChain::build), then per axis
+// too_few_knots, too_many_knots (> capacity), pitch_not_positive, travel_too_long, not_finite,
+// bad_thermal; image_truncated
 // also where the tables do not end with the image. The view is valid as long as the bytes stay;
 // after a refusal it must not be used.
 Status check_image(Span<const std::uint8_t> image, std::size_t capacity, TablesView& out);

@@ -6,6 +6,7 @@
 #include "comp/tables/image.hpp"
 #include "comp/tables/image_layout.hpp"
 #include "comp/tables/little_endian.hpp"
+#include "comp/tables/thermal_check.hpp"
 
 namespace volcomp {
 namespace {
@@ -13,8 +14,16 @@ namespace {
 using namespace image_layout;
 using Bytes = Span<const std::uint8_t>;
 
+// Of no place in particular. Own function: each refusal written out takes 100 bytes of flash.
+[[gnu::noinline]] Status refuse_whole(Reason reason) { return refuse(reason); }
+
 Bytes from(Bytes bytes, std::size_t at) {
   return at < bytes.size() ? Bytes{bytes.data() + at, bytes.size() - at} : Bytes{};
+}
+
+// '\0' for a byte that names no axis.
+char letter_of(std::uint8_t byte) {
+  return byte >= 'A' && byte <= 'Z' ? static_cast<char>(byte) : '\0';
 }
 
 // Which axis a damaged image was damaged in, as far as its intact parts still tell; '\0' when they
@@ -25,7 +34,7 @@ char damaged_axis(Bytes image, std::size_t axes, std::size_t bodies) {
   std::array<char, kMaxAxes> letter{};
   for (std::size_t k = 0; k < bodies; ++k) {
     const std::uint8_t* body = image.data() + first_axis(k);
-    if (body[1] != 0 && body[4] < kMaxAxes) letter[body[4]] = static_cast<char>(body[5]);
+    if (body[1] != 0 && body[4] < kMaxAxes) letter[body[4]] = letter_of(body[5]);
   }
   for (std::size_t a = 0; a < axes; ++a) {
     if (image.size() - at < kAxisHeaderBytes) return '\0';
@@ -44,14 +53,14 @@ char damaged_axis(Bytes image, std::size_t axes, std::size_t bodies) {
 Status check_envelope(Bytes image) {
   LittleEndianReader r(image);
   for (const std::uint8_t byte : kMagic) {
-    if (r.u8() != byte) return refuse(Reason::bad_magic);
+    if (r.u8() != byte) return refuse_whole(Reason::bad_magic);
   }
-  if (r.bits(2) != kImageVersion) return refuse(Reason::version_unknown);
+  if (r.bits(2) != kImageVersion) return refuse_whole(Reason::version_unknown);
   const std::size_t axes = r.u8();
   const std::size_t bodies = r.u8();
   const std::size_t size = r.u32();
   if (size != image.size() || size < first_axis(0) + kCrcBytes)
-    return refuse(Reason::image_truncated);
+    return refuse_whole(Reason::image_truncated);
   const Bytes covered{image.data(), size - kCrcBytes};
   if (load_u32(covered.end()) == crc32(covered)) return {};
   Where where;
@@ -65,6 +74,7 @@ Provenance read_provenance(Bytes image) {
   p.machine_id = r.u32();
   p.sequence = r.u32();
   p.built_unix_s = r.i64();
+  p.expires_unix_s = r.i64();
   p.temperature_C = r.f32();
   for (char& c : p.stamp)
     c = static_cast<char>(r.u8());
@@ -76,16 +86,16 @@ Status read_body(LittleEndianReader& r, int number, Body& body) {
   body.lower = r.u8();
   const std::uint8_t kind = r.u8();
   const std::uint8_t axis = r.u8();
-  if (kind > 2 || axis > 2) {
-    Where where;
-    where.body = number;
-    return refuse(Reason::bad_joint, where);
-  }
   body.joint.kind = static_cast<JointKind>(kind);
   body.joint.axis = static_cast<Axis>(axis);
   body.joint.sign = static_cast<std::int8_t>(r.u8());
   body.joint.nc_axis = r.u8();
-  body.joint.letter = static_cast<char>(r.u8());
+  body.joint.letter = letter_of(r.u8());
+  if (kind > 2 || axis > 2 || (body.joint.moves() && body.joint.letter == '\0')) {
+    Where where;
+    where.body = number;
+    return refuse(Reason::bad_joint, where);
+  }
   r.f64s(body.joint.offset);
   r.f64s(body.joint.orientation);
   r.f64s(body.constant_error);
@@ -93,8 +103,11 @@ Status read_body(LittleEndianReader& r, int number, Body& body) {
 }
 
 // One axis from `at` on, which then stands behind it.
-Status check_axis(Bytes image, const Joint& joint, std::size_t capacity, std::size_t& at,
-                  Vec3& direction, AxisTableView& table) {
+Status check_axis(Bytes image, std::size_t capacity, std::size_t axis, std::size_t& at,
+                  TablesView& out) {
+  const Joint& joint = out.chain.axis(axis);
+  Vec3& direction = out.directions[axis];
+  AxisExpansion& expansion = out.expansion[axis];
   LittleEndianReader r(from(image, at));
   TableGrid grid;
   grid.q0 = r.i64();
@@ -103,16 +116,20 @@ Status check_axis(Bytes image, const Joint& joint, std::size_t capacity, std::si
   grid.periodic = r.u8() != 0;
   for (double& d : direction)
     d = r.f64();
+  expansion.per_K = r.f32();
+  expansion.fixed_mm = r.f32();
+  expansion.input = r.u8();
   if (const Status s = check_knots(grid, joint, capacity); !s.ok()) return s;
   Where where;
   where.axis = joint.letter;
   if (!direction.allFinite()) return refuse(Reason::not_finite, where);
+  if (!usable(expansion, joint)) return refuse(Reason::bad_thermal, where);
   const std::size_t size =
       axis_bytes(grid.knots);  // its own CRC is covered by the one of the whole
   if (from(image, at).size() < size) return refuse(Reason::image_truncated, where);
-  table = {grid, image.data() + at + kAxisHeaderBytes};
+  out.axis[axis] = {grid, image.data() + at + kAxisHeaderBytes};
   at += size;
-  return check_values(table, joint);
+  return check_values(out.axis[axis], joint);
 }
 
 }  // namespace
@@ -120,7 +137,7 @@ Status check_axis(Bytes image, const Joint& joint, std::size_t capacity, std::si
 // Enumerations are range-checked here, everything else by MachineChain.
 Status read_machine(Span<const std::uint8_t> image, MachineDescription& out) {
   const std::size_t bodies = image[kBodiesAt];
-  if (bodies > kMaxBodies) return refuse(Reason::too_many_bodies);
+  if (bodies > kMaxBodies) return refuse_whole(Reason::too_many_bodies);
   LittleEndianReader r(from(image, kHeaderBytes));
   out.body_count = static_cast<std::uint8_t>(bodies);
   out.work_body = r.u8();
@@ -128,12 +145,15 @@ Status read_machine(Span<const std::uint8_t> image, MachineDescription& out) {
   out.correcting_count = r.u8();
   for (std::uint8_t& axis : out.correcting)
     axis = r.u8();
+  out.orienting_count = r.u8();
+  for (std::uint8_t& axis : out.orienting)
+    axis = r.u8();
   r.f64s(out.tool_point);
   for (std::size_t k = 0; k < bodies; ++k) {
     if (const Status s = read_body(r, static_cast<int>(k) + 1, out.body[k]); !s.ok()) return s;
   }
   for (const double value : out.tool_point) {
-    if (!std::isfinite(value)) return refuse(Reason::not_finite);
+    if (!std::isfinite(value)) return refuse_whole(Reason::not_finite);
   }
   return {};
 }
@@ -141,19 +161,21 @@ Status read_machine(Span<const std::uint8_t> image, MachineDescription& out) {
 Status check_image(Span<const std::uint8_t> image, std::size_t capacity, TablesView& out) {
   if (const Status s = check_envelope(image); !s.ok()) return s;
   out.provenance = read_provenance(image);
+  if (!usable(out.provenance)) return refuse_whole(Reason::bad_thermal);
   if (const Status s = read_machine(image, out.chain.draft()); !s.ok()) return s;
   if (const Status s = out.chain.complete(); !s.ok()) return s;
   const std::size_t axes = out.chain.axis_count();
-  if (image[kAxesAt] != axes) return refuse(Reason::axes_mismatch);
+  if (image[kAxesAt] != axes) return refuse_whole(Reason::axes_mismatch);
   std::size_t at = first_axis(image[kBodiesAt]);
   for (std::size_t a = 0; a < axes; ++a) {
-    const Status s =
-        check_axis(image, out.chain.axis(a), capacity, at, out.directions[a], out.axis[a]);
-    if (!s.ok()) return s;
+    if (const Status s = check_axis(image, capacity, a, at, out); !s.ok()) return s;
   }
-  for (std::size_t a = axes; a < kMaxAxes; ++a)
+  for (std::size_t a = axes; a < kMaxAxes; ++a) {
     out.directions[a].setZero();
-  return at + kCrcBytes == image.size() ? Status{} : refuse(Reason::image_truncated);
+    out.expansion[a] = {};
+  }
+  out.strain = {};
+  return at + kCrcBytes == image.size() ? Status{} : refuse_whole(Reason::image_truncated);
 }
 
 }  // namespace volcomp

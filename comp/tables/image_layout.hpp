@@ -11,10 +11,10 @@ inline constexpr std::array<std::uint8_t, 4> kMagic{'V', 'C', 'T', '1'};
 inline constexpr std::size_t kAxesAt = 6;
 inline constexpr std::size_t kBodiesAt = 7;
 inline constexpr std::size_t kProvenanceAt = 12;
-inline constexpr std::size_t kHeaderBytes = 4 + 2 + 1 + 1 + 4 + 4 + 4 + 8 + 4 + 16;
-inline constexpr std::size_t kMachineBytes = 3 + 3 + 24;
+inline constexpr std::size_t kHeaderBytes = 4 + 2 + 1 + 1 + 4 + 4 + 4 + 8 + 8 + 4 + 16;
+inline constexpr std::size_t kMachineBytes = 3 + 3 + 3 + 24;
 inline constexpr std::size_t kBodyBytes = 6 + sizeof(double) * 18;
-inline constexpr std::size_t kAxisHeaderBytes = 8 + 8 + 4 + 1 + 24;
+inline constexpr std::size_t kAxisHeaderBytes = 8 + 8 + 4 + 1 + 24 + 4 + 4 + 1;
 inline constexpr std::size_t kKnotBytes = sizeof(float) * 12;  // two directions, six channels
 inline constexpr std::size_t kCrcBytes = 4;
 

@@ -8,6 +8,7 @@
 
 #include "comp/geometry/machine_chain.hpp"
 #include "comp/tables/error_table.hpp"
+#include "comp/tables/thermal.hpp"
 
 namespace volcomp {
 
@@ -33,14 +34,16 @@ struct Provenance {
   std::uint32_t machine_id = 0;
   std::uint32_t sequence = 0;
   std::int64_t built_unix_s = 0;
-  float temperature_C = 20.0F;
-  std::array<char, 16> stamp{};  // operator or tool that built it, zero-padded
+  std::int64_t expires_unix_s = 0;  // 0: never
+  float temperature_C = 20.0F;      // of the campaign: reference of the expansions
+  std::array<char, 16> stamp{};     // operator or tool that built it, zero-padded
 };
 
 struct MachineTables {
   Provenance provenance{};
   MachineDescription machine{};
   DirectionErrors directions = zero_directions();  // squareness, rad, by NC axis
+  Expansions expansion{};
   std::array<AxisTable, kMaxAxes> axis{};
 };
 

@@ -19,8 +19,14 @@ Status view_tables(const MachineTables& tables, TablesView& out) {
   if (const Status s = MachineChain::build(tables.machine, out.chain); !s.ok()) return s;
   out.provenance = tables.provenance;
   out.directions = tables.directions;
-  for (std::size_t a = 0; a < out.chain.axis_count(); ++a)
+  out.expansion = tables.expansion;
+  out.strain = {};
+  if (const Status s = check_validity(tables.provenance); !s.ok()) return s;
+  for (std::size_t a = 0; a < out.chain.axis_count(); ++a) {
+    const Status s = check_expansion(tables.expansion[a], out.chain.axis(a));
+    if (!s.ok()) return s;
     out.axis[a] = tables.axis[a];
+  }
   return {};
 }
 

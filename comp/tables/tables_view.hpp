@@ -32,10 +32,13 @@ struct TablesView {
   Provenance provenance{};
   MachineChain chain{};
   DirectionErrors directions = zero_directions();
+  Expansions expansion{};
+  Strains strain{};  // of the axes as warm as they are; whoever checks an image sets them to 0
   std::array<AxisTableView, kMaxAxes> axis{};
 };
 
-// Refuses what MachineChain::build refuses; the tables themselves are not looked at.
+// Refuses what MachineChain::build, check_validity and check_expansion refuse; the tables
+// themselves are not looked at.
 Status view_tables(const MachineTables& tables, TablesView& out);
 
 // Refuses not_finite (where.index = knot, where.channel).

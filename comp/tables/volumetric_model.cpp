@@ -20,8 +20,12 @@ double wrapped(const ErrorTable& table, const Joint& joint, double q) {
 ErrorSet VolumetricModel::errors(const Pose& q, const Travels& travels) const {
   ErrorSet set = zero_errors();
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-    if (table[a] != nullptr)
-      set[a] = table[a]->linear(wrapped(*table[a], chain.axis(a), q[a]), travels[a]);
+    const Joint& joint = chain.axis(a);
+    if (table[a] != nullptr) set[a] = table[a]->linear(wrapped(*table[a], joint, q[a]), travels[a]);
+    if (joint.kind != JointKind::prismatic) continue;
+    const double reached = table[a] != nullptr ? table[a]->clamp(q[a]) : q[a];
+    set[a](static_cast<Eigen::Index>(joint.axis)) +=
+        thermal_growth(joint, strain[a], reached, static_cast<double>(expansion[a].fixed_mm));
   }
   return set;
 }

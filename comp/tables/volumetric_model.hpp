@@ -6,6 +6,7 @@
 
 #include "comp/geometry/volumetric.hpp"
 #include "comp/tables/error_table.hpp"
+#include "comp/tables/thermal.hpp"
 
 namespace volcomp {
 
@@ -22,6 +23,8 @@ struct VolumetricModel {
   std::array<const ErrorTable*, kMaxAxes>
       table{};  // internal convention, by NC axis; null = no error
   DirectionErrors directions = zero_directions();  // squareness
+  Expansions expansion{};
+  Strains strain{};  // of the axes as warm as they are: strains()
   Vec3 tool_point = Vec3::Zero();
 
   [[nodiscard]] ErrorSet errors(const Pose& q, const Travels& travels) const;

@@ -11,18 +11,19 @@
 namespace {
 
 using volcomp::AxisLimits;
-using volcomp::LoadedCompensator;
-using volcomp::LoadedMachine;
+using volcomp::OrientingCompensator;
+using volcomp::OrientingMachine;
 using volcomp::Status;
 using volcomp::Vec3;
 using volcomp::c_interface::fine;
 using volcomp::c_interface::from;
 using volcomp::c_interface::refused;
 
-using Settings = LoadedCompensator::Settings;
+using Settings = OrientingCompensator::Settings;
 
 static_assert(volcomp::kStatusBits == VOLCOMP_STATUS_BITS);
 static_assert(VOLCOMP_UNITS_PER_TURN == volcomp::kUnitsPerTurn);
+static_assert(VOLCOMP_TEMPERATURES == volcomp::kTemperatureInputs);
 
 Settings settings_of(const volcomp_settings& from) {
   Settings s;
@@ -43,13 +44,16 @@ bool finite(const double* three) {
 }
 
 // The first tables after a start decide which machine this is; later ones have to match.
-Status adopt_machine(volcomp_compensator& c) {
-  if (c.activated) return {};
-  const LoadedMachine<VOLCOMP_AXES> machine{make_runtime_chain(c.tables.chain.description())};
-  if (same_chain(machine.chain, c.compensator.machine().chain)) return {};
+Status fold(volcomp_compensator& c, std::uint32_t crc) {
+  const volcomp::Vec3 tool_point = c.tables.chain.tool_point();
+  if (c.activated) return c.compensator.stage(c.tables, tool_point, crc);
+  const OrientingMachine machine{make_runtime_chain(c.tables.chain.description())};
+  if (same_chain(machine.chain, c.compensator.machine().chain))
+    return c.compensator.stage(c.tables, tool_point, crc);
   if (machine.chain.axes > VOLCOMP_AXES) return refuse(volcomp::Reason::too_many_axes);
-  c.compensator.restart(machine);
-  return {};
+  const Status status = c.compensator.stage_for(machine.chain, c.tables, tool_point, crc);
+  if (status.ok()) c.compensator.adopt(machine);
+  return status;
 }
 
 volcomp_machine describe(const volcomp::TablesView& tables, std::uint32_t image_crc) {
@@ -59,6 +63,8 @@ volcomp_machine describe(const volcomp::TablesView& tables, std::uint32_t image_
   m.machine_id = tables.provenance.machine_id;
   m.sequence = tables.provenance.sequence;
   m.image_crc = image_crc;
+  m.expires = tables.provenance.expires_unix_s;
+  m.reference_C = tables.provenance.temperature_C;
   m.axes = static_cast<std::uint32_t>(chain.axis_count());
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
     m.letter[a] = chain.axis(a).letter;
@@ -66,16 +72,22 @@ volcomp_machine describe(const volcomp::TablesView& tables, std::uint32_t image_
   }
   for (std::size_t i = 0; i < description.correcting_count; ++i)
     m.corrects[description.correcting[i]] = true;
+  for (std::size_t i = 0; i < description.orienting_count; ++i)
+    m.corrects[description.orienting[i]] = true;
   return m;
 }
 
 Status stage(volcomp_compensator& c, volcomp::Span<const std::uint8_t> image,
              const double* tool_mm) {
   if (const Status s = check_image(image, volcomp::kDefaultKnots, c.tables); !s.ok()) return s;
-  if (const Status s = adopt_machine(c); !s.ok()) return s;
-  if (tool_mm != nullptr) std::copy_n(tool_mm, 3, c.tables.chain.draft().tool_point.begin());
   const std::uint32_t crc = image_crc(image);
-  const Status status = c.compensator.stage(c.tables, c.tables.chain.tool_point(), crc);
+  // What is active goes on following temperatures and tools.
+  const bool goes_on = c.compensator.active() && crc == c.active_crc;
+  if (!goes_on && volcomp::expired(c.tables.provenance.expires_unix_s, c.unix_s))
+    return refuse(volcomp::Reason::expired);
+  if (tool_mm != nullptr) std::copy_n(tool_mm, 3, c.tables.chain.draft().tool_point.begin());
+  c.tables.strain = strains(c.tables, temperatures_of(c.temperature));
+  const Status status = fold(c, crc);
   if (status.ok()) c.machine = describe(c.tables, crc);
   return status;
 }
@@ -127,7 +139,7 @@ volcomp_status volcomp_stage(volcomp_compensator* c, const void* image, size_t b
   if (tool_mm != nullptr && !finite(tool_mm)) return refused(VOLCOMP_NOT_FINITE, "tool");
   if (c->compensator.pending()) return from(refuse(volcomp::Reason::hand_over_pending));
   const Status status = stage(*c, {static_cast<const std::uint8_t*>(image), bytes}, tool_mm);
-  c->staged = status.ok();
+  c->staged = c->grows = status.ok();
   return counted(*c, status);
 }
 
@@ -147,6 +159,7 @@ volcomp_status volcomp_activate(volcomp_compensator* c) {
   const Status status = c->compensator.activate();
   if (!status.ok()) return from(status);
   c->activated = true;
+  c->active_crc = c->machine.image_crc;
   c->probe.set_machine(c->tables.chain.description());
   return fine();
 }
@@ -161,6 +174,33 @@ volcomp_status volcomp_scrub(volcomp_compensator* c) {
 bool volcomp_pending(const volcomp_compensator* c) { return c->compensator.pending(); }
 
 bool volcomp_active(const volcomp_compensator* c) { return c->compensator.active(); }
+
+bool volcomp_at_rest(const volcomp_compensator* c) { return c->compensator.at_rest(); }
+
+void volcomp_take_temperature(volcomp_compensator* c, size_t input, float celsius, uint32_t now_s) {
+  if (input >= VOLCOMP_TEMPERATURES) return;
+  const bool representable = celsius > -300.0F && celsius < 300.0F;
+  const float hundredths = representable ? 100.0F * celsius : 0.0F;
+  const auto rounded = static_cast<std::int16_t>(hundredths + (hundredths < 0.0F ? -0.5F : 0.5F));
+  c->temperature[input].take(representable ? rounded : volcomp::TemperatureInput::kNone, now_s);
+}
+
+int volcomp_temperature_state(const volcomp_compensator* c, size_t input, uint32_t now_s,
+                              uint32_t stale_s) {
+  if (input >= VOLCOMP_TEMPERATURES) return VOLCOMP_TEMPERATURE_UNKNOWN;
+  return static_cast<int>(c->temperature[input].state(now_s, stale_s));
+}
+
+double volcomp_growth_nm(const volcomp_compensator* c) {
+  if (!c->grows) return 0.0;
+  return largest_growth_nm(c->tables, strains(c->tables, temperatures_of(c->temperature)));
+}
+
+void volcomp_set_time(volcomp_compensator* c, int64_t unix_s) { c->unix_s = unix_s; }
+
+bool volcomp_expired(const volcomp_compensator* c) {
+  return volcomp::expired(c->machine.expires, c->unix_s);
+}
 
 void volcomp_describe(const volcomp_compensator* c, volcomp_machine* out) { *out = c->machine; }
 

@@ -3,18 +3,23 @@
 
 #include "comp/realtime/instances.hpp"
 #include "comp/realtime/probe_corrector.hpp"
+#include "comp/realtime/temperature_input.hpp"
 #include "comp/tables/tables_view.hpp"
 #include "firmware/c_interface/volcomp.h"
 
 struct volcomp_compensator {
-  volcomp::LoadedCompensator compensator;
-  volcomp::LoadedCompensator::Input in{};
-  volcomp::LoadedCompensator::Output out{};
+  volcomp::OrientingCompensator compensator;
+  volcomp::OrientingCompensator::Input in{};
+  volcomp::OrientingCompensator::Output out{};
   volcomp::ProbeCorrector probe;
   // Of the image given last. What it says of the machine stays good; the values of its tables lie
   // in bytes that the caller has taken back.
   volcomp::TablesView tables{};
   volcomp_machine machine{};  // of the image accepted last
+  volcomp::TemperatureInputs temperature{};
+  std::int64_t unix_s = 0;
+  std::uint32_t active_crc = 0;  // of the image activated last
+  bool grows = false;            // `tables` are those staged last
   std::uint32_t rejections = 0;
   volcomp_status last_rejection{VOLCOMP_OK, '\0', nullptr, -1, -1};
   bool staged = false;     // and not yet activated
@@ -25,7 +30,7 @@ namespace volcomp::c_interface {
 
 static_assert(sizeof(volcomp_compensator) <= VOLCOMP_BYTES);
 static_assert(alignof(volcomp_compensator) <= alignof(volcomp_memory));
-static_assert(LoadedCompensator::kAxes == VOLCOMP_AXES && kDefaultKnots == VOLCOMP_KNOTS);
+static_assert(OrientingCompensator::kAxes == VOLCOMP_AXES && kDefaultKnots == VOLCOMP_KNOTS);
 
 inline volcomp_status fine() { return {VOLCOMP_OK, '\0', nullptr, -1, -1}; }
 

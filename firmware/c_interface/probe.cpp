@@ -103,9 +103,8 @@ volcomp_status take_latches(const volcomp_touch& from, const volcomp_compensator
     if (l.direction < VOLCOMP_FORWARD || l.direction > VOLCOMP_UNKNOWN)
       return refused(VOLCOMP_BAD_SETTING, "direction", number);
     const bool rotary = chain.kind[a] == volcomp::JointKind::rotary;
-    touch.latched[a] = {
-        rotary ? volcomp::clamp_turning(l.position) : volcomp::clamp_position(l.position),
-        l.velocity, static_cast<Direction>(l.direction)};
+    touch.latched[a] = {rotary ? l.position : volcomp::clamp_position(l.position), l.velocity,
+                        static_cast<Direction>(l.direction)};
   }
   touch.sequence = from.sequence;
   return fine();

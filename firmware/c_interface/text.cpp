@@ -39,6 +39,9 @@ static_assert(same(Reason::no_authority, VOLCOMP_NO_AUTHORITY));
 static_assert(same(Reason::bad_setting, VOLCOMP_BAD_SETTING));
 static_assert(same(Reason::not_staged, VOLCOMP_NOT_STAGED));
 static_assert(same(Reason::hand_over_pending, VOLCOMP_HAND_OVER_PENDING));
+static_assert(same(Reason::bad_thermal, VOLCOMP_BAD_THERMAL));
+static_assert(same(Reason::expired, VOLCOMP_EXPIRED));
+static_assert(same(Reason::cannot_orient, VOLCOMP_CANNOT_ORIENT));
 
 constexpr bool same(StatusBit bit, volcomp_status_bit number) {
   return static_cast<int>(bit) == static_cast<int>(number);

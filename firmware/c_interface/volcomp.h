@@ -37,6 +37,7 @@ enum {
   VOLCOMP_AXES = 5,           // most a machine may have; those it has not are ignored
   VOLCOMP_KNOTS = 128,        // most a table of one axis may have
   VOLCOMP_STATUS_BITS = 14,   // that an axis may show
+  VOLCOMP_TEMPERATURES = 4,   // inputs for temperatures
   VOLCOMP_RADIUS_TERMS = 16,  // of the radius of a probe ball by direction
   VOLCOMP_BYTES = 134 * 1024  // of one compensator, on any processor
 };
@@ -76,6 +77,9 @@ enum volcomp_reason {
   VOLCOMP_BAD_SETTING = 34,
   VOLCOMP_NOT_STAGED = 38,
   VOLCOMP_HAND_OVER_PENDING = 39,
+  VOLCOMP_BAD_THERMAL = 80,
+  VOLCOMP_EXPIRED = 81,
+  VOLCOMP_CANNOT_ORIENT = 82,
   // of this interface
   VOLCOMP_NULL_POINTER = 240,
   VOLCOMP_MEMORY_TOO_SMALL = 241,
@@ -140,13 +144,14 @@ void volcomp_default_settings(struct volcomp_settings* out);
 struct volcomp_status volcomp_configure(struct volcomp_compensator* c,
                                         const struct volcomp_settings* settings);
 
-// Checks an image and folds its tables into the spare half of the memory, for the functional point
-// of the image or, after a change of the tool, for `tool_mm` (three, frame of the tool holder; NULL
-// = that of the image). The bytes are not needed afterwards. Until the first activation every
-// staged image may bring another machine, and no tick may come; later ones must be of the same
-// machine. Whatever becomes of an image, one that was staged before it cannot be activated any
-// more. Refuses null_pointer, not_finite, hand_over_pending, too_many_axes, machine_mismatch and
-// whatever can be wrong with an image.
+// Checks an image and folds its tables into the spare half of the memory, for the temperatures
+// known by now and for the functional point of the image or, after a change of the tool, for
+// `tool_mm` (three, frame of the tool holder; NULL = that of the image). The bytes are not needed
+// afterwards. Until the first activation every staged image may bring another machine, and no tick
+// may come; later ones must be of the same machine. Whatever becomes of an image, one that was
+// staged before it cannot be activated any more. Refuses null_pointer, not_finite,
+// hand_over_pending, too_many_axes, machine_mismatch, expired and whatever can be wrong with an
+// image.
 struct volcomp_status volcomp_stage(struct volcomp_compensator* c, const void* image, size_t bytes,
                                     const double* tool_mm);
 
@@ -168,16 +173,20 @@ struct volcomp_status volcomp_scrub(struct volcomp_compensator* c);
 // A change waits for the next tick. / Tables are active.
 bool volcomp_pending(const struct volcomp_compensator* c);
 bool volcomp_active(const struct volcomp_compensator* c);
+// No change waits or is being ramped in.
+bool volcomp_at_rest(const struct volcomp_compensator* c);
 
 // Of the image accepted last.
 struct volcomp_machine {
   uint32_t machine_id;
   uint32_t sequence;   // of the image, as it was built
   uint32_t image_crc;  // its closing CRC-32
+  int64_t expires;     // seconds since 1970; 0: never
+  float reference_C;   // temperature of the campaign
   uint32_t axes;       // 0: there was none yet
   char letter[VOLCOMP_AXES + 1];
   bool rotary[VOLCOMP_AXES];
-  bool corrects[VOLCOMP_AXES];  // takes offsets; those of the others stay 0
+  bool corrects[VOLCOMP_AXES];  // takes offsets, of position or to hold the tool's direction
 };
 void volcomp_describe(const struct volcomp_compensator* c, struct volcomp_machine* out);
 
@@ -192,6 +201,43 @@ struct volcomp_diagnostics {
   int32_t largest[VOLCOMP_AXES];  // largest |offset| put out
 };
 void volcomp_diagnose(const struct volcomp_compensator* c, struct volcomp_diagnostics* out);
+
+// --- temperatures and expiry, in the background --------------------------------------------------
+
+// A machine gets warm slowly, so a tick knows nothing of it: the growth of the axes is folded into
+// the tables. When it has changed by enough, stage and activate the same image again:
+//
+//   volcomp_take_temperature(compensation, 0, sensor_C, seconds);
+//   if (volcomp_growth_nm(compensation) > 50 && volcomp_at_rest(compensation)) {
+//     s = volcomp_stage(compensation, image, image_bytes, tool_mm);
+//     if (s.reason == VOLCOMP_OK) s = volcomp_activate(compensation);
+//   }
+
+enum volcomp_temperature {
+  VOLCOMP_TEMPERATURE_UNKNOWN = 0,     // none was ever good: as at the reference of the tables
+  VOLCOMP_TEMPERATURE_GOOD = 1,        //
+  VOLCOMP_TEMPERATURE_STALE = 2,       // none came for too long: the last good one is used
+  VOLCOMP_TEMPERATURE_IMPLAUSIBLE = 3  // the latest was not believed: the last good one is used
+};
+
+// What the sensor of an input says, 0 ≤ input < VOLCOMP_TEMPERATURES, and when, in seconds of any
+// clock that only goes forward. Believed from −20 to 80 °C and where it changes by less than 2 K,
+// and 0.1 K more for every second since the last good one. Not a number: the sensor is broken.
+void volcomp_take_temperature(struct volcomp_compensator* c, size_t input, float celsius,
+                              uint32_t now_s);
+// enum volcomp_temperature; stale when none came for more than `stale_s`.
+int volcomp_temperature_state(const struct volcomp_compensator* c, size_t input, uint32_t now_s,
+                              uint32_t stale_s);
+
+// By how much at most, anywhere on the travel of an axis, the temperatures of now and those that
+// the image staged last was folded for differ, nm. 0 where that was refused.
+double volcomp_growth_nm(const struct volcomp_compensator* c);
+
+// The date, seconds since 1970; 0: not known. From then on volcomp_stage() refuses images that
+// have expired, but for the active one: it goes on following temperatures and tools.
+void volcomp_set_time(struct volcomp_compensator* c, int64_t unix_s);
+// The image accepted last is past its expiry. Its tables stay active: measure the machine again.
+bool volcomp_expired(const struct volcomp_compensator* c);
 
 // --- the tick, in the interrupt ------------------------------------------------------------------
 

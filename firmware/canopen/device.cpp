@@ -10,7 +10,7 @@ Device::Device(const Parts& parts, Application& application)
     : values_(*parts.values),
       application_(application),
       objects_(parts.dictionary, parts.values),
-      pdos_(parts.receive, parts.transmit, objects_),
+      pdos_(parts.receive, parts.transmit, parts.timed, objects_),
       sync_(values_),
       emergency_(values_),
       heartbeats_(values_),
@@ -101,6 +101,7 @@ bool Device::commanded(const hal::CanFrame& frame) const {
 void Device::receive_cyclic(const hal::CanFrame& frame, std::uint64_t now_us) {
   if (!hears(now_us)) return;
   if (frame.id == sync_.id()) return take_sync(frame, now_us);
+  if (frame.id == kTime) return take_time(frame);
   if (state_ == NmtState::operational) take_process_data(frame, now_us);
 }
 
@@ -138,6 +139,14 @@ void Device::take_sync(const hal::CanFrame& frame, std::uint64_t now_us) {
     return;
   }
   if (state_ == NmtState::operational) run_cycle(now_us);
+}
+
+// The upper four of its first 32 bits are reserved.
+void Device::take_time(const hal::CanFrame& frame) {
+  if (state_ == NmtState::stopped || frame.size != 6) return;
+  const auto midnight_ms = static_cast<std::uint32_t>(load_le(frame.data.data(), 4) & 0x0FFF'FFFFU);
+  application_.time_of_day(midnight_ms,
+                           static_cast<std::uint16_t>(load_le(frame.data.data() + 4, 2)));
 }
 
 void Device::run_cycle(std::uint64_t now_us) {

@@ -43,6 +43,8 @@ class Application {
   virtual void sync(std::uint8_t counter, std::uint64_t now_us) = 0;
   // Values of this RPDO have just been written.
   virtual void received(const Pdo& pdo, std::uint64_t now_us) = 0;
+  // TIME (CiA 301, section 7.2.6): milliseconds after midnight, days since 1 January 1984.
+  virtual void time_of_day(std::uint32_t /*midnight_ms*/, std::uint16_t /*days*/) {}
   // True when the loss of this node is a communication error in the sense of 1029h.
   virtual bool heartbeat(std::uint8_t node, HeartbeatEvent event, std::uint64_t now_us) = 0;
   // A second SYNC producer, or SYNC with the wrong length.
@@ -74,6 +76,7 @@ class Device final : private ObjectAccess {
     CommunicationObjects* values = nullptr;  // first member of the struct the dictionary describes
     Span<Pdo> receive;
     Span<Pdo> transmit;
+    std::size_t timed = 0;  // first of `transmit` that only the application sends (PdoTable)
   };
   // Everything given must outlive the device.
   Device(const Parts& parts, Application& application);
@@ -155,6 +158,7 @@ class Device final : private ObjectAccess {
   void restart(bool application_too, std::uint64_t now_us);
   void fall_silent();
   void take_sync(const hal::CanFrame& frame, std::uint64_t now_us);
+  void take_time(const hal::CanFrame& frame);
   void run_cycle(std::uint64_t now_us);
   void take_process_data(const hal::CanFrame& frame, std::uint64_t now_us);
   void take_process_data(std::size_t receive_pdo, const hal::CanFrame& frame, std::uint64_t now_us);

@@ -8,6 +8,7 @@ namespace {
 std::uint8_t register_bit(ErrorCode code) {
   const auto value = static_cast<std::uint16_t>(code);
   if ((value & 0xFF00U) == 0xFF00U) return kManufacturerError;
+  if ((value & 0xF000U) == 0x4000U) return kTemperatureError;
   return (value & 0xF000U) == 0x8000U ? std::uint8_t{kCommunicationError} : std::uint8_t{0};
 }
 
@@ -17,6 +18,8 @@ const char* sentence(ErrorCode code) {
   switch (code) {
     case ErrorCode::none:
       return "No error.";
+    case ErrorCode::temperature_held:
+      return "A temperature is missing or not plausible; the last good one is used.";
     case ErrorCode::store_failed:
       return "Parameters and tables could not be saved or forgotten; what was stored stays.";
     case ErrorCode::unexpected_reset:
@@ -49,6 +52,9 @@ const char* sentence(ErrorCode code) {
       return "A table image was refused.";
     case ErrorCode::table_damaged:
       return "The active tables changed in memory; corrections were ramped to zero.";
+    case ErrorCode::tables_expired:
+      return "The active tables are past their expiry; they stay active, measure the machine "
+             "again.";
     case ErrorCode::foreign_sync:
       return "A second device produces SYNC.";
     case ErrorCode::offset_not_confirmed:

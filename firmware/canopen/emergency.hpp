@@ -13,6 +13,7 @@ namespace volcomp::canopen {
 // Error codes of CiA 301 table 26 and of this device.
 enum class ErrorCode : std::uint16_t {
   none = 0x0000,
+  temperature_held = 0x4100,      // CiA 301: ambient temperature; source: input, 2701h says why
   store_failed = 0x5530,          // 1010h or 1011h: non-volatile memory; 2600h:0C says why
   unexpected_reset = 0x6010,      // CiA 402: software reset (watchdog); first byte: ResetCause
   background_overdue = 0x6100,    // internal software: the background hangs
@@ -29,6 +30,7 @@ enum class ErrorCode : std::uint16_t {
   no_authority = 0xFF05,          // the correcting axes cannot act here
   table_refused = 0xFF10,         // 2112h says why
   table_damaged = 0xFF11,         // active tables changed in memory
+  tables_expired = 0xFF12,        // active tables are past their expiry: 2704h
   foreign_sync = 0xFF20,          // a second SYNC producer
   offset_not_confirmed = 0xFF21,  // a drive does not report the offset it was sent
   touch_rejected = 0xFF30,        // first byte: TouchVerdict; then the number of the touch
@@ -41,6 +43,7 @@ enum class ErrorCode : std::uint16_t {
 // Bits of the error register 1001h.
 enum ErrorRegister : std::uint8_t {
   kGenericError = 1U << 0U,
+  kTemperatureError = 1U << 3U,
   kCommunicationError = 1U << 4U,
   kManufacturerError = 1U << 7U,
 };

@@ -146,6 +146,9 @@ AbortCode PdoTable::write_cob_id(const Place& place, PdoParameters& p, std::uint
 
 AbortCode PdoTable::write_communication(const Place& place, std::uint8_t sub, std::uint32_t value) {
   PdoParameters p = place.pdo->parameters();
+  const bool timed = place.kind == PdoKind::transmit && place.pdo < transmit_.begin() + timed_;
+  if (timed && ((sub == 2 && value < kEventType) || (sub == 5 && value != 0)))
+    return AbortCode::invalid_value;
   if (sub == 1) {
     const AbortCode why = write_cob_id(place, p, value);
     if (why != AbortCode::none) return why;

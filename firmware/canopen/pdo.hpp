@@ -74,8 +74,10 @@ class Pdo {
 // What 1400h, 1600h, 1800h and 1A00h and following say, read and written over SDO.
 class PdoTable {
  public:
-  PdoTable(Span<Pdo> receive, Span<Pdo> transmit, const ObjectDictionary& objects)
-      : receive_(receive), transmit_(transmit), objects_(objects) {}
+  // The first `timed` transmit PDOs go out when the application says so, and at no other time.
+  PdoTable(Span<Pdo> receive, Span<Pdo> transmit, std::size_t timed,
+           const ObjectDictionary& objects)
+      : receive_(receive), transmit_(transmit), timed_(timed), objects_(objects) {}
 
   static constexpr std::uint16_t kReceiveCommunication = 0x1400;
   static constexpr std::uint16_t kReceiveMapping = 0x1600;
@@ -103,12 +105,13 @@ class PdoTable {
     bool mapping = false;
   };
   [[nodiscard]] Place place(std::uint16_t index) const;
-  static AbortCode write_communication(const Place& place, std::uint8_t sub, std::uint32_t value);
+  AbortCode write_communication(const Place& place, std::uint8_t sub, std::uint32_t value);
   AbortCode write_mapping(const Place& place, std::uint8_t sub, std::uint32_t value);
   static AbortCode write_cob_id(const Place& place, PdoParameters& p, std::uint32_t value);
 
   Span<Pdo> receive_;
   Span<Pdo> transmit_;
+  std::size_t timed_;
   const ObjectDictionary& objects_;
 };
 

@@ -20,7 +20,9 @@
 
 #include <ctype.h>
 #include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <time.h>
 
 #include "hal.h"
 #include "rtapi.h"
@@ -143,7 +145,10 @@ static int load_image(void) {
   const size_t size = fread(bytes, 1, sizeof bytes, file);
   (void)fclose(file);
   struct volcomp_status status = volcomp_create(&memory, sizeof memory, &compensation);
-  if (status.reason == VOLCOMP_OK) status = volcomp_stage(compensation, bytes, size, NULL);
+  if (status.reason == VOLCOMP_OK) {
+    volcomp_set_time(compensation, (int64_t)time(NULL));  // expired tables are refused
+    status = volcomp_stage(compensation, bytes, size, NULL);
+  }
   if (status.reason != VOLCOMP_OK) return refused(image, &status);
   volcomp_describe(compensation, &machine);
   return 0;

@@ -15,7 +15,6 @@ namespace {
 constexpr std::uint64_t kScrubPeriod_us = 10'000'000;
 
 constexpr canopen::ObjectId kController{0x2000, 2};
-constexpr canopen::ObjectId kImage{0x2110, 1};
 constexpr canopen::ObjectId kProbe{0x2300, 1};
 constexpr canopen::ObjectId kFeature{0x2310, 1};
 constexpr canopen::ObjectId kGear{0x2311, 1};
@@ -37,11 +36,13 @@ Node::Node(std::uint8_t node_id, Storage* storage, Preemption* preemption)
       device_({node_dictionary(),
                &objects_.communication,
                {receive_.data(), receive_.size()},
-               {transmit_.data(), transmit_.size()}},
+               {transmit_.data(), transmit_.size()},
+               kNodeAxes},
               *this),
       download_(objects_, compensator_, running_, preemption_),
       probe_(objects_.probe, compensator_, preemption_),
       strokes_(objects_.stroke, preemption_),
+      thermal_(objects_.thermal),
       storage_(storage) {
   device_.set_node_id(node_id);
 }
@@ -63,6 +64,7 @@ void Node::reset_application() {
   compensator_.restart({});
   download_.reset();
   probe_.reset();
+  thermal_.reset();
   if constexpr (kWatchesStrokes) static_cast<void>(switch_strokes(StrokeCommand::off));
   running_ = cycle_open_ = overdue_ = false;
   start_given_ = 0;
@@ -119,7 +121,9 @@ void Node::poll_cycle(std::uint64_t now_us) {
   compute(now_us);
 }
 
+// Also how warm the tables are.
 void Node::poll_scrub(std::uint64_t now_us) {
+  if constexpr (kFollowsTemperature) poll_thermal(now_us);
   if (now_us < next_scrub_us_) return;
   next_scrub_us_ = now_us + kScrubPeriod_us;
   const Status status = scrub();
@@ -173,6 +177,10 @@ bool Node::at_rest() const {
 }
 
 // --- other nodes
+
+void Node::time_of_day(std::uint32_t midnight_ms, std::uint16_t days) {
+  thermal_.time_of_day(midnight_ms, days);
+}
 
 bool Node::heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint64_t /*now_us*/) {
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
@@ -239,9 +247,10 @@ AbortCode Node::run_table_command(TableCommand command) {
 
 void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
   objects_.store = objects_.restore = 1;
-  const bool names_controller = kWatchesStrokes && object == kController;
+  const bool names_controller = (kWatchesStrokes || kFollowsTemperature) && object == kController;
   if (object.index == 0x2010 || names_controller) set_default_pdos();
   if (object.index == 0x2206) start_given_ |= 1U << (object.sub - 1U);
+  thermal_.arrived(object);
   if (device_.state() == NmtState::operational) start_at_given_offsets();
 }
 
@@ -266,7 +275,7 @@ void Node::before_read(canopen::ObjectId object) {
 }
 
 AbortCode Node::read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) {
-  if (object == kImage) return download_.read(source);
+  if (object == kTableImage) return download_.read(source);
   if constexpr (kWatchesStrokes) {
     if (object.index >= 0x2500) return read_stroke_domain(object, source);
   }
@@ -279,7 +288,7 @@ AbortCode Node::begin_domain(canopen::ObjectId object, std::size_t announced,
   if constexpr (kWatchesStrokes) {
     if (object == kLearnedImage) return begin_learned(announced, sink);
   }
-  return object == kImage ? download_.begin(announced, sink) : AbortCode::unsupported_access;
+  return object == kTableImage ? download_.begin(announced, sink) : AbortCode::unsupported_access;
 }
 
 AbortCode Node::finish_domain([[maybe_unused]] canopen::ObjectId object, std::size_t size) {

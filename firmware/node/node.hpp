@@ -35,6 +35,7 @@
 #include "firmware/node/storage.hpp"
 #include "firmware/node/stroke_service.hpp"
 #include "firmware/node/table_download.hpp"
+#include "firmware/node/thermal_service.hpp"
 #include "firmware/node/wire_scale.hpp"
 #include "hal/reset_cause.hpp"
 
@@ -68,7 +69,8 @@ class Node final : private canopen::Application {
   void receive_service(const hal::CanFrame& frame, std::uint64_t now_us) {
     device_.receive_service(frame, now_us);
   }
-  // At least every millisecond: deadlines, heartbeats, SDO timeouts, the scrub of the tables.
+  // At least every millisecond: deadlines, heartbeats, SDO timeouts, temperatures, the scrub of the
+  // tables.
   void poll(std::uint64_t now_us) {
     poll_services(now_us);
     poll_cycle(now_us);
@@ -121,6 +123,7 @@ class Node final : private canopen::Application {
   void state_changed(canopen::NmtState state, std::uint64_t now_us) override;
   void sync(std::uint8_t counter, std::uint64_t now_us) override;
   void received(const canopen::Pdo& pdo, std::uint64_t now_us) override;
+  void time_of_day(std::uint32_t midnight_ms, std::uint16_t days) override;
   bool heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint64_t now_us) override;
   void bad_sync(canopen::SyncVerdict verdict, std::uint64_t now_us) override;
   canopen::AbortCode before_write(canopen::ObjectId object, const canopen::Entry& entry,
@@ -144,7 +147,7 @@ class Node final : private canopen::Application {
   bool start_compensating();
   void take_inputs();
   [[nodiscard]] AxisSample sample(std::size_t axis);
-  [[nodiscard]] std::uint32_t correcting_axes() const;
+  [[nodiscard]] std::uint32_t correcting_axes() const;  // that take offsets of any kind
   void send_offset(std::size_t axis, std::int32_t learned);
   void report_status();
   void report_axis_errors(std::size_t axis, std::uint16_t status);
@@ -174,6 +177,10 @@ class Node final : private canopen::Application {
   [[nodiscard]] Span<const std::uint8_t> learned_image();
   void load_learned(Span<const std::uint8_t> piece, std::size_t& size);
   void load_strokes(std::size_t learned_size);
+
+  // --- temperatures and date (node_thermal.cpp); only where kFollowsTemperature
+  void poll_thermal(std::uint64_t now_us);
+  void complain_if(bool wrong, canopen::ErrorCode code, std::uint8_t source, std::uint8_t detail);
 
   // --- settings (node_settings.cpp)
   Status configure();
@@ -205,6 +212,7 @@ class Node final : private canopen::Application {
     NoStrokes(const NoStrokeObjects& /*objects*/, const Preemption* /*preemption*/) {}
   };
   std::conditional_t<kWatchesStrokes, StrokeService, NoStrokes> strokes_;
+  std::conditional_t<kFollowsTemperature, ThermalService, NoThermalService> thermal_;
   Storage* storage_;
 
   PerAxis<OffsetGate> gate_{};

@@ -2,6 +2,6 @@
 
 namespace volcomp {
 
-template class Compensator<LoadedMachine<node::kNodeAxes>, node::kNodeKnots>;
+template class Compensator<node::NodeMachine, node::kNodeKnots>;
 
 }  // namespace volcomp

@@ -4,6 +4,7 @@
 // per knot here and 240 in the image buffer.
 
 #include "comp/realtime/instances.hpp"
+#include "firmware/node/node_features.hpp"
 
 namespace volcomp::node {
 
@@ -15,13 +16,14 @@ inline constexpr std::size_t kNodeKnots = kDefaultKnots;
 
 inline constexpr std::size_t kNodeAxes = LoadedCompensator::kAxes;
 
-using NodeCompensator = Compensator<LoadedMachine<kNodeAxes>, kNodeKnots>;
+using NodeMachine = LoadedMachine<kNodeAxes, kOrientsTool ? kMaxOrienting : 0>;
+using NodeCompensator = Compensator<NodeMachine, kNodeKnots>;
 
 }  // namespace volcomp::node
 
 namespace volcomp {
 
 // In the library of comp for the default number of knots, else in that of the node.
-extern template class Compensator<LoadedMachine<node::kNodeAxes>, node::kNodeKnots>;
+extern template class Compensator<node::NodeMachine, node::kNodeKnots>;
 
 }  // namespace volcomp

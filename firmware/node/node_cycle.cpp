@@ -63,6 +63,7 @@ void Node::received(const canopen::Pdo& pdo, std::uint64_t now_us) {
     if constexpr (kWatchesStrokes) {
       if (object.index == 0x201A) arrived_.process_state = true;
     }
+    thermal_.arrived(object);
     if (object.index != 0x2016) continue;
     arrived_.held |= bit(axis);
     gate_[axis].report(objects_.held_offset[axis]);
@@ -75,6 +76,10 @@ std::uint32_t Node::correcting_axes() const {
   std::uint32_t axes = 0;
   for (std::size_t c = 0; c < chain.correcting_count; ++c)
     axes |= bit(chain.correcting[c]);
+  if constexpr (kOrientsTool) {
+    for (std::size_t o = 0; o < chain.orienting_count; ++o)
+      axes |= bit(chain.orienting[o]);
+  }
   return axes;
 }
 

@@ -5,10 +5,21 @@
 #ifndef VOLCOMP_NODE_STROKES
 #define VOLCOMP_NODE_STROKES 1
 #endif
+#ifndef VOLCOMP_NODE_THERMAL
+#define VOLCOMP_NODE_THERMAL 1
+#endif
+#ifndef VOLCOMP_NODE_ORIENTS
+#define VOLCOMP_NODE_ORIENTS 1
+#endif
 
 namespace volcomp::node {
 
 // Monitor, learning and offsets of a helical grinder: 201Ah, 2500h.
 inline constexpr bool kWatchesStrokes = VOLCOMP_NODE_STROKES != 0;
+// Temperatures, expansion of the axes, expiry of tables: 2700h. Without it tables count as at their
+// reference temperature, for ever.
+inline constexpr bool kFollowsTemperature = VOLCOMP_NODE_THERMAL != 0;
+// Rotary axes that hold the direction of the tool. Without it tables of such machines are refused.
+inline constexpr bool kOrientsTool = VOLCOMP_NODE_ORIENTS != 0;
 
 }  // namespace volcomp::node

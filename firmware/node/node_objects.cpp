@@ -5,6 +5,7 @@
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/pdo.hpp"
 #include "firmware/node/stroke_rows.hpp"
+#include "firmware/node/thermal_rows.hpp"
 
 namespace volcomp::node {
 namespace {
@@ -25,12 +26,15 @@ constexpr std::uint16_t at_began(std::size_t axis) {
                                     axis * sizeof(std::array<std::uint16_t, kStatusBits>));
 }
 
-// Up to the process data that come in.
-constexpr std::array<NamedEntry, 17> kReceivedRows{{
+constexpr std::array<NamedEntry, 2> kStoreRows{{
     {0x1010, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(store), 0,
      "Save all parameters"},
     {0x1011, 1, 1, DataType::unsigned32, Access::read_write, kPlain, VOLCOMP_AT(restore), 0,
      "Restore all default parameters"},
+}};
+
+// Up to the process data that come in.
+constexpr std::array<NamedEntry, 15> kReceivedRows{{
     {0x2000, 1, 1, DataType::unsigned32, Access::read_write, kStored, VOLCOMP_AT(machine_id), 0,
      "Machine id"},
     {0x2000, 2, 2, DataType::unsigned8, Access::read_write, kStored, VOLCOMP_AT(controller), 0,
@@ -254,10 +258,14 @@ constexpr std::array<NamedEntry, 21> kDiagnosisRows{{
      "Times each status bit of axis 5 began"},
 }};
 
+constexpr auto kStart =
+    joined(joined(kStoreRows, time_rows<kFollowsTemperature>(VOLCOMP_AT(thermal))), kReceivedRows);
+constexpr auto kServices =
+    joined(joined(process_state_rows<kWatchesStrokes>(VOLCOMP_AT(stroke)), kServiceRows),
+           stroke_rows<kWatchesStrokes>(VOLCOMP_AT(stroke)));
 constexpr auto kOwn =
-    joined(joined(joined(kReceivedRows, process_state_rows<kWatchesStrokes>(VOLCOMP_AT(stroke))),
-                  kServiceRows),
-           joined(stroke_rows<kWatchesStrokes>(VOLCOMP_AT(stroke)), kDiagnosisRows));
+    joined(joined(kStart, kServices),
+           joined(kDiagnosisRows, thermal_rows<kFollowsTemperature>(VOLCOMP_AT(thermal))));
 
 #undef VOLCOMP_AT
 
@@ -323,6 +331,16 @@ canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8
   return p;
 }
 
+// TPDO2 of the controller, in whatever rhythm it likes.
+[[maybe_unused]] canopen::PdoParameters temperature_pdo(std::uint8_t controller) {
+  canopen::PdoParameters p;
+  p.cob_id = std::uint32_t{canopen::kTpdo2} + controller;
+  p.count = kTemperatureInputs;
+  for (std::size_t i = 0; i < kTemperatureInputs; ++i)
+    p.mapping[i] = canopen::mapped(kTemperatureObject, sub(i), 16);
+  return p;
+}
+
 // Of the node itself: state, then the three of a point.
 constexpr std::array<std::array<std::uint32_t, 4>, 1 + kPointPdos> kOwnMapping{
     {{canopen::mapped(0x2112, 7, 32), canopen::mapped(0x2600, 1, 8), canopen::mapped(0x2600, 2, 8),
@@ -338,6 +356,10 @@ canopen::PdoParameters default_receive_pdo(std::size_t number, const PerAxis<std
                                            [[maybe_unused]] std::uint8_t controller) {
   if constexpr (kWatchesStrokes) {
     if (number == kProcessStatePdo) return process_state_pdo(controller);
+  }
+  if constexpr (kFollowsTemperature) {
+    if (number == kTemperaturePdo) return temperature_pdo(controller);
+    if (number == kProcessStatePdo) return {};  // of nodes without strokes: off
   }
   const std::size_t axis = number % kNodeAxes;
   return axis_pdo(kHeard[number / kNodeAxes], axis, drives[axis], 0);

@@ -7,7 +7,7 @@
 //   2100h tables                    2200h limits and ramps
 //   2300h probe and feature         2400h points
 //   2500h strokes of a grinder
-//   2600h diagnostics
+//   2600h diagnostics               2700h temperatures, expansion, date
 //
 // Run-time units: nm, or 2^-32 turn for offsets and limits of a rotary axis.
 
@@ -21,6 +21,7 @@
 #include "firmware/node/node_features.hpp"
 #include "firmware/node/probe_objects.hpp"
 #include "firmware/node/stroke_objects.hpp"
+#include "firmware/node/thermal_objects.hpp"
 
 namespace volcomp::node {
 
@@ -36,6 +37,13 @@ enum class TableCommand : std::uint8_t {
   deactivate = 4,  // ramp to zero and stay there
   discard = 5,     // forget the staged image
 };
+
+inline constexpr canopen::ObjectId kTableImage{0x2110, 1};
+inline constexpr canopen::ObjectId kTableCommand{0x2111, 0};
+
+// 2112h: what became of it.
+constexpr canopen::ObjectId table_verdict(std::uint8_t sub) { return {0x2112, sub}; }
+inline constexpr std::size_t kMostReasonText = 160;  // bytes of 2112h:06
 
 // 2112h:01.
 enum class TableState : std::uint8_t {
@@ -86,18 +94,18 @@ struct NodeObjects {
   PerAxis<std::uint8_t> rotary{};                                        // 2032h
   PerAxis<std::uint16_t> homed_mask{0x100, 0x100, 0x100, 0x100, 0x100};  // 2033h bits of 6041h
 
-  std::uint8_t table_command = 0;       // 2111h
-  std::uint8_t table_state = 0;         // 2112h:01
-  std::uint8_t reason = 0;              // 2112h:02 Reason of the last refusal
-  std::uint8_t where_axis = 0;          // 2112h:03 letter, 0: does not apply
-  std::int16_t where_index = -1;        // 2112h:04 knot or entry, from 0
-  std::int8_t where_channel = -1;       // 2112h:05 0…5 = EX EY EZ EA EB EC
-  std::array<char, 160> reason_text{};  // 2112h:06
-  std::uint32_t staged_crc = 0;         // 2110h:02
-  std::uint32_t staged_bytes = 0;       // 2110h:03
-  std::uint32_t image_capacity = 0;     // 2110h:04
-  std::uint32_t active_crc = 0;         // 2112h:07
-  std::uint32_t active_sequence = 0;    // 2112h:08
+  std::uint8_t table_command = 0;                   // 2111h
+  std::uint8_t table_state = 0;                     // 2112h:01
+  std::uint8_t reason = 0;                          // 2112h:02 Reason of the last refusal
+  std::uint8_t where_axis = 0;                      // 2112h:03 letter, 0: does not apply
+  std::int16_t where_index = -1;                    // 2112h:04 knot or entry, from 0
+  std::int8_t where_channel = -1;                   // 2112h:05 0…5 = EX EY EZ EA EB EC
+  std::array<char, kMostReasonText> reason_text{};  // 2112h:06
+  std::uint32_t staged_crc = 0;                     // 2110h:02
+  std::uint32_t staged_bytes = 0;                   // 2110h:03
+  std::uint32_t image_capacity = 0;                 // 2110h:04
+  std::uint32_t active_crc = 0;                     // 2112h:07
+  std::uint32_t active_sequence = 0;                // 2112h:08
 
   std::uint32_t ramp_cycles = 100;  // 2200h:01
   std::uint16_t drop_cycles = 10;   // 2200h:02 stale for longer: ramped to zero
@@ -131,6 +139,9 @@ struct NodeObjects {
   PerAxis<std::uint16_t> status{};    // 2601h
   PerAxis<std::int32_t> largest{};    // 2602h
   PerAxis<std::array<std::uint16_t, kStatusBits>> began{};  // 2610h… how often each bit began
+
+  std::conditional_t<kFollowsTemperature, ThermalObjects, NoThermalObjects>
+      thermal{};  // 1012h, 2700h
 };
 
 [[nodiscard]] canopen::Dictionary node_dictionary();
@@ -139,9 +150,11 @@ struct NodeObjects {
 
 // Numbers of the PDOs, from 0.
 // From the drives: targets, actual values, held offsets, latches, edge counters. From the
-// controller: what it grinds.
+// controller: what it grinds, how warm the axes are.
 inline constexpr std::size_t kProcessStatePdo = 5 * kNodeAxes;
-inline constexpr std::size_t kReceivePdos = kProcessStatePdo + (kWatchesStrokes ? 1 : 0);
+inline constexpr std::size_t kTemperaturePdo = kProcessStatePdo + 1;  // in every node that has it
+inline constexpr std::size_t kReceivePdos =
+    kFollowsTemperature ? kTemperaturePdo + 1 : kProcessStatePdo + (kWatchesStrokes ? 1 : 0);
 // Offsets, node status, the latest point: number and verdict, X and Y, Z and uncertainty.
 inline constexpr std::size_t kStatusPdo = kNodeAxes;
 inline constexpr std::size_t kFirstPointPdo = kNodeAxes + 1;

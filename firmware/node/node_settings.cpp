@@ -6,22 +6,16 @@
 
 namespace volcomp::node {
 
-namespace {
-
-// Rotary slew limits are given in 2^-32 turn like every offset.
-std::int32_t slew_on_wire(std::int32_t slew, const WireScale& scale) {
-  return std::max(std::int32_t{1}, offset_to_wire(slew, scale));
-}
-
-}  // namespace
-
 // Whose tables these are is asked where they are loaded: the number may change while the node
 // rests.
 Status Node::configure() {
   configure_gates();
   CompensatorSettings<kNodeAxes> s;
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
-    const std::int32_t rate = OffsetGate::unhindered(objects_.slew[a], objects_.late_cycles);
+    // Less than a unit of the drive could never be corrected: a rate of 0 is refused.
+    const bool too_slow = objects_.drive[a] != 0 && gate_[a].slew() < 1;
+    const std::int32_t rate =
+        too_slow ? 0 : OffsetGate::unhindered(objects_.slew[a], objects_.late_cycles);
     s.axis[a] = {objects_.limit[a], rate, std::min(rate, objects_.soft_rate[a]),
                  objects_.hysteresis[a], objects_.max_step[a]};
   }
@@ -35,7 +29,7 @@ void Node::configure_gates() {
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     scale_[a] = {objects_.scale_numerator[a], objects_.scale_denominator[a],
                  objects_.rotary[a] != 0};
-    gate_[a].configure(slew_on_wire(objects_.slew[a], scale_[a]), objects_.late_cycles,
+    gate_[a].configure(step_to_wire(objects_.slew[a], scale_[a]), objects_.late_cycles,
                        objects_.drives_report != 0);
   }
 }

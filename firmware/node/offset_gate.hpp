@@ -34,6 +34,7 @@ class OffsetGate {
   void report(std::int32_t held);
 
   [[nodiscard]] bool open() const { return open_; }
+  [[nodiscard]] std::int32_t slew() const { return slew_; }
   [[nodiscard]] std::int32_t last() const { return last_; }
   // Cycles in a row without a report, saturating.
   [[nodiscard]] std::uint8_t unreported() const { return unreported_; }

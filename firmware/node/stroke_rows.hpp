@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "firmware/node/row_lists.hpp"
 #include "firmware/node/stroke_objects.hpp"
 
 namespace volcomp::node {
@@ -14,25 +15,6 @@ using canopen::DataType;
 using canopen::NamedEntry;
 
 #define VOLCOMP_AT(member) static_cast<std::uint16_t>(offsetof(StrokeObjects, member))
-
-// Rows as of an object at `offset`.
-template <std::size_t Rows>
-constexpr std::array<NamedEntry, Rows> moved_by(std::size_t offset,
-                                                std::array<NamedEntry, Rows> rows) {
-  for (NamedEntry& row : rows)
-    row.offset = static_cast<std::uint16_t>(row.offset + offset);
-  return rows;
-}
-
-template <class T, std::size_t N, std::size_t M>
-constexpr std::array<T, N + M> joined(const std::array<T, N>& a, const std::array<T, M>& b) {
-  std::array<T, N + M> all{};
-  for (std::size_t i = 0; i < N; ++i)
-    all[i] = a[i];
-  for (std::size_t i = 0; i < M; ++i)
-    all[N + i] = b[i];
-  return all;
-}
 
 constexpr std::array<NamedEntry, 7> learned_rows(std::size_t table) {
   constexpr DataType kU8 = DataType::unsigned8;

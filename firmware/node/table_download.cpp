@@ -77,42 +77,50 @@ Status TableDownload::check(Span<const std::uint8_t> image) {
 
 AbortCode TableDownload::validate() {
   Status status = check({image_.data(), objects_.staged_bytes});
-  if (status.ok()) status = check_machine();
+  if (status.ok()) status = check_use();
   return judge(status, TableState::valid);
 }
 
-Status TableDownload::check_machine() const {
+// Whose tables these are, and whether they still hold.
+Status TableDownload::check_use() const {
   const std::uint32_t wanted = objects_.machine_id;
-  if (wanted == 0 || tables_.provenance.machine_id == wanted) return {};
-  return refuse(Reason::machine_mismatch);
+  if (wanted != 0 && tables_.provenance.machine_id != wanted)
+    return refuse(Reason::machine_mismatch);
+  if constexpr (kFollowsTemperature) {
+    if (past_expiry()) return refuse(Reason::expired);
+  }
+  return {};
 }
 
-LoadedMachine<kNodeAxes> TableDownload::machine() const {
+NodeMachine TableDownload::machine() const {
   const Preemptible preemptible(preemption_);
-  return LoadedMachine<kNodeAxes>{make_runtime_chain(tables_.chain.description())};
+  return NodeMachine{make_runtime_chain(tables_.chain.description())};
 }
 
-// The first tables after a start decide which machine this is; later ones have to match.
-Status TableDownload::adopt_machine() {
-  if (running_) return {};
-  const LoadedMachine<kNodeAxes> machine = this->machine();
-  if (running_ || same_chain(machine.chain, compensator_.machine().chain)) return {};
+Status TableDownload::stage(const RuntimeChain& chain) {
+  const Preemptible preemptible(preemption_);
+  return compensator_.stage_for(chain, tables_, tables_.chain.tool_point(), objects_.staged_crc);
+}
+
+// The first tables after a start decide which machine this is; later ones have to match. Tables of
+// another machine that are refused leave the active ones as they are.
+Status TableDownload::stage() {
+  const RuntimeChain& own = compensator_.machine().chain;
+  const NodeMachine machine = this->machine();
   if (machine.chain.axes > kNodeAxes) return refuse(Reason::too_many_axes);
-  compensator_.restart(machine);
+  const Status status = stage(running_ ? own : machine.chain);
+  if (!status.ok() || same_chain(machine.chain, own)) return status;
+  if (running_) return stage(own);  // started meanwhile: refused
+  compensator_.adopt(machine);
   objects_.active_crc = 0;
   objects_.active_sequence = 0;
   return {};
 }
 
-Status TableDownload::stage(std::uint32_t crc) {
-  const Preemptible preemptible(preemption_);
-  return compensator_.stage(tables_, tables_.chain.tool_point(), crc);
-}
-
 AbortCode TableDownload::arm() {
-  Status status = check_machine();  // again: 2000h:01 may have been written since
-  if (status.ok()) status = adopt_machine();
-  if (status.ok()) status = stage(objects_.staged_crc);
+  Status status = check_use();  // again: 2000h:01 may have been written since
+  if constexpr (kFollowsTemperature) grow();
+  if (status.ok()) status = stage();
   return judge(status, TableState::armed);
 }
 
@@ -132,6 +140,7 @@ AbortCode TableDownload::activate() {
     objects_.axis_letters[a] = chain.letter[a];
   objects_.active_crc = objects_.staged_crc;
   objects_.active_sequence = tables_.provenance.sequence;
+  if constexpr (kFollowsTemperature) note_growth();
   return AbortCode::none;
 }
 

@@ -41,6 +41,11 @@ class TableDownload {
   // staged, or a download under way) and general (2112h says why).
   canopen::AbortCode command(TableCommand command);
 
+  // --- expansion (node_thermal.cpp); only where kFollowsTemperature
+
+  // Folds the active tables again once 2701h's temperatures make a difference.
+  ThermalState follow();
+
   // The compensator found its active tables damaged, or went back to none.
   void lost_active();
   void reset();
@@ -61,15 +66,18 @@ class TableDownload {
   canopen::AbortCode validate();
   canopen::AbortCode arm();
   canopen::AbortCode activate();
-  [[nodiscard]] Status check_machine() const;
-  Status adopt_machine();
+  [[nodiscard]] Status check_use() const;
+  [[nodiscard]] bool past_expiry() const;
   void settle();
+  void grow();
+  void note_growth();
 
   // --- what takes long
   [[nodiscard]] std::uint32_t name_of(Span<const std::uint8_t> image) const;
   Status check(Span<const std::uint8_t> image);
-  [[nodiscard]] LoadedMachine<kNodeAxes> machine() const;
-  Status stage(std::uint32_t crc);
+  [[nodiscard]] NodeMachine machine() const;
+  Status stage(const RuntimeChain& chain);
+  Status stage();
 
   NodeObjects& objects_;
   NodeCompensator& compensator_;

@@ -36,11 +36,21 @@ std::int32_t saturated(std::int64_t value) {
 
 constexpr std::int64_t kOffsetToPosition = 256;  // 2^-32 turn in 2^-40 turn
 
+// In a `denominator`th of the units of a position.
+std::int64_t parts_of(std::int32_t offset, const WireScale& scale) {
+  return std::int64_t{offset} * (scale.rotary ? kOffsetToPosition : 1) * scale.denominator;
+}
+
 }  // namespace
 
 std::int32_t offset_to_wire(std::int32_t offset, const WireScale& scale) {
-  const std::int64_t units = std::int64_t{offset} * (scale.rotary ? kOffsetToPosition : 1);
-  return saturated(divide_half_even(units * scale.denominator, scale.numerator));
+  return saturated(divide_half_even(parts_of(offset, scale), scale.numerator));
+}
+
+std::int32_t step_to_wire(std::int32_t step, const WireScale& scale) {
+  const std::int32_t nearest = offset_to_wire(step, scale);
+  const bool more = std::int64_t{nearest} * scale.numerator > parts_of(step, scale);
+  return nearest - (more ? 1 : 0);
 }
 
 std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale) {
@@ -52,16 +62,19 @@ std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale) {
 std::int64_t WirePosition::update(std::int32_t wire, const WireScale& scale) {
   if (!scale.rotary)
     return divide_half_even(std::int64_t{wire} * scale.numerator, scale.denominator);
-  if (!started_) whole_ = rest_ = last_ = 0;
+  if (!started_) {
+    whole_ = 0;
+    rest_ = last_ = 0;
+  }
   started_ = true;
   // Wraps by design: the difference of two unsigned counters.
   const auto moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(wire) -
                                                static_cast<std::uint32_t>(last_));
   last_ = wire;
   const Division d = divide(rest_ + std::int64_t{moved} * scale.numerator, scale.denominator);
-  whole_ += d.quotient;
+  whole_ += static_cast<std::uint64_t>(d.quotient);
   rest_ = d.remainder;
-  return whole_;
+  return static_cast<std::int64_t>(whole_);
 }
 
 }  // namespace volcomp::node

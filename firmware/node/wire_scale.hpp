@@ -17,6 +17,8 @@ struct WireScale {
 
 // Offset of the run time in wire units, half to even, saturating.
 [[nodiscard]] std::int32_t offset_to_wire(std::int32_t offset, const WireScale& scale);
+// A limit of steps: never more than `step`, so rounded down, saturating.
+[[nodiscard]] std::int32_t step_to_wire(std::int32_t step, const WireScale& scale);
 // The nearest run-time offset, saturating.
 [[nodiscard]] std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale);
 
@@ -28,8 +30,8 @@ class WirePosition {
   void reset() { started_ = false; }
 
  private:
-  std::int64_t whole_ = 0;
-  std::int64_t rest_ = 0;  // 0 ≤ rest < denominator
+  std::uint64_t whole_ = 0;  // wraps after a whole number of turns
+  std::int64_t rest_ = 0;    // 0 ≤ rest < denominator
   std::int32_t last_ = 0;
   bool started_ = false;
 };

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
@@ -80,6 +82,24 @@ Content parse_line(Text line, LoggedFrame& logged) {
 
 }  // namespace
 
+std::optional<LoggedFrame> parse_log_line(Text line, const std::string& name, std::size_t number) {
+  if (line.find_first_not_of(" \t\r") == Text::npos) return std::nullopt;
+  LoggedFrame logged;
+  logged.line = number;
+  const Content content = parse_line(line, logged);
+  if (content == Content::nonsense)
+    throw UserError(fmt::format("{}:{}: not a line of candump -L", name, number));
+  if (content == Content::of_no_use) return std::nullopt;
+  return logged;
+}
+
+std::uint64_t latest_time(const LoggedFrame& logged, std::uint64_t last_us,
+                          const std::string& name) {
+  if (logged.time_us + kMostDisorder_us < last_us)
+    throw UserError(fmt::format("{}:{}: time runs backwards", name, logged.line));
+  return std::max(last_us, logged.time_us);
+}
+
 std::vector<LoggedFrame> parse_can_log(Text text, const std::string& name) {
   std::vector<LoggedFrame> log;
   std::uint64_t last_us = 0;
@@ -87,16 +107,10 @@ std::vector<LoggedFrame> parse_can_log(Text text, const std::string& name) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const Text line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.find_first_not_of(" \t\r") == Text::npos) continue;
-    LoggedFrame logged;
-    logged.line = number;
-    const Content content = parse_line(line, logged);
-    if (content == Content::nonsense)
-      throw UserError(fmt::format("{}:{}: not a line of candump -L", name, number));
-    if (content == Content::of_no_use) continue;
-    if (logged.time_us + kMostDisorder_us < last_us)
-      throw UserError(fmt::format("{}:{}: time runs backwards", name, number));
-    last_us = std::max(last_us, logged.time_us);
+    const std::optional<LoggedFrame> parsed = parse_log_line(line, name, number);
+    if (!parsed) continue;
+    const LoggedFrame& logged = *parsed;
+    last_us = latest_time(logged, last_us, name);
     log.push_back(logged);
   }
   std::stable_sort(log.begin(), log.end(), [](const LoggedFrame& a, const LoggedFrame& b) {
@@ -107,12 +121,10 @@ std::vector<LoggedFrame> parse_can_log(Text text, const std::string& name) {
 }
 
 std::vector<LoggedFrame> read_can_log(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  const bool readable = stream.good() && !std::filesystem::is_directory(path);
-  if (!readable) throw UserError(fmt::format("{}: cannot be opened", path.string()));
-  const std::string text((std::istreambuf_iterator<char>(stream)),
+  InputFile file(path);
+  const std::string text((std::istreambuf_iterator<char>(file.stream())),
                          std::istreambuf_iterator<char>());
-  return parse_can_log(text, path.string());
+  return parse_can_log(text, file.name());
 }
 
 std::string log_line(std::uint64_t time_us, Text interface, const hal::CanFrame& frame) {
@@ -124,18 +136,35 @@ std::string log_line(std::uint64_t time_us, Text interface, const hal::CanFrame&
 }
 
 CanLogWriter::CanLogWriter(const std::filesystem::path& path, std::string interface)
-    : path_(path), stream_(path, std::ios::binary), interface_(std::move(interface)) {
-  if (!stream_) throw UserError(fmt::format("{}: cannot be written", path.string()));
+    : interface_(std::move(interface)) {
+  if (path == kStandardStream) return;
+  draft_.emplace(path);
+  if (draft_->is_beside()) interruption_.emplace();
+}
+
+void CanLogWriter::check() const {
+  if (interruption_) interruption_->check();
 }
 
 void CanLogWriter::write(std::uint64_t time_us, const hal::CanFrame& frame) {
-  stream_ << log_line(time_us, interface_, frame) << '\n';
-  if (!stream_) throw UserError(fmt::format("{}: cannot be written", path_.string()));
+  check();
+  const std::string line = log_line(time_us, interface_, frame) + '\n';
+  if (draft_) {
+    draft_->write(line);
+  } else if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size()) {
+    throw UserError("standard output: cannot be written");
+  }
 }
 
 void CanLogWriter::finish() {
-  stream_.flush();
-  if (!stream_) throw UserError(fmt::format("{}: cannot be written", path_.string()));
+  check();
+  if (draft_) {
+    draft_->complete();
+    draft_->put_in_place();
+  } else if (std::fflush(stdout) != 0) {
+    throw UserError("standard output: cannot be written");
+  }
+  interruption_.reset();
 }
 
 }  // namespace volcomp::sim

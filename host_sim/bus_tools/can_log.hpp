@@ -5,13 +5,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "hal/can_port.hpp"
+#include "host_sim/data/file_draft.hpp"
+#include "host_sim/data/interruption.hpp"
 
 namespace volcomp::sim {
 
@@ -29,21 +30,36 @@ struct LoggedFrame {
                                                      const std::string& name);
 [[nodiscard]] std::vector<LoggedFrame> read_can_log(const std::filesystem::path& path);
 
+// One line of a log, the frame it holds: nothing for an empty line and for frames of no use.
+// Throws UserError naming `name` and the line, as parse_can_log.
+[[nodiscard]] std::optional<LoggedFrame> parse_log_line(std::string_view line,
+                                                        const std::string& name,
+                                                        std::size_t number);
+
+// The latest time so far, `last_us` or that of `logged`, which may be 0.1 s earlier at most. Throws
+// as parse_can_log.
+[[nodiscard]] std::uint64_t latest_time(const LoggedFrame& logged, std::uint64_t last_us,
+                                        const std::string& name);
+
 // One line, without its end.
 [[nodiscard]] std::string log_line(std::uint64_t time_us, std::string_view interface,
                                    const hal::CanFrame& frame);
 
+// Appears whole, as every result: a run that is interrupted or fails leaves the earlier log. What
+// is no file, a pipe for instance, and standard output ("-") get it while it grows.
 class CanLogWriter {
  public:
-  // All throw UserError when the file cannot be written.
+  // All throw UserError when it cannot be written, and Interrupted where there is a file to remove.
   CanLogWriter(const std::filesystem::path& path, std::string interface);
 
   void write(std::uint64_t time_us, const hal::CanFrame& frame);
   void finish();
 
  private:
-  std::filesystem::path path_;
-  std::ofstream stream_;
+  void check() const;
+
+  std::optional<FileDraft> draft_;            // none: standard output
+  std::optional<Interruption> interruption_;  // while there is a file to remove
   std::string interface_;
 };
 

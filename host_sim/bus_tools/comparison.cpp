@@ -19,10 +19,6 @@ constexpr int kServicePatience = 10'000;
 
 }  // namespace
 
-bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id) {
-  return frame.id == canopen::kHeartbeat + node_id && frame.size == 1 && frame.data[0] == 0;
-}
-
 Comparison::Comparison(std::uint8_t node_id, const MakeSubject& make_subject)
     : node_id_(node_id),
       subject_(make_subject([this](std::uint64_t time_us, const hal::CanFrame& frame) {
@@ -249,9 +245,12 @@ bool Comparison::take_start_status(const hal::CanFrame& frame) {
 
 // --- cycles
 
+// A command to start may still wait in the background of a node when the first SYNC comes: that
+// cycle then has no status.
 void Comparison::begin_cycle() {
   check_age();
-  status_overdue_ = status_due_;
+  status_overdue_ = status_due_ && !first_cycle_;
+  first_cycle_ = !cycle_begun_;
   status_due_ = false;
   earlier_status_ = std::move(status_);
   status_.clear();

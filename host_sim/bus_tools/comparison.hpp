@@ -11,8 +11,6 @@
 
 namespace volcomp::sim {
 
-[[nodiscard]] bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id);
-
 class Comparison {
  public:
   // `make_subject`: who is to live through the log.
@@ -80,6 +78,7 @@ class Comparison {
   std::uint8_t counter_ = 0;
 
   bool cycle_begun_ = false;                   // a SYNC has come in this NMT state
+  bool first_cycle_ = false;                   // and it was the first
   std::optional<hal::CanFrame> start_status_;  // said before; not yet found in the log
   std::set<std::uint8_t> states_;              // NMT, since the last heartbeat in the log
   std::vector<hal::CanFrame> status_;          // said in this cycle

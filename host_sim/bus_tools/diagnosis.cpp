@@ -57,7 +57,7 @@ void read_tables(NodeClient& client, Diagnosis& d) {
   d.state = static_cast<node::NodeState>(
       client.read_value<std::uint8_t>({0x2600, 1}, "state of the node"));
   d.table_state = static_cast<node::TableState>(
-      client.read_value<std::uint8_t>({0x2112, 1}, "state of the tables"));
+      client.read_value<std::uint8_t>(node::table_verdict(1), "state of the tables"));
   d.tables = active_tables(client);
   d.machine_id = client.read_value<std::uint32_t>({0x2000, 1}, "machine id");
   d.refusal = refusal(client);
@@ -99,6 +99,7 @@ Diagnosis diagnose(NodeClient& client) {
     if (a.drive != 0) d.axes.push_back(a);
   }
   d.strokes = diagnose_strokes(client);
+  d.thermal = diagnose_thermal(client);
   return d;
 }
 

@@ -15,6 +15,7 @@
 #include "host_sim/bus_tools/node_client.hpp"
 #include "host_sim/bus_tools/stroke_diagnosis.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
+#include "host_sim/bus_tools/thermal_diagnosis.hpp"
 
 namespace volcomp::sim {
 
@@ -55,7 +56,8 @@ struct Diagnosis {
   hal::ResetCause start{};          // why the processor started
   std::uint32_t frames_lost = 0;    // before the node saw them
   std::vector<AxisDiagnosis> axes;  // those with a drive
-  std::optional<StrokeDiagnosis> strokes;  // of a node that knows them
+  std::optional<StrokeDiagnosis> strokes;   // of a node that knows them
+  std::optional<ThermalDiagnosis> thermal;  // the same
 };
 
 // Throws as NodeClient::read.

@@ -99,7 +99,7 @@ std::string machine_line(const Diagnosis& d) {
 }
 
 std::string describe_axis(const AxisDiagnosis& a) {
-  const char* const unit = a.rotary ? "urad" : "um";
+  const char* const unit = a.rotary ? "µrad" : "µm";
   std::string text = fmt::format(
       "axis {}: {}\n  drive: node {}, {}\n  offset {:.3f} {}, largest so far {:.3f} {}\n",
       a.letter != '\0' ? std::string(1, a.letter) : std::to_string(a.number),
@@ -116,7 +116,7 @@ nlohmann::json axis_json(const AxisDiagnosis& a) {
   nlohmann::json began;
   for (std::size_t bit = 0; bit < a.began.size(); ++bit)
     began[code(status_bit(bit))] = a.began[bit];
-  const char* const unit = a.rotary ? "urad" : "um";
+  const char* const unit = a.rotary ? "µrad" : "µm";
   return {
       {"axis", a.number},   {"letter", a.letter != '\0' ? std::string(1, a.letter) : std::string()},
       {"drive", a.drive},   {"drive_status", a.drive_status},
@@ -172,6 +172,9 @@ std::string describe_error(std::uint32_t field) {
     case ErrorCode::rpdo_length:
       where = fmt::format("RPDO {}: ", source);
       break;
+    case ErrorCode::temperature_held:
+      where = fmt::format("temperature {}: ", source - 1);
+      break;
     case ErrorCode::table_refused:
       if (source != 0) where = fmt::format("axis {}: ", static_cast<char>(source));
       break;
@@ -217,6 +220,7 @@ std::string describe(const Diagnosis& d) {
   line("SYNC:", fmt::format("{} missed, {} of another producer", d.sync_missed, d.sync_foreign));
   line("frames lost:", std::to_string(d.frames_lost));
   line("tables:", fmt::format("{} times activated, {} times refused", d.activations, d.rejections));
+  if (d.thermal) text += describe(*d.thermal);
   line("errors now:", d.error_register == 0
                           ? std::string("none")
                           : fmt::format("error register {:02X}h", d.error_register));
@@ -262,7 +266,8 @@ nlohmann::json to_json(const Diagnosis& d) {
           {"start", words(d.start)},
           {"frames_lost", d.frames_lost},
           {"axes", axes},
-          {"strokes", d.strokes ? to_json(*d.strokes) : nlohmann::json()}};
+          {"strokes", d.strokes ? to_json(*d.strokes) : nlohmann::json()},
+          {"thermal", d.thermal ? to_json(*d.thermal) : nlohmann::json()}};
 }
 
 }  // namespace volcomp::sim

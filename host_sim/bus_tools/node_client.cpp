@@ -37,21 +37,23 @@ std::string NodeClient::read_text(canopen::ObjectId object, std::size_t most,
 }
 
 void NodeClient::finish_transfer(const Progress& progress) {
-  answered_ = false;
   channel_.poll(pump_(*this));
   while (!channel_.idle()) {
     static_cast<void>(pump_(*this));
     if (progress) progress(channel_.transferred());
   }
-  if (!channel_.failure().empty()) fail(answered_);
+  if (!channel_.failure().empty()) fail();
 }
 
-void NodeClient::fail(bool answered) {
+void NodeClient::fail() {
   const std::string text = channel_.failure();
   const canopen::AbortCode code = channel_.abort_code();
+  const bool refused = channel_.refused();
   channel_.clear();
-  if (code != canopen::AbortCode::timeout) throw NodeRefused(text, code);
-  if (!answered) throw UserError(fmt::format("node {} does not answer", node_id_));
+  if (refused) throw NodeRefused(text, code);
+  if (!answered_) throw UserError(fmt::format("node {} does not answer", node_id_));
+  if (code == canopen::AbortCode::timeout)
+    throw UserError(fmt::format("{}; the node has stopped answering", text));
   throw UserError(text);
 }
 

@@ -32,7 +32,7 @@ class NodeClient {
   // node_id 1…127.
   NodeClient(std::uint8_t node_id, Pump pump);
 
-  // All throw NodeRefused, or UserError when the node does not answer.
+  // All throw NodeRefused, or UserError when the node does not answer, or answers nonsense.
   // `most`: bytes the value may have; `what` names it in messages.
   [[nodiscard]] SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,
                                        const std::string& what);
@@ -62,12 +62,12 @@ class NodeClient {
 
  private:
   void finish_transfer(const Progress& progress);
-  [[noreturn]] void fail(bool answered);
+  [[noreturn]] void fail();
 
   std::uint8_t node_id_;
   Pump pump_;
   SdoChannel channel_;
-  bool answered_ = false;  // since the transfer began
+  bool answered_ = false;  // ever
   std::optional<canopen::NmtState> heartbeat_;
 };
 

@@ -3,7 +3,9 @@
 // node in this process goes with it and tells what belongs to it.
 //
 // The pipe's turns carry the log's time. There is one before and at every SYNC, at every deadline,
-// and when the log lets the node speak; in between a turn could change nothing.
+// and when the log lets the node speak; in between a turn could change nothing. Only a command to
+// reset takes turns of its own, until the node has booted: it does so in its background, and what
+// comes next on the bus must not overtake it.
 
 #include "host_sim/bus_tools/replayed_node.hpp"
 #include "host_sim/links/pipe_link.hpp"
@@ -29,6 +31,7 @@ class PipedNode final : public ReplaySubject {
  private:
   void turn(std::uint64_t least_us);
   void catch_up();
+  void await_boot_up();
 
   std::uint8_t node_id_;
   ReplayedNode model_;
@@ -38,6 +41,7 @@ class PipedNode final : public ReplaySubject {
   std::uint64_t time_us_ = 0;   // the log's
   std::uint64_t begin_us_ = 0;  // the log's, where the node's own time began
   bool unheard_ = false;        // frames have been sent that the node gets with the next turn
+  bool booting_ = false;        // the model has been reset and has booted, the node has not yet
 };
 
 }  // namespace volcomp::sim

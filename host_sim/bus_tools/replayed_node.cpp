@@ -25,6 +25,10 @@ void fill(Span<std::uint8_t>& target, const std::vector<std::uint8_t>& source) {
 
 }  // namespace
 
+bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id) {
+  return frame.id == canopen::kHeartbeat + node_id && frame.size == 1 && frame.data[0] == 0;
+}
+
 StoreResult ImageStorage::save(Span<const std::uint8_t> parameters,
                                Span<const std::uint8_t> image) {
   parameters_.assign(parameters.begin(), parameters.end());

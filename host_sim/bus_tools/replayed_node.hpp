@@ -13,6 +13,8 @@
 
 namespace volcomp::sim {
 
+[[nodiscard]] bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id);
+
 // What a node finds at power-on: parameters at their defaults and these tables, until it saves
 // something else itself.
 class ImageStorage final : public node::Storage {

@@ -83,7 +83,7 @@ const char* words(node::StrokeTableState state) {
 std::string words(const LearnedTableDiagnosis& t) {
   if (t.weight <= 0.0) return "no step yet";
   if (t.action == GuardAction::roll_back)
-    return fmt::format("got worse ({:.2f} um), the best table again, weight {:g}", t.flank_rms_um,
+    return fmt::format("got worse ({:.2f} µm), the best table again, weight {:g}", t.flank_rms_um,
                        t.weight);
   switch (t.result) {
     case LearningResult::nodata:
@@ -96,7 +96,7 @@ std::string words(const LearnedTableDiagnosis& t) {
       break;
   }
   return fmt::format(
-      "{:.2f} um on the flank, then {} nodes changed, {} left alone, {} at the limit{}",
+      "{:.2f} µm on the flank, then {} nodes changed, {} left alone, {} at the limit{}",
       t.flank_rms_um, t.updated, t.skipped, t.clamped,
       t.action == GuardAction::hold ? "; worse than before" : "");
 }
@@ -106,7 +106,7 @@ std::string offset_words(const StrokeDiagnosis& d) {
   if (other_feed)
     return fmt::format("none: the tables are for F={:g} mm/s, another feed is programmed",
                        d.table_feed_mm_per_s);
-  return fmt::format("{:.2f} urad, {}", d.offset_urad, describe_status(d.offset_status));
+  return fmt::format("{:.2f} µrad, {}", d.offset_urad, describe_status(d.offset_status));
 }
 
 }  // namespace
@@ -135,14 +135,14 @@ std::string describe(const StrokeDiagnosis& d) {
   constexpr std::array<const char*, 2> kWays{"forward", "backward"};
   for (std::size_t side = 0; side < 2; ++side)
     text +=
-        fmt::format("  {}: {} passes since the last step, {:.2f} um rms out of step, X {:.2f} um\n",
+        fmt::format("  {}: {} passes since the last step, {:.2f} µm rms out of step, X {:.2f} µm\n",
                     kWays[side], d.passes[side], d.sync_rms_um[side], d.x_rms_um[side]);
   if (d.learning != Reason::ok)
     text +=
         fmt::format("  last refusal to learn: {} [{}]\n", sentence(d.learning), code(d.learning));
   if (d.learning == Reason::breaks_helix)
     text +=
-        fmt::format("  on the flank: Z alone {:.1f} um, C alone {:.1f} um, together {:.1f} um\n",
+        fmt::format("  on the flank: Z alone {:.1f} µm, C alone {:.1f} µm, together {:.1f} µm\n",
                     d.prediction_um[0], d.prediction_um[1], d.prediction_um[2]);
   text += fmt::format("  learned tables: {}\n  learned offset of C: {}\n", words(d.tables),
                       offset_words(d));

@@ -1,31 +1,27 @@
 #include "host_sim/bus_tools/table_transfer.hpp"
 
 #include <array>
-#include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "firmware/node/storage.hpp"
 #include "firmware/node/table_download.hpp"
+#include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
 
 using canopen::AbortCode;
+using node::table_verdict;
 using node::TableCommand;
 
 namespace {
 
-constexpr canopen::ObjectId kStagedImage{0x2110, 1};
-constexpr canopen::ObjectId kTableCommand{0x2111, 0};
-
-constexpr canopen::ObjectId verdict(std::uint8_t sub) { return {0x2112, sub}; }
-
 // The node's reason says more than the abort code, where there is one.
 void command(NodeClient& client, TableCommand what, const char* name) {
   try {
-    client.write(kTableCommand, {static_cast<std::uint8_t>(what)}, name);
+    client.write(node::kTableCommand, {static_cast<std::uint8_t>(what)}, name);
   } catch (const NodeRefused& refused) {
     if (refused.code == AbortCode::general)
       throw NodeRefused(fmt::format("node {}: {}: {} [abort {:08X}h]", client.node_id(), name,
@@ -44,26 +40,22 @@ std::string why_not_saved(NodeClient& client) {
 }  // namespace
 
 std::vector<std::uint8_t> read_image_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw UserError(fmt::format("{}: cannot be opened", path.string()));
-  std::vector<std::uint8_t> image(node::kImageCapacity + 1);
-  stream.read(reinterpret_cast<char*>(image.data()), static_cast<std::streamsize>(image.size()));
-  image.resize(static_cast<std::size_t>(stream.gcount()));
-  if (image.empty()) throw UserError(fmt::format("{}: is empty", path.string()));
+  InputFile file(path);
+  const std::string image = file.beginning(node::kImageCapacity + 1);
+  if (image.empty()) throw UserError(fmt::format("{}: is empty", file.name()));
   if (image.size() > node::kImageCapacity)
-    throw UserError(fmt::format("{}: is larger than any table image ({} bytes)", path.string(),
+    throw UserError(fmt::format("{}: is larger than any table image ({} bytes)", file.name(),
                                 node::kImageCapacity));
-  return image;
+  return {image.begin(), image.end()};
 }
 
 void send_image(NodeClient& client, const std::vector<std::uint8_t>& image,
                 const NodeClient::Progress& progress) {
-  client.write(kStagedImage, image, "table image", progress);
+  client.write(node::kTableImage, image, "table image", progress);
 }
 
 std::vector<std::uint8_t> fetch_image(NodeClient& client) {
-  return client.read(kStagedImage, node::kImageCapacity, "table image");
+  return client.read(node::kTableImage, node::kImageCapacity, "table image");
 }
 
 void arm_tables(NodeClient& client) {
@@ -92,22 +84,24 @@ void store_all(NodeClient& client) {
 }
 
 ActiveTables active_tables(NodeClient& client) {
-  return {client.read_value<std::uint32_t>(verdict(7), "CRC of the active tables"),
-          client.read_value<std::uint32_t>(verdict(8), "sequence number of the active tables")};
+  return {
+      client.read_value<std::uint32_t>(table_verdict(7), "CRC of the active tables"),
+      client.read_value<std::uint32_t>(table_verdict(8), "sequence number of the active tables")};
 }
 
 std::string refusal(NodeClient& client) {
   static constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
-  if (client.read_value<std::uint8_t>(verdict(2), "reason") == 0) return {};
-  const auto axis = client.read_value<std::uint8_t>(verdict(3), "axis of the refusal");
-  const auto index = client.read_value<std::int16_t>(verdict(4), "place of the refusal");
+  if (client.read_value<std::uint8_t>(table_verdict(2), "reason") == 0) return {};
+  const auto axis = client.read_value<std::uint8_t>(table_verdict(3), "axis of the refusal");
+  const auto index = client.read_value<std::int16_t>(table_verdict(4), "place of the refusal");
   // -1, as all bits set, is beyond every channel.
-  const auto channel = client.read_value<std::uint8_t>(verdict(5), "channel of the refusal");
+  const auto channel = client.read_value<std::uint8_t>(table_verdict(5), "channel of the refusal");
   std::vector<std::string> place;
   if (axis != 0) place.push_back(fmt::format("axis {}", static_cast<char>(axis)));
   if (index >= 0) place.push_back(fmt::format("entry {}", index + 1));
   if (channel < kChannels.size()) place.push_back(fmt::format("channel {}", kChannels[channel]));
-  const std::string text = client.read_text(verdict(6), 160, "reason in words");
+  const std::string text =
+      client.read_text(table_verdict(6), node::kMostReasonText, "reason in words");
   return place.empty() ? text : fmt::format("{}: {}", fmt::join(place, ", "), text);
 }
 

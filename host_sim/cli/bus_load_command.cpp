@@ -6,7 +6,7 @@
 
 #include "host_sim/bus_tools/bus_load.hpp"
 #include "host_sim/cli/commands.hpp"
-#include "host_sim/data/whole_file.hpp"
+#include "host_sim/cli/output.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -19,10 +19,11 @@ struct BusLoadArguments {
 int print_bus_load(const BusLoadArguments& arguments) {
   const std::vector<std::size_t> axes =
       arguments.axes == 0 ? std::vector<std::size_t>{3, 5} : std::vector{arguments.axes};
+  Results results({arguments.json_file});
   const std::vector<BusLoadRow> table = bus_load_table(axes);
-  fmt::print("{}", describe(table));
-  if (!arguments.json_file.empty())
-    write_whole_file(arguments.json_file, to_json(table).dump(2) + "\n");
+  results.add(arguments.json_file, json_text(to_json(table)));
+  results.write();
+  fmt::print(results.words(), "{}", describe(table));
   return 0;
 }
 
@@ -34,7 +35,8 @@ void add_bus_load_command(CLI::App& app, int& code) {
   auto a = std::make_shared<BusLoadArguments>();
   command->add_option("--axes", a->axes, "This number of axes only (default: 3 and 5)")
       ->check(CLI::Range(1, 8));
-  command->add_option("--json", a->json_file, "Write the table to this file, too");
+  command->add_option("--json", a->json_file,
+                      "Write the table to this file, too (-: standard output)");
   command->callback([a, &code] { code = print_bus_load(*a); });
 }
 

@@ -3,14 +3,15 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "comp/tables/image.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/output.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -43,7 +44,7 @@ void send_with_progress(NodeClient& client, const std::vector<std::uint8_t>& ima
 }
 
 // The bus lets nobody know whether what became active is what was sent, so it is read back.
-void activate(NodeClient& client, const std::vector<std::uint8_t>& image) {
+ActiveTables activate(NodeClient& client, const std::vector<std::uint8_t>& image) {
   activate_tables(client);
   const ActiveTables tables = active_tables(client);
   if (tables.crc != crc_of(image))
@@ -51,40 +52,61 @@ void activate(NodeClient& client, const std::vector<std::uint8_t>& image) {
         fmt::format("node {} has other tables active, CRC-32 {:08X}: somebody else "
                     "works on it",
                     client.node_id(), tables.crc));
-  fmt::print("active: CRC-32 {:08X}, sequence number {}\n", tables.crc, tables.sequence);
+  return tables;
 }
 
 int download(const CanArguments& arguments) {
+  Results results({arguments.json_file}, {arguments.image});
+  std::FILE* const words = results.words();
   const std::vector<std::uint8_t> image = read_image_file(arguments.image);
   NodeClient client = connect(arguments);
   send_with_progress(client, image);
-  fmt::print("{}: {} bytes sent to node {}\n", arguments.image, image.size(), client.node_id());
+  fmt::print(words, "{}: {} bytes sent to node {}\n", arguments.image, image.size(),
+             client.node_id());
   arm_tables(client);
+  nlohmann::json result{{"node", client.node_id()},
+                        {"bytes", image.size()},
+                        {"crc32", fmt::format("{:08X}", crc_of(image))},
+                        {"active", !arguments.no_activate},
+                        {"stored", arguments.store}};
   if (arguments.no_activate) {
-    fmt::print("checked and ready, not active: CRC-32 {:08X}\n", crc_of(image));
-    return 0;
+    fmt::print(words, "checked and ready, not active: CRC-32 {:08X}\n", crc_of(image));
+  } else {
+    const ActiveTables tables = activate(client, image);
+    fmt::print(words, "active: CRC-32 {:08X}, sequence number {}\n", tables.crc, tables.sequence);
+    result["sequence_number"] = tables.sequence;
   }
-  activate(client, image);
-  if (!arguments.store) return 0;
-  store_all(client);
-  fmt::print("stored\n");
+  if (arguments.store) {
+    store_all(client);
+    fmt::print(words, "stored\n");
+  }
+  results.add(arguments.json_file, json_text(result));
+  results.write();
   return 0;
 }
 
 int upload(const CanArguments& arguments) {
+  Results results({arguments.image, arguments.json_file});
   NodeClient client = connect(arguments);
   const std::vector<std::uint8_t> image = fetch_image(client);
-  write_whole_file(arguments.image, {reinterpret_cast<const char*>(image.data()), image.size()});
-  fmt::print("{}: {} bytes, CRC-32 {:08X}\n", arguments.image, image.size(), crc_of(image));
+  results.add(arguments.image, {reinterpret_cast<const char*>(image.data()), image.size()});
+  const nlohmann::json result{{"node", client.node_id()},
+                              {"bytes", image.size()},
+                              {"crc32", fmt::format("{:08X}", crc_of(image))}};
+  results.add(arguments.json_file, json_text(result));
+  results.write();
+  fmt::print(results.words(), "{}: {} bytes, CRC-32 {:08X}\n", shown_output(arguments.image),
+             image.size(), crc_of(image));
   return 0;
 }
 
 int diagnose_node(const CanArguments& arguments) {
+  Results results({arguments.json_file});
   NodeClient client = connect(arguments);
   const Diagnosis diagnosis = diagnose(client);
-  fmt::print("{}", describe(diagnosis));
-  if (!arguments.json_file.empty())
-    write_whole_file(arguments.json_file, to_json(diagnosis).dump(2) + "\n");
+  fmt::print(results.words(), "{}", describe(diagnosis));
+  results.add(arguments.json_file, json_text(to_json(diagnosis)));
+  results.write();
   return 0;
 }
 
@@ -114,22 +136,27 @@ void add_can_commands(CLI::App& app, int& code) {
   CLI::App* to_node =
       app.add_subcommand("download", "Send a table image to a compensation node and activate it");
   const auto d = add_node_options(*to_node);
-  to_node->add_option("IMAGE", d->image, "Image file of volcomp build-tables")->required();
+  to_node->add_option("IMAGE", d->image, "Image file of volcomp build-tables (-: standard input)")
+      ->required();
   CLI::Option* no_activate =
       to_node->add_flag("--no-activate", d->no_activate, "Have it checked and prepared only");
   to_node->add_flag("--store", d->store, "Keep parameters and tables through a power failure")
       ->excludes(no_activate);
+  to_node->add_option("--json", d->json_file,
+                      "Write what was done to this file (-: standard output)");
   to_node->callback([d, &code] { code = judged(download, *d); });
 
   CLI::App* from_node = app.add_subcommand("upload", "Read the table image of a compensation node");
   const auto u = add_node_options(*from_node);
-  from_node->add_option("IMAGE", u->image, "File to write")->required();
+  from_node->add_option("IMAGE", u->image, "File to write (-: standard output)")->required();
+  from_node->add_option("--json", u->json_file,
+                        "Write its length and CRC to this file (-: standard output)");
   from_node->callback([u, &code] { code = judged(upload, *u); });
 
   CLI::App* diagnosis =
       app.add_subcommand("diagnose", "Say in words how a compensation node is doing");
   const auto n = add_node_options(*diagnosis);
-  diagnosis->add_option("--json", n->json_file, "Write it to this file, too");
+  diagnosis->add_option("--json", n->json_file, "Write it to this file, too (-: standard output)");
   diagnosis->callback([n, &code] { code = judged(diagnose_node, *n); });
 }
 

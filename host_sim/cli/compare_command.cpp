@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/number_check.hpp"
+#include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_options.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
 #include "host_sim/flank_maps/comparison.hpp"
-#include "host_sim/report/report.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -25,7 +25,7 @@ struct CompareArguments {
   std::vector<std::size_t> rows{kProfileRows.first + 1, kProfileRows.last + 1};
   double limit = 0.0;
   bool has_limit = false;
-  std::string json_file;      // empty: none; "-": the standard output
+  std::string json_file;      // empty: none
   std::string report_folder;  // empty: none
   std::string command;        // as the user has typed it
 };
@@ -47,17 +47,20 @@ CompareOptions options_of(const CompareArguments& a) {
   return options;
 }
 
+std::vector<std::string> inputs_of(const CompareArguments& a) {
+  std::vector<std::string> inputs = a.options.files;
+  inputs.push_back(a.options.gear);
+  return inputs;
+}
+
 int compare(const CompareArguments& a) {
+  Results results(with_report({a.json_file}, a.report_folder), inputs_of(a));
   const FlankComparison result = compare_flanks(options_of(a));
-  const std::string figures = comparison_json(result).dump(2) + "\n";
-  if (a.json_file == "-") {
-    fmt::print("{}", figures);
-  } else {
-    fmt::print("{}", comparison_text(result));
-    if (!a.json_file.empty()) write_whole_file(a.json_file, figures);
-  }
   if (!a.report_folder.empty())
-    write_report(comparison_document(result, a.command), a.report_folder);
+    add_report(results, a.report_folder, comparison_document(result, {a.command, {}}));
+  results.add(a.json_file, json_text(comparison_json(result)));
+  results.write();
+  fmt::print(results.words(), "{}", comparison_text(result));
   return result.within_limit() ? 0 : 1;
 }
 
@@ -106,10 +109,10 @@ void add_compare_command(CLI::App& app, int argc, char** argv, int& code) {
       ->capture_default_str();
   CLI::Option* limit =
       command
-          ->add_option("--limit", a->limit, "Largest difference allowed, um: beyond it exit code 1")
-          ->check(CLI::NonNegativeNumber);
+          ->add_option("--limit", a->limit, "Largest difference allowed, µm: beyond it exit code 1")
+          ->check(number_between(0.0, 1e6));
   command->add_option("--json", a->json_file,
-                      "Write the figures to this file; - to the standard output instead of text");
+                      "Write the figures to this file (-: standard output)");
   command->add_option(
       "--report", a->report_folder,
       "Write report.html and report.json, with pictures of the maps, to this folder");

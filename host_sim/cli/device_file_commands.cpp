@@ -6,10 +6,11 @@
 
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/output.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
 #include "host_sim/device_files/dbc.hpp"
 #include "host_sim/device_files/eds.hpp"
+#include "host_sim/explain/catalogue.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -17,6 +18,8 @@ namespace {
 struct DeviceFileArguments {
   std::string eds;
   std::string dbc;
+  std::string objects;
+  std::string reasons;
   std::string axes = "XYZ";
   std::vector<int> drives{1, 2, 3};
   int node = 32;
@@ -44,33 +47,33 @@ BusSettings bus_of(const DeviceFileArguments& a) {
   return bus;
 }
 
-void write(const std::string& path, const std::string& content) {
-  if (path.empty()) return;
-  if (path == "-") {
-    fmt::print("{}", content);
-    return;
-  }
-  write_whole_file(path, content);
-}
-
 int write_device_files(const DeviceFileArguments& a) {
-  if (a.eds.empty() && a.dbc.empty()) throw UserError("nothing to write: give --eds or --dbc");
-  const std::string dbc = make_dbc(bus_of(a));
-  write(a.eds, make_eds());
-  write(a.dbc, dbc);
+  if (a.eds.empty() && a.dbc.empty() && a.objects.empty() && a.reasons.empty())
+    throw UserError("nothing to write: give --eds, --dbc, --objects or --reasons");
+  Results results({a.eds, a.dbc, a.objects, a.reasons});
+  results.add(a.eds, make_eds());
+  results.add(a.dbc, make_dbc(bus_of(a)));
+  results.add(a.objects, object_page());
+  results.add(a.reasons, reason_page());
+  results.write();
   return 0;
 }
 
 }  // namespace
 
 void add_device_files_command(CLI::App& app, int& code) {
-  CLI::App* files = app.add_subcommand(
-      "device-files", "Write the compensation node's EDS and the CAN database of a machine's bus");
+  CLI::App* files = app.add_subcommand("device-files",
+                                       "Write the compensation node's EDS, the CAN database of a "
+                                       "machine's bus, and pages about both");
   auto a = std::make_shared<DeviceFileArguments>();
   const CLI::Range node_id(1, static_cast<int>(canopen::kMaxNodeId));
   files->add_option("--eds", a->eds,
                     "Electronic data sheet to write, for configuration tools (-: standard output)");
   files->add_option("--dbc", a->dbc, "CAN database to write, for log tools (-: standard output)");
+  files->add_option("--objects", a->objects,
+                    "Page that explains every object of the node, to write (Markdown)");
+  files->add_option("--reasons", a->reasons,
+                    "Page that explains every reason and code, to write (Markdown)");
   files->add_option("--node-id", a->node, "Node id of the compensation node (database)")
       ->check(node_id)
       ->capture_default_str();

@@ -8,9 +8,10 @@
 
 #include "comp/tables/image.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/output.hpp"
 #include "host_sim/commissioning/commission.hpp"
+#include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
 #include "host_sim/exchange/controller_export.hpp"
 
 namespace volcomp::sim {
@@ -21,7 +22,7 @@ struct ExportArguments {
   std::vector<std::string> runs;
   std::string image;
   std::string out;
-  std::string json_file;  // empty: none; "-": the standard output
+  std::string json_file;
   ExportOptions options;
 };
 
@@ -31,7 +32,10 @@ struct Source {
 };
 
 Source source_of(const ExportArguments& a) {
-  if (!a.image.empty()) return {a.image, table_model(*read_tables_file(a.image), a.image)};
+  if (!a.image.empty()) {
+    const std::string name = shown_name(a.image);
+    return {name, table_model(*read_tables_file(a.image), name)};
+  }
   if (a.machine.empty() || a.runs.empty())
     throw UserError("nothing to export: give --image, or --machine and --runs");
   const MachineFile machine = read_machine_file(a.machine);
@@ -65,40 +69,43 @@ nlohmann::json export_json(const ControllerExport& result) {
           {"formats", formats}};
 }
 
-void print_format(const ExportedFormat& f, const ControllerExport& result) {
-  fmt::print("{}:\n", f.name);
+void print_format(std::FILE* words, const ExportedFormat& f, const ControllerExport& result) {
+  fmt::print(words, "{}:\n", f.name);
   for (const NamedText& file : f.files)
-    fmt::print("  {}\n", file.name);
-  fmt::print("  units: {}; rounding {} um\n  sign: {}\n  cannot hold: {}\n", f.units,
+    fmt::print(words, "  {}\n", file.name);
+  fmt::print(words, "  units: {}; rounding {} µm\n  sign: {}\n  cannot hold: {}\n", f.units,
              f.half_step_um, f.sign, f.not_held);
   if (!f.both_directions) {
-    fmt::print("  mean of both directions; they differ by up to {:.3f} {:.3f} {:.3f} um\n",
+    fmt::print(words, "  mean of both directions; they differ by up to {:.3f} {:.3f} {:.3f} µm\n",
                result.reversal_um(0), result.reversal_um(1), result.reversal_um(2));
   }
-  fmt::print(
-      "  not represented: X up to {:.3f}, Y up to {:.3f}, Z up to {:.3f} um; {:.3f} um rms\n"
-      "  on the controller: {}\n",
-      f.remainder_max_um(0), f.remainder_max_um(1), f.remainder_max_um(2), f.remainder_rms_um,
-      f.to_do);
+  fmt::print(words,
+             "  not represented: X up to {:.3f}, Y up to {:.3f}, Z up to {:.3f} µm; {:.3f} µm rms\n"
+             "  on the controller: {}\n",
+             f.remainder_max_um(0), f.remainder_max_um(1), f.remainder_max_um(2),
+             f.remainder_rms_um, f.to_do);
+}
+
+std::vector<std::string> inputs_of(const ExportArguments& a) {
+  std::vector<std::string> inputs = a.runs;
+  inputs.insert(inputs.end(), {a.image, a.machine});
+  return inputs;
 }
 
 int export_tables_to(const ExportArguments& a) {
+  Results results({a.json_file}, inputs_of(a));
   const Source source = source_of(a);
   const ControllerExport result = export_tables(source.tables, source.name, a.options);
   std::vector<NamedText> files;
   for (const ExportedFormat& format : result.formats)
     files.insert(files.end(), format.files.begin(), format.files.end());
-  write_whole_files(a.out, files);
-  const std::string figures = export_json(result).dump(2) + "\n";
-  if (a.json_file == "-") {
-    fmt::print("{}", figures);
-    return 0;
-  }
-  fmt::print("{}: {} files; entries X {} Y {} Z {}\n", a.out, files.size(), result.entries[0],
-             result.entries[1], result.entries[2]);
+  results.add_files(a.out, files);
+  results.add(a.json_file, json_text(export_json(result)));
+  results.write();
+  fmt::print(results.words(), "{}: {} files; entries X {} Y {} Z {}\n", a.out, files.size(),
+             result.entries[0], result.entries[1], result.entries[2]);
   for (const ExportedFormat& format : result.formats)
-    print_format(format, result);
-  if (!a.json_file.empty()) write_whole_file(a.json_file, figures);
+    print_format(results.words(), format, result);
   return 0;
 }
 
@@ -153,7 +160,7 @@ void add_export_tables_command(CLI::App& app, int& code) {
       ->required()
       ->check(CLI::IsMember({"siemens", "linuxcnc", "isg"}));
   command->add_option("--json", a->json_file,
-                      "Write the figures to this file; - to the standard output instead of text");
+                      "Write the figures to this file (-: standard output)");
   add_controller_options(*command, a->options);
   command->callback([a, &code] {
     std::vector<std::string>& formats = a->options.formats;

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_options.hpp"
 #include "host_sim/data/map_csv.hpp"
-#include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/face_gear/figures.hpp"
 #include "host_sim/scenarios/face_gear/report.hpp"
 
@@ -20,28 +20,34 @@ struct FaceGearArguments : RunArguments {
 };
 
 // As volcomp compare reads them.
-void write_maps(const std::filesystem::path& folder, const FaceGearResult& run) {
+void add_maps(const std::string& folder, const FaceGearResult& run, Results& results) {
   if (folder.empty()) return;
-  create_folder(folder);
+  std::vector<NamedText> files;
   const auto compensated = static_cast<std::size_t>(FaceStage::compensated);
   for (const FlankMap& flank : run.inspection.at(compensated).maps)
-    write_whole_file(folder / fmt::format("slot{}_{}_um.csv", flank.flank.slot + 1,
-                                          kFaceSideNames[flank.flank.side > 0 ? 0 : 1]),
-                     map_csv(flank.map));
+    files.push_back({fmt::format("slot{}_{}_um.csv", flank.flank.slot + 1,
+                                 kFaceSideNames[flank.flank.side > 0 ? 0 : 1]),
+                     map_csv(flank.map)});
+  results.add_files(folder, files);
 }
 
 int run_face_gear_command(const FaceGearArguments& arguments) {
-  ScenarioBus bus(arguments.node);
+  Results results = run_results(arguments, {arguments.options.gear});
+  const std::unique_ptr<RunView> view = run_view(arguments, results);
+  ScenarioBus bus(arguments.node, view.get());
   FaceGearOptions options = arguments.options;
   options.machine = machine_of(arguments, "yk7280");
   options.make_axes = bus.axes();
   options.cycle_hz = arguments.node.cycle_hz;
-  const FaceGearResult run = run_watched(
-      &bus, [&options](const Progress& progress) { return run_face_gear(options, progress); });
-  fmt::print("{}transport: {}\n", face_gear_summary(run), describe(arguments.node));
-  write_figures(arguments, face_gear_figures(run));
-  write_pages(arguments, face_gear_document(run, arguments.command, describe(arguments.node)));
-  write_maps(arguments.map_folder, run);
+  const FaceGearResult run = run_watched(*view, &bus, [&options](const Progress& progress) {
+    return run_face_gear(options, progress);
+  });
+  fmt::print(results.words(), "{}transport: {}\n", face_gear_summary(run),
+             describe(arguments.node));
+  add_maps(arguments.map_folder, run, results);
+  const nlohmann::json document = face_gear_document(run, run_context(arguments, *view));
+  write_results(arguments, document, face_gear_figures(run), results);
+  view->ended(document);
   return face_gear_verdict(run).ok ? 0 : 1;
 }
 
@@ -70,6 +76,7 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
                         "Form of the simulated flanks, that of the paper's Tables 7 and 8 or a "
                         "smooth one");
   face_gear->add_option("--seed", options.seed, "Seed of the errors of machine and gear")
+      ->check(seed_number())
       ->capture_default_str();
   face_gear
       ->add_option("--can", a->node.can,

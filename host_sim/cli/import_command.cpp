@@ -1,19 +1,22 @@
 // volcomp import
 
-#include <fstream>
 #include <memory>
-#include <sstream>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "comp/units.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/output.hpp"
+#include "host_sim/cli/run_files.hpp"
 #include "host_sim/controller_tables/linuxcnc_comp.hpp"
+#include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/data/whole_file.hpp"
 #include "host_sim/exchange/etalon_text.hpp"
 #include "host_sim/exchange/foreign_errors.hpp"
 #include "host_sim/exchange/isg_csv.hpp"
+#include "host_sim/machine/chain_string.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -23,6 +26,7 @@ struct ImportArguments {
   std::string sign;
   std::string absent;
   std::string out;
+  std::string json_file;
   // LinuxCNC
   std::string axis;
   std::string unit;
@@ -30,70 +34,116 @@ struct ImportArguments {
 };
 
 std::string names_of(const std::vector<std::string>& files) {
-  return fmt::format("{}", fmt::join(files, ", "));
+  std::string names;
+  for (const std::string& file : files)
+    names += (names.empty() ? "" : ", ") + shown_name(file);
+  return names;
 }
 
-// `origin` heads each file as a comment.
-int write_runs_to(const ImportArguments& a, const std::vector<RunsFile>& runs,
-                  const std::string& locations, const std::string& origin) {
+struct Imported {
+  std::vector<RunsFile> runs;
+  std::string locations;      // CSV; empty: there are none
+  std::string origin;         // heads each file as a comment
+  nlohmann::json convention;  // of the source
+};
+
+std::vector<NamedText> files_of(const Imported& imported) {
+  const std::string head = "# " + imported.origin + "\n";
   std::vector<NamedText> files;
-  for (const RunsFile& run : runs) {
-    std::ostringstream text;
-    text << "# " << origin << "\n";
-    write_runs(text, run);
-    files.push_back({fmt::format("runs_{}.csv", run.letter), text.str()});
-  }
-  if (!locations.empty())
-    files.push_back({"location_errors.csv", "# " + origin + "\n" + locations});
-  write_whole_files(a.out, files);
+  for (const RunsFile& run : imported.runs)
+    files.push_back({fmt::format("runs_{}.csv", run.letter), head + runs_csv(run)});
+  if (!imported.locations.empty())
+    files.push_back({"location_errors.csv", head + imported.locations});
+  return files;
+}
+
+std::string written_text(const ImportArguments& a, const Imported& imported,
+                         const std::vector<NamedText>& files) {
+  std::string text;
   for (std::size_t i = 0; i < files.size(); ++i) {
-    fmt::print("{}/{}", a.out, files[i].name);
-    if (i < runs.size()) {
-      fmt::print(": axis {}, {} positions, {}", runs[i].letter, runs[i].positions.size(),
-                 runs[i].down.empty() ? "one direction" : "both directions");
+    text += fmt::format("{}/{}", a.out, files[i].name);
+    if (i < imported.runs.size()) {
+      const RunsFile& runs = imported.runs[i];
+      text += fmt::format(": axis {}, {} positions, {}", runs.letter, runs.positions.size(),
+                          runs.down.empty() ? "one direction" : "both directions");
     }
-    fmt::print("\n");
+    text += "\n";
   }
-  if (!locations.empty())
-    fmt::print("location errors are not part of run files: see [squareness] of the machine file\n");
-  fmt::print(
-      "values are actual - nominal, mm and rad; convention, side, sensed point and reference are "
-      "said by the machine file\n");
-  return 0;
+  if (!imported.locations.empty())
+    text += "location errors are not part of run files: see [squareness] of the machine file\n";
+  return text +
+         "values are actual - nominal, mm and rad; convention, side, sensed point and reference "
+         "are "
+         "said by the machine file\n";
+}
+
+nlohmann::json written_json(const ImportArguments& a, const Imported& imported,
+                            const std::vector<NamedText>& files) {
+  nlohmann::json axes = nlohmann::json::array();
+  for (std::size_t i = 0; i < imported.runs.size(); ++i)
+    axes.push_back(run_file_json(imported.runs[i], a.out + "/" + files[i].name));
+  nlohmann::json location;
+  if (!imported.locations.empty()) location = a.out + "/" + files.back().name;
+  return {
+      {"sources", a.files},
+      {"source_convention", imported.convention},
+      {"absent_channels", a.absent.empty() ? nlohmann::json(nullptr) : nlohmann::json(a.absent)},
+      {"folder", a.out},
+      {"values", run_values_json()},
+      {"axes", axes},
+      {"location_errors", location}};
 }
 
 using ReadForeign = void (*)(std::istream&, const std::string&, ForeignErrors&);
 
-int import_errors(const ImportArguments& a, ReadForeign read) {
+template <class Read>
+int import_with(const ImportArguments& a, const Read& read) {
+  Results results({a.json_file}, a.files);
+  const Imported imported = read();
+  const std::vector<NamedText> files = files_of(imported);
+  results.add_files(a.out, files);
+  results.add(a.json_file, json_text(written_json(a, imported, files)));
+  results.write();
+  fmt::print(results.words(), "{}", written_text(a, imported, files));
+  return 0;
+}
+
+Imported import_errors(const ImportArguments& a, ReadForeign read) {
   ForeignErrors errors;
   for (const std::string& path : a.files) {
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(path))
-      throw UserError(path + ": cannot be opened");
-    read(stream, path, errors);
+    InputFile file(path);
+    read(file.stream(), file.name(), errors);
   }
   ImportRules rules;
   rules.sign = a.sign == "actual-minus-nominal" ? 1 : -1;
   rules.absent_zero = a.absent == "zero";
-  const std::string names = names_of(a.files);
-  return write_runs_to(a, to_runs(errors, names, rules), locations_csv(errors, rules),
-                       fmt::format("imported, values of the source are {}{}", a.sign,
-                                   rules.absent_zero ? "; channels that it lacks are 0" : ""));
+  return {to_runs(errors, names_of(a.files), rules),
+          locations_csv(errors, rules),
+          fmt::format("imported, values of the source are {}{}", a.sign,
+                      rules.absent_zero ? "; channels that it lacks are 0" : ""),
+          {{"sign", a.sign}}};
 }
 
-LinuxcncComp read_comp_file(const std::string& path, int type) {
-  constexpr std::size_t kLargest = std::size_t{1} << 20U;
-  const std::string text = read_whole_file(path, kLargest);
-  try {
-    return read_linuxcnc(text, type);
-  } catch (const UserError& e) {
-    throw UserError(fmt::format("{}: {}", path, e.what()));
+// Refuses what a run file cannot hold; entry k stands in line k + 1.
+void check_entries(const RunsFile& runs) {
+  for (std::size_t k = 0; k < runs.positions.size(); ++k) {
+    const auto fail = [&](const std::string& what) {
+      throw UserError(fmt::format("{}:{}: {}", runs.name, k + 1, what));
+    };
+    if (!fits_run_file(runs.positions[k])) fail("the position is out of range");
+    for (const RunValues* const run : {&runs.up.front(), &runs.down.front()}) {
+      if (!fits_run_file((*run)[k].cwiseAbs().maxCoeff())) fail("the error is out of range");
+    }
+    if (k > 0 && runs.positions[k] - runs.positions[k - 1] < kNearestTargets)
+      fail(fmt::format("positions nearer than {} {} are one in a run file", kNearestTargets,
+                       is_rotary_letter(runs.letter) ? "rad" : "mm"));
   }
 }
 
 // A trim is what is added to the command, so the error of the axis is minus the trim.
-RunsFile runs_of_comp(const LinuxcncComp& table, char axis, double unit) {
+RunsFile runs_of_comp(const LinuxcncComp& table, const std::string& name, char axis, double unit) {
   RunsFile runs;
+  runs.name = name;
   runs.letter = axis;
   const bool rotary = is_rotary_letter(axis);
   const Eigen::Index channel = rotary ? 3 + (axis - 'A') : axis - 'X';
@@ -110,24 +160,28 @@ RunsFile runs_of_comp(const LinuxcncComp& table, char axis, double unit) {
     runs.positions.push_back(at * unit);
   runs.up.push_back(errors(table.forward));
   runs.down.push_back(errors(table.reverse));
+  check_entries(runs);
   return runs;
 }
 
-int import_linuxcnc(const ImportArguments& a) {
+Imported import_linuxcnc(const ImportArguments& a) {
   const char axis = a.axis.front();
   if (is_rotary_letter(axis) != (a.unit == "deg"))
     throw UserError(fmt::format("--unit {}: of the wrong kind for axis {}", a.unit, axis));
-  const LinuxcncComp table = read_comp_file(a.files.front(), a.type);
+  InputFile file(a.files.front());
+  const LinuxcncComp table = read_linuxcnc(file.stream(), file.name(), a.type);
   if (a.absent != "zero")
     throw UserError(fmt::format(
         "{}: the file holds one error motion of axis {}; --absent zero writes the other five as 0",
-        a.files.front(), axis));
+        file.name(), axis));
   const double unit = a.unit == "mm" ? 1.0 : a.unit == "inch" ? 25.4 : kPi / 180.0;
-  return write_runs_to(
-      a, {runs_of_comp(table, axis, unit)}, "",
+  return {
+      {runs_of_comp(table, file.name(), axis, unit)},
+      "",
       fmt::format("imported from a LinuxCNC compensation file of type {}, {}; positioning of the "
                   "tool with respect to the work (convention relative), all other channels are 0",
-                  a.type, a.unit));
+                  a.type, a.unit),
+      {{"type", a.type}, {"unit", a.unit}}};
 }
 
 CLI::App* add_format(CLI::App& import, const char* name, const char* what, ImportArguments& a,
@@ -135,6 +189,8 @@ CLI::App* add_format(CLI::App& import, const char* name, const char* what, Impor
   CLI::App* format = import.add_subcommand(name, what);
   format->add_option("FILE", a.files, "What to read")->required()->expected(1, most_files);
   format->add_option("--out", a.out, "Folder to write runs_X.csv … to")->required();
+  format->add_option("--json", a.json_file,
+                     "Write what was read and written to this file (-: standard output)");
   format
       ->add_option("--absent", a.absent,
                    "zero: channels that are not in the file are written as 0; without it they are "
@@ -150,7 +206,8 @@ void add_error_format(CLI::App& import, const char* name, const char* what, Read
   format->add_option("--sign", a->sign, "What the values are; the format does not say it")
       ->required()
       ->check(CLI::IsMember({"actual-minus-nominal", "nominal-minus-actual"}));
-  format->callback([a, read, &code] { code = import_errors(*a, read); });
+  format->callback(
+      [a, read, &code] { code = import_with(*a, [&] { return import_errors(*a, read); }); });
 }
 
 }  // namespace
@@ -176,7 +233,7 @@ void add_import_command(CLI::App& app, int& code) {
   linuxcnc->add_option("--unit", a->unit, "[TRAJ] LINEAR_UNITS; deg for a rotary joint")
       ->required()
       ->check(CLI::IsMember({"mm", "inch", "deg"}));
-  linuxcnc->callback([a, &code] { code = import_linuxcnc(*a); });
+  linuxcnc->callback([a, &code] { code = import_with(*a, [&] { return import_linuxcnc(*a); }); });
 }
 
 }  // namespace volcomp::sim

@@ -6,7 +6,6 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/internal_helical/controller_files.hpp"
 #include "host_sim/scenarios/internal_helical/figures.hpp"
 #include "host_sim/scenarios/internal_helical/report.hpp"
@@ -19,35 +18,41 @@ struct InternalHelicalArguments : RunArguments {
   std::string table_folder;  // empty: none
 };
 
-std::vector<std::string> write_tables(const std::filesystem::path& folder,
-                                      const InternalHelicalResult& run) {
+std::vector<std::string> add_tables(const std::string& folder, const InternalHelicalResult& run,
+                                    Results& results) {
   std::vector<std::string> names;
   if (folder.empty()) return names;
-  create_folder(folder);
+  std::vector<NamedText> files;
   for (const ControllerFile& file : controller_files(run.gear, run.detail.tables)) {
-    write_whole_file(folder / file.name, file.text);
-    fmt::print("table: {} ({})\n", (folder / file.name).string(), file.meaning);
+    files.push_back({file.name, file.text});
+    fmt::print(results.words(), "table: {} ({})\n",
+               (std::filesystem::path(folder) / file.name).string(), file.meaning);
     names.push_back(file.name);
   }
+  results.add_files(folder, files);
   return names;
 }
 
 int run_internal_helical_command(const InternalHelicalArguments& arguments) {
   InternalHelicalOptions options = arguments.options;
   options.machine = machine_of(arguments, "internal_grinder");
+  Results results = run_results(arguments);
+  const std::unique_ptr<RunView> view = run_view(arguments, results);
+  options.watch = view.get();
   std::unique_ptr<ScenarioBus> bus;
   if (!arguments.node.integrated()) {
-    bus = std::make_unique<ScenarioBus>(arguments.node);
+    bus = std::make_unique<ScenarioBus>(arguments.node, view.get());
     options.make_axes = bus->axes();
   }
-  const InternalHelicalResult run = run_watched(bus.get(), [&options](const Progress& progress) {
-    return run_internal_helical(options, progress);
-  });
-  fmt::print("{}transport: {}\n", internal_helical_summary(run), describe(arguments.node));
-  const std::vector<std::string> tables = write_tables(arguments.table_folder, run);
-  write_figures(arguments, internal_helical_figures(run, tables));
-  write_pages(arguments,
-              internal_helical_document(run, arguments.command, describe(arguments.node)));
+  const InternalHelicalResult run = run_watched(
+      *view, bus.get(),
+      [&options](const Progress& progress) { return run_internal_helical(options, progress); });
+  fmt::print(results.words(), "{}transport: {}\n", internal_helical_summary(run),
+             describe(arguments.node));
+  const std::vector<std::string> tables = add_tables(arguments.table_folder, run, results);
+  const nlohmann::json document = internal_helical_document(run, run_context(arguments, *view));
+  write_results(arguments, document, internal_helical_figures(run, tables), results);
+  view->ended(document);
   return internal_helical_verdict(run).ok ? 0 : 1;
 }
 
@@ -78,7 +83,8 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
       "--can", a->node.can,
       fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}", kLinkForms));
   helical
-      ->add_option("--log", a->node.log_file, "Write all frames to this file, as candump -L does")
+      ->add_option("--log", a->node.log_file,
+                   "Write all frames to this file, as candump -L does (-: standard output)")
       ->needs("--can");
   helical->callback([a, &code] { code = run_internal_helical_command(*a); });
 }

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/l300g/figures.hpp"
 #include "host_sim/scenarios/l300g/report.hpp"
 
@@ -18,25 +18,27 @@ struct L300gArguments : RunArguments {
   std::string gcode_folder;  // empty: none
 };
 
-void write_programs(const std::filesystem::path& folder, const L300gResult& result) {
+void add_programs(const std::string& folder, const L300gResult& result, Results& results) {
   if (folder.empty()) return;
-  create_folder(folder);
-  write_whole_file(folder / "inspection_before.ngc", result.before.program);
-  write_whole_file(folder / "inspection_after.ngc", result.after.program);
+  results.add_files(folder, {{"inspection_before.ngc", result.before.program},
+                             {"inspection_after.ngc", result.after.program}});
 }
 
 int run_l300g_command(const L300gArguments& arguments) {
-  ScenarioBus bus(arguments.node);
+  Results results = run_results(arguments, {arguments.options.errors});
+  const std::unique_ptr<RunView> view = run_view(arguments, results);
+  ScenarioBus bus(arguments.node, view.get());
   L300gOptions options = arguments.options;
   options.machine = machine_of(arguments, "l300g");
   options.make_axes = bus.axes();
   options.cycle_hz = arguments.node.cycle_hz;
   const L300gResult result = run_watched(
-      &bus, [&options](const Progress& progress) { return run_l300g(options, progress); });
-  fmt::print("{}transport: {}\n", l300g_summary(result), describe(arguments.node));
-  write_figures(arguments, l300g_figures(result));
-  write_pages(arguments, l300g_document(result, arguments.command, describe(arguments.node)));
-  write_programs(arguments.gcode_folder, result);
+      *view, &bus, [&options](const Progress& progress) { return run_l300g(options, progress); });
+  fmt::print(results.words(), "{}transport: {}\n", l300g_summary(result), describe(arguments.node));
+  add_programs(arguments.gcode_folder, result, results);
+  const nlohmann::json document = l300g_document(result, run_context(arguments, *view));
+  write_results(arguments, document, l300g_figures(result), results);
+  view->ended(document);
   return l300g_verdict(result).ok ? 0 : 1;
 }
 
@@ -66,6 +68,7 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
                    fmt::format("What is wrong with the machine: {}, or a file", kNamedErrors))
       ->capture_default_str();
   l300g->add_option("--seed", options.seed, "Seed of the phases of the waves")
+      ->check(seed_number())
       ->capture_default_str();
   l300g
       ->add_option("--can", a->node.can,

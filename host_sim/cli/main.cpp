@@ -1,53 +1,84 @@
-// volcomp: the host tool. Exit codes: 0 done, 1 done but the verdict is negative, 2 input that
-// cannot be used.
+// volcomp: the host tool. Exit codes: exit_codes.hpp.
 
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/exit_codes.hpp"
+#include "host_sim/cli/output.hpp"
 #include "host_sim/data/interruption.hpp"
 #include "host_sim/version.hpp"
 
+namespace volcomp::sim {
 namespace {
+
+// An empty value is what an unset variable of a shell leaves, and would pass for "not given".
+void refuse_empty_values(CLI::App& app) {
+  const CLI::Validator given{[](const std::string& value) {
+                               return std::string(value.empty() ? "the value is empty" : "");
+                             },
+                             ""};
+  std::vector<CLI::App*> commands{&app};  // with those below them, appended as they are met
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    for (CLI::Option* option : commands[i]->get_options()) {
+      const bool takes_none = option->get_name() == "--gear";  // "": no gear
+      if (option->get_items_expected_max() > 0 && !takes_none) option->check(given);
+    }
+    const std::vector<CLI::App*> below =
+        commands[i]->get_subcommands([](CLI::App*) { return true; });
+    commands.insert(commands.end(), below.begin(), below.end());
+  }
+}
 
 int run(int argc, char** argv) {
   CLI::App app{
       "Volumetric error compensation for machine tools: simulate, build tables, check machines."};
   app.name("volcomp");
-  app.set_version_flag("--version", std::string("volcomp ") + volcomp::sim::kVersion);
+  app.set_version_flag("--version", std::string("volcomp ") + kVersion);
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 done, 1 done but the verdict is negative, 2 input that cannot be used.");
+  app.footer(exit_code_lines());
   int code = 0;
-  volcomp::sim::add_run_command(app, argc, argv, code);
-  volcomp::sim::add_build_tables_command(app, code);
-  volcomp::sim::add_export_tables_command(app, code);
-  volcomp::sim::add_import_command(app, code);
-  volcomp::sim::add_check_lever_command(app, code);
-  volcomp::sim::add_machine_command(app, code);
-  volcomp::sim::add_list_command(app, code);
-  volcomp::sim::add_device_files_command(app, code);
-  volcomp::sim::add_can_commands(app, code);
-  volcomp::sim::add_replay_command(app, code);
-  volcomp::sim::add_bus_load_command(app, code);
-  volcomp::sim::add_compare_command(app, argc, argv, code);
+  add_run_command(app, argc, argv, code);
+  add_build_tables_command(app, code);
+  add_export_tables_command(app, code);
+  add_import_command(app, code);
+  add_check_lever_command(app, code);
+  add_verify_command(app, argc, argv, code);
+  add_simulate_command(app, code);
+  add_machine_command(app, code);
+  add_list_command(app, code);
+  add_device_files_command(app, code);
+  add_explain_command(app, code);
+  add_can_commands(app, code);
+  add_monitor_command(app, code);
+  add_replay_command(app, code);
+  add_bus_load_command(app, code);
+  add_compare_command(app, argc, argv, code);
+  add_completion_command(app, code);
+  add_man_command(app, code);
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    return app.exit(e) == 0 ? 0 : number(ExitCode::unusable);
   }
+  finish_standard_output();
   return code;
 }
 
 }  // namespace
+}  // namespace volcomp::sim
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return volcomp::sim::run(argc, argv);
   } catch (const volcomp::sim::Interrupted& interrupted) {
     static_cast<void>(std::raise(interrupted.signal));  // whoever waits for us shall see why
   } catch (const std::exception& e) {
@@ -55,5 +86,5 @@ int main(int argc, char** argv) {
   } catch (...) {
     fmt::print(stderr, "volcomp: unknown error\n");
   }
-  return 2;
+  return volcomp::sim::number(volcomp::sim::ExitCode::unusable);
 }

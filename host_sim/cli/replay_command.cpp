@@ -3,12 +3,14 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "host_sim/boards/emulated_node.hpp"
 #include "host_sim/bus_tools/replay.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/firmware_options.hpp"
+#include "host_sim/cli/output.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -18,6 +20,7 @@ struct ReplayArguments {
   std::string image;
   FirmwareChoice firmware;
   int node_id = 32;
+  std::string json_file;
 };
 
 // Firmware for as long as a replay needs it, started anew whenever the log says so.
@@ -60,9 +63,29 @@ ReplayResult replay_as_asked(const ReplayArguments& arguments) {
   return replay(log, node_id, read_image_file(arguments.image));
 }
 
+nlohmann::json to_json(const ReplayResult& r) {
+  nlohmann::json difference;
+  if (r.difference) {
+    difference = {{"line", r.difference->line},
+                  {"time_us", r.difference->time_us},
+                  {"what", r.difference->what}};
+  }
+  return {{"difference", difference},
+          {"ok", r.equal()},
+          {"cycles", r.cycles},
+          {"frames_fed", r.fed},
+          {"frames_compared", r.compared},
+          {"frames_skipped", r.skipped},
+          {"power_ups", r.power_ups}};
+}
+
 int replay_log(const ReplayArguments& arguments) {
+  Results results({arguments.json_file},
+                  {arguments.log, arguments.image, arguments.firmware.image.string()});
   const ReplayResult result = replay_as_asked(arguments);
-  fmt::print("{}", describe(result));
+  results.add(arguments.json_file, json_text(to_json(result)));
+  results.write();
+  fmt::print(results.words(), "{}", describe(result));
   return result.equal() ? 0 : 1;
 }
 
@@ -80,6 +103,7 @@ void add_replay_command(CLI::App& app, int& code) {
   CLI::Option* image = command->add_option(
       "--image", a->image, "Tables the node had stored before the log begins (image file)");
   add_firmware_options(*command, a->firmware, "Feed it to the node as firmware")->excludes(image);
+  command->add_option("--json", a->json_file, "Write it to this file, too (-: standard output)");
   command->callback([a, &code] { code = replay_log(*a); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/firmware_options.hpp"
+#include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_options.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/xyfz/one_diagonal.hpp"
@@ -23,22 +24,27 @@ struct XyfzArguments : RunArguments {
 
 // Runs run_xyfz or one of its kind with the node where it was asked for.
 template <class Result>
-Result run_scenario(const XyfzArguments& arguments,
+Result run_scenario(const XyfzArguments& arguments, RunView& view,
                     Result (*scenario)(const XyfzOptions&, const Progress&)) {
   XyfzOptions options = arguments.options;
   std::unique_ptr<ScenarioBus> bus;
-  if (!arguments.node.integrated()) {
-    bus = std::make_unique<ScenarioBus>(arguments.node);
+  if (arguments.node.integrated()) {
+    options.make_cell = watched_integrated_cells("XYZ", view);
+  } else {
+    bus = std::make_unique<ScenarioBus>(arguments.node, &view);
     options.make_cell = bus->cells(read_machine_file(options.machine));
   }
-  return run_watched(bus.get(),
+  return run_watched(view, bus.get(),
                      [&](const Progress& progress) { return scenario(options, progress); });
 }
 
 int run_diagonal_only(const XyfzArguments& arguments) {
-  const OneDiagonal result = run_scenario(arguments, run_one_diagonal);
-  fmt::print("{}transport: {}\n", one_diagonal_summary(result), describe(arguments.node));
-  write_figures(arguments, one_diagonal_figures(result));
+  Results results = run_results(arguments);
+  const std::unique_ptr<RunView> view = run_view(arguments, results);
+  const OneDiagonal result = run_scenario(arguments, *view, run_one_diagonal);
+  fmt::print(results.words(), "{}transport: {}\n", one_diagonal_summary(result),
+             describe(arguments.node));
+  write_results(arguments, {}, one_diagonal_figures(result), results);
   return result.ok() ? 0 : 1;
 }
 
@@ -50,11 +56,14 @@ int run_xyfz_command(XyfzArguments& arguments) {
     options.campaign = std::filesystem::path(arguments.report_folder) / "campaign";
   }
   if (arguments.one_diagonal) return run_diagonal_only(arguments);
-  XyfzResult result = run_scenario(arguments, run_xyfz);
+  Results results = run_results(arguments);
+  const std::unique_ptr<RunView> view = run_view(arguments, results);
+  XyfzResult result = run_scenario(arguments, *view, run_xyfz);
   result.options.make_cell = {};  // the bus has ended
-  fmt::print("{}transport: {}\n", xyfz_summary(result), describe(arguments.node));
-  write_figures(arguments, xyfz_figures(result));
-  write_pages(arguments, xyfz_document(result, arguments.command));
+  fmt::print(results.words(), "{}transport: {}\n", xyfz_summary(result), describe(arguments.node));
+  const nlohmann::json document = xyfz_document(result, run_context(arguments, *view));
+  write_results(arguments, document, xyfz_figures(result), results);
+  view->ended(document);
   return xyfz_verdict(result).ok ? 0 : 1;
 }
 
@@ -81,9 +90,11 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
   xyfz->add_option("--seed", a->options.seed, "Seed of instruments, readings and random points")
+      ->check(seed_number())
       ->capture_default_str();
   xyfz->add_option("--machine-seed", a->options.machine_seed,
                    "Seed of the machine's error functions")
+      ->check(seed_number())
       ->capture_default_str();
   xyfz->add_option("--volume-points", a->options.volume_points,
                    "Random places behind the figure of the volume")
@@ -96,6 +107,7 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
       "--one-diagonal", a->one_diagonal,
       "Only the body diagonal PNP at 11 points, without and with compensation, noise-free");
   add_output_options(*xyfz, *a)->excludes(one);
+  xyfz->get_option("--serve")->excludes(one);
   const std::vector<CLI::Option*> on_a_bus = add_node_options(*xyfz, a->node);
   xyfz->callback([a, on_a_bus, &code] {
     for (const CLI::Option* option : on_a_bus) {
@@ -111,6 +123,7 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   add_l300g_command(*run, a->command, code);
   add_face_gear_command(*run, a->command, code);
   add_internal_helical_command(*run, a->command, code);
+  add_run_machine_command(*run, a->command, code);
 }
 
 }  // namespace volcomp::sim

@@ -1,11 +1,25 @@
 #include "host_sim/cli/run_options.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
-#include "host_sim/data/whole_file.hpp"
+#include "host_sim/cli/number_check.hpp"
 #include "host_sim/report/report.hpp"
 
 namespace volcomp::sim {
+namespace {
+
+struct ReportFiles {
+  std::string data;
+  std::string page;
+};
+
+ReportFiles report_files(const std::filesystem::path& folder) {
+  return {(folder / "report.json").string(), (folder / "report.html").string()};
+}
+
+}  // namespace
 
 std::string command_line(int argc, char** argv) {
   std::string text = "volcomp";
@@ -21,17 +35,28 @@ CLI::Option* add_output_options(CLI::App& scenario, RunArguments& arguments) {
 }
 
 CLI::Option* add_figure_options(CLI::App& scenario, RunArguments& arguments) {
-  scenario.add_option("--json", arguments.json_file, "Write the figures to this file");
+  scenario.add_option("--json", arguments.json_file,
+                      "Write the figures to this file (-: standard output)");
+  CLI::Option* serve =
+      scenario
+          .add_option("--serve", arguments.live.port,
+                      "Show the run while it goes on in browsers of this computer, at this port "
+                      "(0: any that is free)")
+          ->expected(0, 1)
+          ->default_str(std::to_string(kLivePort));
+  scenario.add_flag("--stay", arguments.live.stay, "The page stays after the run, until Ctrl+C")
+      ->needs(serve);
   return scenario.add_option("--report", arguments.report_folder,
                              "Write report.html, report.json and what belongs to them here");
 }
 
 std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node) {
   CLI::Option* cycle = scenario.add_option("--cycle-hz", node.cycle_hz, "Cycle on the bus")
-                           ->check(CLI::Range(50.0, 1000.0))
+                           ->check(number_between(50.0, 1000.0))
                            ->capture_default_str();
   CLI::Option* log = scenario.add_option("--log", node.log_file,
-                                         "Write all frames to this file, as candump -L does");
+                                         "Write all frames to this file, as candump -L does (-: "
+                                         "standard output)");
   return {cycle, log};
 }
 
@@ -40,17 +65,45 @@ std::filesystem::path machine_of(const RunArguments& arguments, const std::strin
                                    : std::filesystem::path(arguments.machine);
 }
 
-void write_figures(const RunArguments& arguments, nlohmann::json figures) {
-  if (arguments.json_file.empty()) return;
-  figures["transport"] = describe(arguments.node);
-  write_whole_file(arguments.json_file, figures.dump(2) + "\n");
+std::unique_ptr<RunView> run_view(const RunArguments& arguments, const Results& results) {
+  return std::make_unique<RunView>(arguments.live, arguments.command, describe(arguments.node),
+                                   results.words());
 }
 
-void write_pages(const RunArguments& arguments, const nlohmann::json& document) {
-  if (arguments.report_folder.empty()) return;
-  const std::filesystem::path folder = arguments.report_folder;
-  write_report(document, folder);
-  fmt::print("report: {}\n", (folder / "report.html").string());
+RunContext run_context(const RunArguments& arguments, const RunView& view) {
+  return {arguments.command, describe(arguments.node), &view.ticks()};
+}
+
+Results run_results(const RunArguments& arguments, const std::vector<std::string>& more_inputs) {
+  std::vector<std::string> inputs = more_inputs;
+  inputs.insert(inputs.end(), {arguments.machine, arguments.node.firmware.image.string()});
+  return Results(
+      with_report({arguments.json_file, arguments.node.log_file}, arguments.report_folder),
+      std::move(inputs));
+}
+
+void write_results(const RunArguments& arguments, const nlohmann::json& document,
+                   nlohmann::json figures, Results& results) {
+  const std::string& folder = arguments.report_folder;
+  if (!folder.empty()) add_report(results, folder, document);
+  figures["transport"] = describe(arguments.node);
+  results.add(arguments.json_file, json_text(figures));
+  results.write();
+  if (!folder.empty()) fmt::print(results.words(), "report: {}\n", report_files(folder).page);
+}
+
+std::vector<std::string> with_report(std::vector<std::string> names, const std::string& folder) {
+  if (folder.empty()) return names;
+  const ReportFiles report = report_files(folder);
+  names.insert(names.end(), {report.data, report.page});
+  return names;
+}
+
+void add_report(Results& results, const std::string& folder, const nlohmann::json& document) {
+  const ReportFiles report = report_files(folder);
+  results.add_folder(folder);
+  results.add(report.data, report_text(document));
+  results.add(report.page, report_html(document));
 }
 
 }  // namespace volcomp::sim

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "firmware/canopen/cob_id.hpp"
+#include "firmware/canopen/nmt.hpp"
+
 namespace volcomp::sim {
 
 std::string describe(const NodePlace& place) {
@@ -20,7 +23,8 @@ std::size_t knots_at(const NodePlace& place) {
   return place.firmware.chosen() ? emulated_board(place.firmware.board).knots : kDefaultKnots;
 }
 
-ScenarioBus::ScenarioBus(const NodePlace& place) : cycle_hz_(place.cycle_hz) {
+ScenarioBus::ScenarioBus(const NodePlace& place, MachineWatch* watch)
+    : cycle_hz_(place.cycle_hz), watch_(watch) {
   join(place);
   if (place.log_file.empty()) return;
   const std::string name = place.firmware.chosen() ? place.firmware.board : place.can;
@@ -45,7 +49,19 @@ void ScenarioBus::join(const NodePlace& place) {
 
 BusAxesFactory ScenarioBus::axes() {
   BusAxesFactory make = gateway_ ? gateway_axes(*gateway_) : loopback_axes();
-  return recorder_ ? recorded(std::move(make), *recorder_) : make;
+  if (recorder_) make = recorded(std::move(make), *recorder_);
+  return watch_ != nullptr ? watched(std::move(make), *watch_) : make;
+}
+
+void ScenarioBus::switch_off() {
+  if (link_ == nullptr) return;
+  constexpr std::uint32_t kWait_us = 1000;
+  constexpr int kPatience = 100;
+  hal::CanFrame everybody{canopen::kNmt, 2, {}};
+  everybody.data[0] = static_cast<std::uint8_t>(canopen::NmtCommand::enter_pre_operational);
+  for (int i = 0; i < kPatience && !link_->send(everybody); ++i)
+    link_->wait(kWait_us);
+  link_->wait(kWait_us);
 }
 
 void ScenarioBus::finish() {

@@ -27,7 +27,8 @@ struct NodePlace {
 // Not for the integrated form. Every function throws UserError.
 class ScenarioBus {
  public:
-  explicit ScenarioBus(const NodePlace& place);
+  // `watch`, if any, sees every cycle of every machine; it must outlive them.
+  explicit ScenarioBus(const NodePlace& place, MachineWatch* watch = nullptr);
 
   // Does the work; what goes wrong in it is told together with what the firmware said last.
   template <class Work>
@@ -39,6 +40,9 @@ class ScenarioBus {
   [[nodiscard]] CellFactory cells(const MachineFile& machine) {
     return bus_cells(machine, cycle_hz_, axes());
   }
+  // The machine is switched off: a node elsewhere goes back to PRE-OPERATIONAL, where it waits for
+  // the next controller and service tools may store what it has.
+  void switch_off();
   // After the scenario: the log is complete, the firmware has ended well.
   void finish();
 
@@ -46,6 +50,7 @@ class ScenarioBus {
   void join(const NodePlace& place);
 
   double cycle_hz_;
+  MachineWatch* watch_;
   std::unique_ptr<EmulatedNode> board_;
   std::unique_ptr<FrameLink> opened_;
   FrameLink* link_ = nullptr;  // to a node that is not in this process

@@ -1,15 +1,20 @@
-// volcomp build-tables, volcomp machine check, volcomp list
+// volcomp build-tables
 
+#include <cmath>
 #include <ctime>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "comp/tables/image.hpp"
+#include "host_sim/bus_tools/thermal_diagnosis.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/number_check.hpp"
+#include "host_sim/cli/output.hpp"
 #include "host_sim/commissioning/commission.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -18,31 +23,112 @@ struct BuildArguments {
   std::string machine;
   std::vector<std::string> runs;
   std::string out;
+  std::string json_file;
   std::string model = "abbe_closed";
   std::string slope = "lsq";
   bool no_resampling = false;
   std::string stamp = "volcomp";
-  double temperature_C = 20.0;
+  std::optional<double> temperature_C;
+  std::optional<double> expires_days;
   std::size_t knots = kDefaultKnots;
 };
 
-void print_axis(const MachineFile& machine, const Commissioned& tables, std::size_t a) {
-  const BuiltTable& b = *tables.built[a];
-  const Iso230Figures& f = b.positioning;
-  const double scale = machine.chain.axis(a).kind == JointKind::rotary ? 1e6 : 1e3;
-  fmt::print(
-      "{}  {} targets -> {} knots, {} reversal; ISO 230-2: A {:.2f} R {:.2f} E {:.2f} B {:.2f} M "
-      "{:.2f} {}\n",
-      machine.axes[a].letter, b.targets, tables.tables.axis[a].knots,
-      b.reversal_known ? "known" : "unknown", scale * f.A, scale * f.R, scale * f.E, scale * f.B,
-      scale * f.M, machine.chain.axis(a).kind == JointKind::rotary ? "urad" : "um");
+bool is_rotary(const MachineFile& machine, std::size_t a) {
+  return machine.chain.axis(a).kind == JointKind::rotary;
 }
 
-int build_tables(const BuildArguments& arguments) {
-  const MachineFile machine = read_machine_file(arguments.machine);
-  std::vector<RunsFile> runs;
-  for (const std::string& path : arguments.runs)
-    runs.push_back(read_runs_file(path));
+std::string closed_text(const std::optional<TurnGap>& gap) {
+  if (!gap) return "";
+  return fmt::format("; ends of the turn {:.2f} µm, {:.2f} µrad apart, closed", 1e3 * gap->mm,
+                     1e6 * gap->rad);
+}
+
+std::string axis_line(const MachineFile& machine, const Commissioned& tables, std::size_t a) {
+  const BuiltTable& b = *tables.built[a];
+  const Iso230Figures& f = b.positioning;
+  const double scale = is_rotary(machine, a) ? 1e6 : 1e3;
+  return fmt::format(
+      "{}  {} targets -> {} knots, {} reversal; ISO 230-2: A {:.2f} R {:.2f} E {:.2f} B {:.2f} M "
+      "{:.2f} {}{}\n",
+      machine.axes[a].letter, b.targets, tables.tables.axis[a].knots,
+      b.reversal_known ? "known" : "unknown", scale * f.A, scale * f.R, scale * f.E, scale * f.B,
+      scale * f.M, is_rotary(machine, a) ? "µrad" : "µm", closed_text(tables.gaps[a]));
+}
+
+std::string validity_text(const MachineFile& machine, const Provenance& provenance) {
+  std::string text;
+  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    const AxisExpansion& e = machine.thermal.expansion.at(a);
+    if (e.input == kNoTemperature) continue;
+    text += fmt::format("{}  grows by {:.2f} µm per m and K from {:.1f} deg C on, temperature {}\n",
+                        machine.axes[a].letter, 1e6 * static_cast<double>(e.per_K),
+                        provenance.temperature_C, e.input);
+  }
+  if (provenance.expires_unix_s != 0)
+    text += fmt::format("expires {} UTC\n", date_text(provenance.expires_unix_s));
+  return text;
+}
+
+std::string words_of(const MachineFile& machine, const Commissioned& tables) {
+  std::string text;
+  for (std::size_t a = 0; a < machine.axes.size(); ++a)
+    text += axis_line(machine, tables, a);
+  if (machine.squareness) {
+    const XyfzSquareness& p = tables.parameters;
+    text += fmt::format("squareness in the model: a_xy {:.2f} a_xz {:.2f} a_yz {:.2f} µrad\n",
+                        1e6 * p.a_xy, 1e6 * p.a_xz, 1e6 * p.a_yz);
+  }
+  text += validity_text(machine, tables.tables.provenance);
+  for (const std::string& warning : tables.warnings)
+    text += fmt::format("warning: {}\n", warning);
+  return text + fmt::format("first-order run-time model within {:.1f} nm of the exact chain\n",
+                            tables.model_bound_nm);
+}
+
+// Figures after ISO 230-2 in um or urad.
+nlohmann::json axis_json(const MachineFile& machine, const Commissioned& tables, std::size_t a) {
+  const BuiltTable& b = *tables.built[a];
+  const Iso230Figures& f = b.positioning;
+  const double scale = is_rotary(machine, a) ? 1e6 : 1e3;
+  nlohmann::json j{{"axis", std::string(1, machine.axes[a].letter)},
+                   {"targets", b.targets},
+                   {"knots", tables.tables.axis[a].knots},
+                   {"reversal_known", b.reversal_known},
+                   {"unit", is_rotary(machine, a) ? "urad" : "um"},
+                   {"iso230_2",
+                    {{"A", scale * f.A},
+                     {"R", scale * f.R},
+                     {"E", scale * f.E},
+                     {"B", scale * f.B},
+                     {"M", scale * f.M}}}};
+  if (const std::optional<TurnGap>& gap = tables.gaps[a])
+    j["turn_closed"] = {{"um", 1e3 * gap->mm}, {"urad", 1e6 * gap->rad}};
+  return j;
+}
+
+nlohmann::json build_json(const MachineFile& machine, const Commissioned& tables,
+                          const std::vector<std::uint8_t>& image) {
+  nlohmann::json axes = nlohmann::json::array();
+  for (std::size_t a = 0; a < machine.axes.size(); ++a)
+    axes.push_back(axis_json(machine, tables, a));
+  nlohmann::json j{{"machine", machine.name},
+                   {"machine_id", machine.id},
+                   {"bytes", image.size()},
+                   {"crc32", fmt::format("{:08X}", image_crc({image.data(), image.size()}))},
+                   {"model_bound_nm", tables.model_bound_nm},
+                   {"temperature_C", tables.tables.provenance.temperature_C},
+                   {"warnings", tables.warnings},
+                   {"axes", axes}};
+  if (tables.tables.provenance.expires_unix_s != 0)
+    j["expires_utc"] = date_text(tables.tables.provenance.expires_unix_s);
+  if (machine.squareness) {
+    const XyfzSquareness& p = tables.parameters;
+    j["squareness_urad"] = {{"a_xy", 1e6 * p.a_xy}, {"a_xz", 1e6 * p.a_xz}, {"a_yz", 1e6 * p.a_yz}};
+  }
+  return j;
+}
+
+CommissionOptions options_of(const BuildArguments& arguments) {
   CommissionOptions options;
   options.model = arguments.model == "naive"  ? ModelKind::naive
                   : arguments.model == "abbe" ? ModelKind::abbe
@@ -50,56 +136,35 @@ int build_tables(const BuildArguments& arguments) {
   options.slope = arguments.slope == "end" ? SlopeFit::end_points : SlopeFit::least_squares;
   options.allow_resampling = !arguments.no_resampling;
   options.knots = arguments.knots;
-  const auto tables = commission(machine, runs, options);
+  return options;
+}
+
+int build_tables(const BuildArguments& arguments) {
+  std::vector<std::string> inputs = arguments.runs;
+  inputs.push_back(arguments.machine);
+  Results results({arguments.out, arguments.json_file}, std::move(inputs));
+  const MachineFile machine = read_machine_file(arguments.machine);
+  std::vector<RunsFile> runs;
+  for (const std::string& path : arguments.runs)
+    runs.push_back(read_runs_file(path));
+  const auto tables = commission(machine, runs, options_of(arguments));
   Provenance& provenance = tables->tables.provenance;
   provenance.built_unix_s = static_cast<std::int64_t>(std::time(nullptr));
-  provenance.temperature_C = static_cast<float>(arguments.temperature_C);
+  if (arguments.temperature_C)
+    provenance.temperature_C = static_cast<float>(*arguments.temperature_C);
+  const double days = arguments.expires_days.value_or(machine.thermal.expires_days);
+  if (days > 0.0) {
+    provenance.expires_unix_s =
+        provenance.built_unix_s + static_cast<std::int64_t>(std::ceil(86'400.0 * days));
+  }
   arguments.stamp.copy(provenance.stamp.data(), provenance.stamp.size());
   const std::vector<std::uint8_t> image = make_image(tables->tables);
-  write_whole_file(arguments.out, {reinterpret_cast<const char*>(image.data()), image.size()});
-
-  for (std::size_t a = 0; a < machine.axes.size(); ++a)
-    print_axis(machine, *tables, a);
-  if (machine.squareness) {
-    const XyfzSquareness& p = tables->parameters;
-    fmt::print("squareness in the model: a_xy {:.2f} a_xz {:.2f} a_yz {:.2f} urad\n", 1e6 * p.a_xy,
-               1e6 * p.a_xz, 1e6 * p.a_yz);
-  }
-  for (const std::string& warning : tables->warnings)
-    fmt::print("warning: {}\n", warning);
-  fmt::print("first-order run-time model within {:.1f} nm of the exact chain\n",
-             tables->model_bound_nm);
-  fmt::print("{}: {} bytes, machine {}, CRC-32 {:08X}\n", arguments.out, image.size(), machine.id,
+  results.add(arguments.out, {reinterpret_cast<const char*>(image.data()), image.size()});
+  results.add(arguments.json_file, json_text(build_json(machine, *tables, image)));
+  results.write();
+  fmt::print(results.words(), "{}{}: {} bytes, machine {}, CRC-32 {:08X}\n",
+             words_of(machine, *tables), shown_output(arguments.out), image.size(), machine.id,
              image_crc({image.data(), image.size()}));
-  return 0;
-}
-
-// base-to-tip reading of a branch, for instance "bed - Y - X".
-std::string branch_text(const MachineFile& machine, const BodyPath& path) {
-  std::string text;
-  for (const std::uint8_t body : path) {
-    const Joint& joint = machine.chain.joint(body);
-    text += joint.moves() ? fmt::format(" - {}", joint.letter)
-                          : fmt::format(" - ({})", machine.body_names[body]);
-  }
-  return text;
-}
-
-int check_machine(const std::string& path) {
-  const MachineFile m = read_machine_file(path);
-  fmt::print("{}: {} (id {}), good\n", path, m.name, m.id);
-  fmt::print("workpiece: base{}\ntool:      base{}\n", branch_text(m, m.chain.work()),
-             branch_text(m, m.chain.tool()));
-  for (std::size_t a = 0; a < m.axes.size(); ++a) {
-    const AxisFile& axis = m.axes[a];
-    const bool rotary = m.chain.axis(a).kind == JointKind::rotary;
-    fmt::print("axis {}: {} {} to {} {}, {} targets, zero at {}\n", axis.letter,
-               rotary ? "rotary" : "linear", axis.lo, axis.hi, rotary ? "rad" : "mm", axis.targets,
-               axis.reference);
-  }
-  fmt::print("run-time model: {}\n",
-             m.chain.has_rotary() ? "second-order recursion" : "first-order sum, folded");
-  if (!m.squareness) fmt::print("no [squareness]: tables will hold no squareness\n");
   return 0;
 }
 
@@ -111,7 +176,9 @@ void add_build_tables_command(CLI::App& app, int& code) {
   auto a = std::make_shared<BuildArguments>();
   build->add_option("--machine", a->machine, "Machine file (TOML)")->required();
   build->add_option("--runs", a->runs, "Run files (CSV), one per axis")->required();
-  build->add_option("--out", a->out, "Image file to write")->required();
+  build->add_option("--out", a->out, "Image file to write (-: standard output)")->required();
+  build->add_option("--json", a->json_file,
+                    "Write the figures of every axis to this file (-: standard output)");
   build->add_option("--model", a->model, "Error model")
       ->check(CLI::IsMember({"abbe_closed", "abbe", "naive"}))
       ->capture_default_str();
@@ -127,33 +194,17 @@ void add_build_tables_command(CLI::App& app, int& code) {
                    "Most knots of a table: what the node has room for (M4F board: 64)")
       ->check(CLI::Range(std::size_t{2}, kDefaultKnots))
       ->capture_default_str();
-  build->add_option("--temperature", a->temperature_C, "Temperature of the campaign, deg C")
-      ->capture_default_str();
+  build
+      ->add_option("--temperature", a->temperature_C,
+                   "Temperature of the campaign, deg C (default: that of the machine file)")
+      ->check(number_between(static_cast<double>(kLeastTemperature_C),
+                             static_cast<double>(kMostTemperature_C)));
+  build
+      ->add_option("--expires", a->expires_days,
+                   "Days until the tables expire, 0: never (default: that of the machine file)")
+      ->check(number_between(0.0, kMostExpiry_days));
   build->add_option("--stamp", a->stamp, "Operator, up to 16 characters")->capture_default_str();
   build->callback([a, &code] { code = build_tables(*a); });
-}
-
-void add_machine_command(CLI::App& app, int& code) {
-  CLI::App* machine = app.add_subcommand("machine", "Machine files");
-  machine->require_subcommand(1);
-  CLI::App* check =
-      machine->add_subcommand("check", "Read a machine file and say what it describes");
-  auto path = std::make_shared<std::string>();
-  check->add_option("FILE", *path, "Machine file (TOML)")->required();
-  check->callback([path, &code] { code = check_machine(*path); });
-}
-
-void add_list_command(CLI::App& app, int& code) {
-  CLI::App* list =
-      app.add_subcommand("list", "List scenarios and the machines that come with the program");
-  list->callback([&code] {
-    fmt::print(
-        "scenarios:\n  xyfz    three-axis machine, Abbe-optimised volumetric model, 21 errors "
-        "(seed 001)\n  l300g   gear grinder that measures, involute gears, 24 errors (seed 000)\n");
-    fmt::print("machines:\n  {}\n  {}\n", bundled_machine("xyfz").string(),
-               bundled_machine("l300g").string());
-    code = 0;
-  });
 }
 
 }  // namespace volcomp::sim

@@ -5,15 +5,19 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/compensator.hpp"
+#include "comp/realtime/instances.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/squareness.hpp"
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/machine/machine_facts.hpp"
 
 namespace volcomp::sim {
 namespace {
 
 constexpr int kBoundSteps = 7;
+
+// More between the ends of a turn is not drift: a lost count, a wrong file, a table that is loose.
+constexpr TurnGap kMostDrift{5e-3, 50e-6};
 
 const RunsFile& runs_of(const std::vector<RunsFile>& runs, const MachineFile& machine,
                         char letter) {
@@ -44,6 +48,23 @@ int reference_target(const RunsFile& runs, const AxisFile& axis) {
                           runs.positions.begin());
 }
 
+// Beyond the targets the value of the end is used: that nearly all of the travel is beyond them is
+// a wrong unit, not a choice.
+void check_targets(const RunsFile& runs, const AxisFile& axis, std::vector<std::string>& warnings) {
+  constexpr double kBeyond = 0.01;
+  constexpr double kAll = 0.95;
+  constexpr double kUnitSuspected = 0.05;
+  const auto [low, high] = std::minmax_element(runs.positions.begin(), runs.positions.end());
+  const double travel = axis.hi - axis.lo;
+  const double covered = (*high - *low) / travel;
+  const std::string found = fmt::format(
+      "{}: targets of {} from {:g} to {:g}, but it travels from {:g} to {:g} {}", runs.name,
+      axis.letter, *low, *high, axis.lo, axis.hi, axis.rotary ? "rad" : "mm");
+  const bool outside = *low < axis.lo - kBeyond * travel || *high > axis.hi + kBeyond * travel;
+  if (outside || covered < kUnitSuspected) throw UserError(found + " [unit_suspected]");
+  if (covered < kAll) warnings.push_back(found + ": beyond them the value of the end is used");
+}
+
 void note_warnings(const RunsFile& runs, const BuiltTable& built, std::vector<std::string>& out) {
   for (std::size_t i = 0; i < built.warning_count; ++i) {
     std::string text = fmt::format("{}: {}", runs.name, code(built.warning[i]));
@@ -56,10 +77,51 @@ void note_warnings(const RunsFile& runs, const BuiltTable& built, std::vector<st
   }
 }
 
+// What the builder has taken away at the reference, where the machine file knows it.
+void add_at_reference(const ErrorMotion& at_reference, ErrorTable& table) {
+  for (std::size_t i = 0; i < table.knots; ++i) {
+    table.forward[i] += at_reference;
+    table.backward[i] += at_reference;
+  }
+}
+
+TurnGap gap_between(const ErrorMotion& forward, const ErrorMotion& backward) {
+  const auto most = [&](auto part) {
+    return std::max(part(forward).cwiseAbs().maxCoeff(), part(backward).cwiseAbs().maxCoeff());
+  };
+  return {most([](const ErrorMotion& e) { return translation(e); }),
+          most([](const ErrorMotion& e) { return rotation(e); })};
+}
+
+// The last target of a full turn is the first again, and what was measured there differs by what
+// has drifted meanwhile. That is no error of the axis: it is taken out as if it had grown evenly,
+// of each direction by itself. The reference keeps its value.
+std::optional<TurnGap> close_turn(const RunsFile& runs, const AxisFile& axis, const Joint& joint,
+                                  ErrorTable& table) {
+  if (!is_full_turn(table, joint)) return std::nullopt;
+  const std::size_t last = table.knots - 1;
+  const ErrorMotion forward = table.forward[last] - table.forward[0];
+  const ErrorMotion backward = table.backward[last] - table.backward[0];
+  const TurnGap gap = gap_between(forward, backward);
+  if (gap.mm > kMostDrift.mm || gap.rad > kMostDrift.rad) {
+    throw UserError(
+        fmt::format("{}: the ends of the turn of {} differ by {:.2f} um and {:.2f} urad, more than "
+                    "drift explains [not_periodic]",
+                    runs.name, axis.letter, 1e3 * gap.mm, 1e6 * gap.rad));
+  }
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double turns = (table.knot(i) - axis.reference) / (table.last() - table.q0);
+    table.forward[i] -= turns * forward;
+    table.backward[i] -= turns * backward;
+  }
+  return gap;
+}
+
 void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
                 const CommissionOptions& options, Commissioned& out) {
   const AxisFile& axis = machine.axes[a];
   const Joint& joint = machine.chain.axis(a);
+  check_targets(runs, axis, out.warnings);
   const RunViews views(runs);
   const bool naive = options.model == ModelKind::naive;
   MeasuredAxis measured;
@@ -82,6 +144,14 @@ void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
   const std::size_t wanted = options.refine == 0 ? machine.refine : options.refine;
   const std::size_t factor = std::max<std::size_t>(1, std::min(wanted, most));
   require(refine(out.built[a]->table, machine.interpolation, factor, *out.refined[a]), runs.name);
+  if (axis.full_turn() && !is_full_turn(*out.refined[a], joint)) {
+    out.warnings.push_back(
+        fmt::format("{}: {} turns once round, but its targets do not: where none is, the value of "
+                    "the nearest end is used",
+                    runs.name, axis.letter));
+  }
+  out.gaps.push_back(close_turn(runs, axis, joint, *out.refined[a]));
+  add_at_reference(axis.at_reference, *out.refined[a]);
   convert_to_internal(joint, machine.convention, machine.side, *out.refined[a]);
 }
 
@@ -118,12 +188,29 @@ void apply_squareness(const MachineFile& machine, const CommissionOptions& optio
     out.model.directions[axis[k]] = xyz[k];
 }
 
+bool same_axes(const MachineChain& a, const MachineChain& b) {
+  if (a.axis_count() != b.axis_count()) return false;
+  for (std::size_t k = 0; k < a.axis_count(); ++k) {
+    const Joint& x = a.axis(k);
+    const Joint& y = b.axis(k);
+    if (x.letter != y.letter || x.kind != y.kind || x.axis != y.axis || x.sign != y.sign ||
+        x.branch != y.branch)
+      return false;
+  }
+  return true;
+}
+
 // The naive model knows no offsets: every frame at the machine zero point, squareness as turned
 // bodies. Defined by the paper for the XYFZ machine only.
 MachineChain naive_chain(const MachineFile& machine) {
   const XyfzSquareness s = machine.squareness ? machine.squareness->measured : XyfzSquareness{};
   MachineChain chain;
   require(MachineChain::build(xyfz_naive(s, {0.0, 0.0, 0.0}), chain), machine.path);
+  if (!same_axes(chain, machine.chain)) {
+    throw UserError(fmt::format(
+        "{}: the naive model is that of a machine with X and Y under the work and Z with the tool",
+        machine.path));
+  }
   return chain;
 }
 
@@ -133,11 +220,23 @@ double model_bound_nm(const VolumetricModel& model) {
   return kNmPerMm * first_order_distance(model, steps);
 }
 
+// As a node will do it: what it would refuse is refused here, where somebody can mend it.
+void require_usable(const Commissioned& c, const std::string& path) {
+  const RuntimeChain chain = make_runtime_chain(c.tables.machine);
+  if (chain.axes > OrientingCompensator::kAxes) return;  // only for a controller of its own
+  for (std::size_t a = 0; a < chain.axes; ++a) {
+    if (c.tables.axis[a].knots > kDefaultKnots) return;
+  }
+  const auto compensator = std::make_unique<OrientingCompensator>(OrientingMachine{chain});
+  require(compensator->stage(c.tables, c.chain.tool_point(), 0), path);
+}
+
 }  // namespace
 
 std::unique_ptr<Commissioned> commission(const MachineFile& machine,
                                          const std::vector<RunsFile>& runs,
                                          const CommissionOptions& options) {
+  require_authority(machine);
   auto out = std::make_unique<Commissioned>();
   out->chain = options.model == ModelKind::naive ? naive_chain(machine) : machine.chain;
   out->model.chain = out->chain;
@@ -154,6 +253,9 @@ std::unique_ptr<Commissioned> commission(const MachineFile& machine,
   out->tables.machine = out->chain.description();
   out->tables.directions = out->model.directions;
   out->tables.provenance.machine_id = machine.id;
+  out->tables.provenance.temperature_C = static_cast<float>(machine.thermal.reference_C);
+  out->tables.expansion = out->model.expansion = machine.thermal.expansion;
+  require_usable(*out, machine.path);
   if (options.bound) out->model_bound_nm = model_bound_nm(out->model);
   return out;
 }

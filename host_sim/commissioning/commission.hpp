@@ -3,6 +3,7 @@
 // data.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "comp/realtime/compensator.hpp"
@@ -40,11 +41,19 @@ struct CommissionOptions {
   return options;
 }
 
+// How far the measured ends of a full turn were apart, largest of both directions, before the turn
+// was closed.
+struct TurnGap {
+  double mm = 0.0;
+  double rad = 0.0;
+};
+
 // Owns everything its parts refer to: the model points at the tables beside it.
 struct Commissioned {
   MachineChain chain;                                // of the chosen model
   std::vector<std::unique_ptr<BuiltTable>> built;    // by NC axis, as measured and averaged
   std::vector<std::unique_ptr<ErrorTable>> refined;  // internal convention, what is quantised
+  std::vector<std::optional<TurnGap>> gaps;          // by NC axis, of full turns
   VolumetricModel model;
   XyfzSquareness apparent;    // what the tables show at the place of the ball bar
   XyfzSquareness parameters;  // what goes into the model

@@ -2,6 +2,9 @@
 // The axes of a machine under compensation, moved one control period at a time. What carries the
 // targets to the drives, a servo interrupt or a bus, is the matter of the implementation.
 
+#include <string>
+
+#include "host_sim/controller/machine_watch.hpp"
 #include "host_sim/machine/axis_kinds.hpp"
 #include "host_sim/machine/true_machine.hpp"
 
@@ -39,6 +42,21 @@ class AxisGroup {
   [[nodiscard]] virtual Latches latches() const { return {}; }
   // A ramp of the compensation is running: offsets change while the targets stand still.
   [[nodiscard]] virtual bool ramping() const = 0;
+
+  // From the next period on; `watch` must outlive the axes. `letters`: a name for each axis.
+  void watch(MachineWatch& watch, std::string letters, const AxisKinds& kinds);
+
+ protected:
+  // To be called at the end of every period.
+  void show();
+  // What is not seen from outside: states of drives, node and bus.
+  virtual void add_states(MachineSnapshot& /*snapshot*/) const {}
+
+ private:
+  MachineWatch* watch_ = nullptr;
+  std::string letters_;
+  AxisKinds kinds_;
+  MachineSnapshot snapshot_;
 };
 
 }  // namespace volcomp::sim

@@ -25,6 +25,36 @@ AxisKinds kinds_of(const BusSettings& settings) {
   return kinds;
 }
 
+// 60A8h of a drive whose unit is so many nanometres: metres where it is a power of ten.
+std::uint32_t position_unit(double nm) {
+  const double power = std::log10(nm);
+  if (std::abs(power - std::round(power)) > 1e-9) return kIncrement;
+  const auto prefix = static_cast<std::uint8_t>(static_cast<int>(std::round(power)) - 9);
+  return std::uint32_t{prefix} << 24U | (kNanometre & 0x00FF'0000U);
+}
+
+// What a drive has in its units, in those of this axis: the machine behind it is the same.
+void count_as(const BusAxis& axis, Cia402Drive::Settings& s) {
+  const DriveScale scale =
+      axis.counts_otherwise.value_or(DriveScale{axis.scale_numerator, axis.scale_denominator});
+  const std::uint32_t usual = axis.rotary ? 512 : 1;
+  if (scale.numerator == usual && scale.denominator == 1) return;
+  const double size = static_cast<double>(scale.numerator) / scale.denominator;
+  const double more = usual / size;  // units of the drive in a usual one
+  const auto scaled = [more](std::uint32_t value) {
+    return static_cast<std::uint32_t>(std::clamp(std::round(value * more), 1.0, 4294967295.0));
+  };
+  s.following_window = scaled(s.following_window);
+  s.deceleration = scaled(s.deceleration);
+  s.units.presliding *= more;
+  if (axis.rotary) {
+    s.units.units_per_turn *= more;
+  } else {
+    s.units.mm_per_unit = size / kNmPerMm;
+    s.units.position_unit = position_unit(size);
+  }
+}
+
 BusSettings lock_step(BusSettings settings) {
   constexpr std::uint32_t kDeadline_us = 60'000'000;
   settings.deadline_us = kDeadline_us;
@@ -65,6 +95,7 @@ void BusAxes::build(const BusSettings& settings) {
     s.period_s = period_s();
     s.time_constant_s = kDriveTimeConstant_s;
     s.latch_delay_ns = axis.latch_delay_ns;
+    count_as(axis, s);
     attach(s, fmt::format("drive {}", axis.letter));
   }
 }
@@ -135,6 +166,36 @@ void BusAxes::run_cycle(const std::vector<std::int32_t>& path) {
   controller_.send_sync();
   bus_.run_until(next_sync_ns_ + kSyncPhase_ns);
   ++cycles_;
+  show();
+}
+
+void BusAxes::watch(MachineWatch& watch) {
+  std::string letters;
+  for (const BusAxis& axis : controller_.settings().axes)
+    letters += axis.letter;
+  AxisGroup::watch(watch, letters, kinds_of(controller_.settings()));
+}
+
+void BusAxes::add_states(MachineSnapshot& snapshot) const {
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    snapshot.axis[a].drive_status = controller_.axis(a).status_word();
+    if (node_) snapshot.axis[a].correction_status = node_->objects().status[a];
+  }
+  const NodeReport& report = controller_.report();
+  BusState bus;
+  bus.now_ns = bus_.bus().now_ns();
+  bus.busy_ns = bus_.bus().busy_ns();
+  bus.frames = bus_.bus().frames();
+  bus.emergencies = controller_.emergencies().size();
+  bus.node_phase = static_cast<std::uint8_t>(controller_.node().phase);
+  bus.node_state = report.state;
+  bus.any_status = report.any_status;
+  bus.active_crc = report.active_crc;
+  if (node_) {
+    bus.deadline_missed = node_->objects().deadline_missed;
+    bus.sync_missed = node_->objects().sync_missed;
+  }
+  snapshot.bus = bus;
 }
 
 // Lock step while the node answers every cycle; before that, its own time.
@@ -226,6 +287,15 @@ BusAxesFactory loopback_axes() {
 BusAxesFactory gateway_axes(CanGateway& gateway) {
   return [&gateway](const BusSettings& settings, const std::vector<std::uint8_t>& image) {
     return std::make_unique<BusAxes>(settings, image, gateway);
+  };
+}
+
+BusAxesFactory watched(BusAxesFactory make_axes, MachineWatch& watch) {
+  return [make_axes = std::move(make_axes), &watch](const BusSettings& settings,
+                                                    const std::vector<std::uint8_t>& image) {
+    auto axes = make_axes(settings, image);
+    axes->watch(watch);
+    return axes;
   };
 }
 

@@ -41,8 +41,11 @@ class BusAxes final : public AxisGroup {
   [[nodiscard]] double following_error() const override;
   [[nodiscard]] Latches latches() const override;
   [[nodiscard]] bool ramping() const override;
+  using AxisGroup::watch;
+  void watch(MachineWatch& watch);
 
   [[nodiscard]] BusController& controller() { return controller_; }
+  [[nodiscard]] const BusController& controller() const { return controller_; }
   [[nodiscard]] SimulatedBus& bus() { return bus_; }
   [[nodiscard]] Cia402Drive& drive(std::size_t a) { return *drive_.at(a); }
   // The node in this process; nullptr when it is elsewhere.
@@ -65,6 +68,7 @@ class BusAxes final : public AxisGroup {
   void bring_up(double timeout_s = 20.0);
 
  private:
+  void add_states(MachineSnapshot& snapshot) const override;
   void build(const BusSettings& settings);
   void attach(const Cia402Drive::Settings& settings, const std::string& name);
   void await_node();
@@ -98,6 +102,8 @@ using BusAxesFactory = std::function<std::unique_ptr<BusAxes>(
     const BusSettings& settings, const std::vector<std::uint8_t>& image)>;
 [[nodiscard]] BusAxesFactory loopback_axes();
 [[nodiscard]] BusAxesFactory gateway_axes(CanGateway& gateway);  // must outlive the axes
+// Axes that are looked at from their first cycle; `watch` must outlive them.
+[[nodiscard]] BusAxesFactory watched(BusAxesFactory make_axes, MachineWatch& watch);
 
 // Cells for the scenarios, whatever their axes are.
 [[nodiscard]] CellFactory bus_cells(const MachineFile& machine, double cycle_hz,

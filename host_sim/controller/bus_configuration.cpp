@@ -1,5 +1,6 @@
 // What the motion controller writes into drives and node before it starts them.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -16,10 +17,20 @@
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
+
+using canopen::AbortCode;
+
 namespace {
 
-// 60A8h: prefix 10^-9, unit metre (CiA 303-2).
-constexpr std::uint32_t kNanometre = 0xF701'0000;
+// Whether a drive with this 60A8h may count so many nanometres per unit: in metres by a power of
+// ten it must be just those, in increments any but one nanometre.
+bool may_count_in(std::uint32_t unit, const BusAxis& axis) {
+  constexpr std::uint32_t kMetre = 0x01;
+  const double nm = static_cast<double>(axis.scale_numerator) / axis.scale_denominator;
+  if ((unit >> 16U & 0xFFU) != kMetre) return axis.scale_numerator != axis.scale_denominator;
+  const auto prefix = static_cast<std::int8_t>(unit >> 24U);
+  return std::abs(nm / std::pow(10.0, prefix + 9) - 1.0) < 1e-12;
+}
 
 // Every rising edge is latched; position and instant, then count and following error, go out at the
 // SYNC after it and at no other.
@@ -99,7 +110,7 @@ void watch_strokes(SdoChannel& sdo, const BusSettings& b, const WatchedStrokes& 
 
 void BusController::configure(Station& s) {
   s.phase = Station::Phase::configuring;
-  s.refusal.clear();
+  s.refused = false;
   s.not_started = 0;
   s.retry_us = 0;
   s.channel.clear();
@@ -134,14 +145,14 @@ void BusController::configure_common(SdoChannel& sdo) {
 void BusController::check_scaling(Station& s, std::size_t axis) {
   const BusAxis& a = settings_.axes[axis];
   const auto differ = [&s, letter = a.letter](const std::string& what) {
+    s.refused = true;
     s.refusal = fmt::format("{}: axis {} has other units than the machine file says: {}", s.name,
                             letter, what);
   };
   if (!a.rotary) {
     s.channel.read({0x60A8, 0}, 4, "position unit", [a, differ](const SdoChannel::Bytes& unit) {
-      const bool nanometre = number(unit) == kNanometre;
-      const bool one_to_one = a.scale_numerator == a.scale_denominator;
-      if (nanometre != one_to_one) differ(fmt::format("60A8h is {:08X}h", number(unit)));
+      if (!may_count_in(static_cast<std::uint32_t>(number(unit)), a))
+        differ(fmt::format("60A8h is {:08X}h", number(unit)));
     });
     return;
   }
@@ -221,21 +232,39 @@ void BusController::configure_node(SdoChannel& sdo) {
   if (!image_.empty()) queue_tables(sdo);
 }
 
+// What the other side has answered. Of tables the node says more than an abort code (2112h:06);
+// what it said of them before stays until then.
+void BusController::take_refusal(Station& s) {
+  const SdoChannel& sdo = s.channel;
+  const std::string what = sdo.failure();
+  if (s.refusal.rfind(what, 0) != 0) s.refusal = what;
+  if (is_drive(s) || sdo.failed() != node::kTableCommand || sdo.abort_code() != AbortCode::general)
+    return;
+  s.channel.clear();
+  s.channel.read(node::table_verdict(6), node::kMostReasonText, "reason in words",
+                 [&s, what](const SdoChannel::Bytes& text) {
+                   s.refusal = what + ": " + std::string(text.begin(), text.end());
+                 });
+}
+
 // Asks first: a node that has them stored or kept them need not get them again.
 void BusController::queue_tables(SdoChannel& sdo) {
-  sdo.read({0x2112, 7}, 4, "CRC of the active tables", [this, &sdo](const SdoChannel::Bytes& crc) {
-    if (number(crc) == image_crc_) return;
-    sdo.write({0x2110, 1}, image_, "table image");
-    sdo.write_value<std::uint8_t>({0x2111, 0},
-                                  static_cast<std::uint8_t>(node::TableCommand::activate),
-                                  "activation of the tables");
-  });
+  sdo.read(node::table_verdict(7), 4, "CRC of the active tables",
+           [this, &sdo](const SdoChannel::Bytes& crc) {
+             if (number(crc) == image_crc_) return;
+             sdo.write(node::kTableImage, image_, "table image");
+             sdo.write_value<std::uint8_t>(node::kTableCommand,
+                                           static_cast<std::uint8_t>(node::TableCommand::activate),
+                                           "activation of the tables");
+           });
 }
 
 BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
   BusSettings b;
   b.period_us = static_cast<std::uint32_t>(std::lround(1e6 / cycle_hz));
   b.machine_id = machine.id;
+  b.node = machine.bus.node;
+  b.controller = machine.bus.controller;
   CorrectionFile correction = machine.correction;
   correction.tick_hz = cycle_hz;
   b.probes = machine.probe.has_value();
@@ -244,9 +273,20 @@ BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
   for (std::size_t i = 0; i < kinds.count; ++i) {
     BusAxis a;
     a.letter = machine.axes[i].letter;
-    a.drive = static_cast<std::uint8_t>(i + 1);
+    const DriveFile& drive = machine.axes[i].drive;
+    a.drive = drive.node;
     a.rotary = kinds.rotary[i];
-    if (a.rotary) a.scale_numerator = 512;  // 2^31 units per turn on the wire, 2^40 inside
+    a.scale_numerator = drive.scale_numerator;
+    a.scale_denominator = drive.scale_denominator;
+    if (drive.software_limits_mm) {
+      const auto units = [&a](double mm) {
+        return static_cast<std::int32_t>(
+            std::clamp(std::round(mm * kNmPerMm * a.scale_denominator / a.scale_numerator),
+                       -2147483648.0, 2147483647.0));
+      };
+      a.lowest = units((*drive.software_limits_mm)[0]);
+      a.highest = units((*drive.software_limits_mm)[1]);
+    }
     a.latch_delay_ns = std::llround(1000.0 * machine.axes[i].latch_delay_us);
     b.axes.push_back(a);
   }

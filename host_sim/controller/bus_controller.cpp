@@ -39,6 +39,7 @@ void BusController::load_tables(std::vector<std::uint8_t> image) {
   image_ = std::move(image);
   image_crc_ = image_crc({image_.data(), image_.size()});
   Station& node = stations_.back();
+  node.refusal.clear();
   if (node.phase == Station::Phase::running && !image_.empty()) queue_tables(node.channel);
 }
 
@@ -110,6 +111,7 @@ void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t
     // Back without a boot: whatever it was told is still there.
     s.phase = Station::Phase::running;
     s.not_started = 0;
+    s.retry_us = 0;
   }
   const bool heeds = s.phase != Station::Phase::running || s.state == NmtState::operational;
   s.not_started = heeds ? 0 : s.not_started + 1;
@@ -146,12 +148,14 @@ void BusController::supervise(Station& s, std::uint64_t now_us) {
     if (is_drive(s)) axis_[static_cast<std::size_t>(&s - stations_.data())].drive_lost();
     return;
   }
-  const bool refused = !s.channel.failure().empty() || !s.refusal.empty();
+  const bool refused = !s.channel.failure().empty() || s.refused;
   if (refused && s.phase == Station::Phase::configuring) {
+    if (!s.refused) take_refusal(s);
     s.phase = Station::Phase::failed;
     s.retry_us = now_us + kRetryPause_us;
   } else if (s.phase == Station::Phase::configuring && s.channel.idle()) {
     s.phase = Station::Phase::running;
+    s.refusal.clear();
     command(NmtCommand::start, s.id);
   } else if (s.phase == Station::Phase::failed && now_us >= s.retry_us) {
     configure(s);
@@ -171,10 +175,10 @@ void BusController::call_back(Station& s, std::uint64_t now_us) {
 
 // Another client may have got in between.
 void BusController::retry_tables(Station& s, std::uint64_t now_us) {
-  if (s.channel.failure().empty()) return;
-  if (s.retry_us == 0) {
+  if (s.retry_us == 0 && !s.channel.failure().empty()) {
     s.retry_us = now_us + kRetryPause_us;
-  } else if (now_us >= s.retry_us) {
+    take_refusal(s);
+  } else if (s.retry_us != 0 && now_us >= s.retry_us) {
     s.retry_us = 0;
     s.channel.clear();
     if (!image_.empty()) queue_tables(s.channel);
@@ -243,9 +247,9 @@ void BusController::set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode
 
 std::string BusController::trouble() const {
   for (const Station& s : stations_) {
-    if (s.phase == Station::Phase::failed)
-      return s.refusal.empty() ? s.channel.failure() : s.refusal;
-    if (s.phase == Station::Phase::configuring) return s.name + " is being configured";
+    if (s.phase == Station::Phase::failed) return s.refusal;
+    if (s.phase == Station::Phase::configuring)
+      return s.refusal.empty() ? s.name + " is being configured" : s.refusal;
     if (s.phase == Station::Phase::absent) return s.name + " is silent";
     if (s.state != NmtState::operational) return s.name + " has not started";
   }
@@ -255,9 +259,15 @@ std::string BusController::trouble() const {
                          axis_[a].status_word());
     }
   }
-  if (image_.empty()) return {};
-  if (!stations_.back().channel.failure().empty()) return stations_.back().channel.failure();
-  if (report_.active_crc != image_crc_) return "the node does not have the tables yet";
+  if (image_.empty() && !settings_.node_brings_tables) return {};
+  const Station& node = stations_.back();
+  if (!node.channel.failure().empty()) return node.channel.failure();
+  if (image_.empty()) {
+    if (report_.count == 0) return "the node has not reported its state yet";
+    if (report_.active_crc == 0) return {};
+  } else if (report_.active_crc != image_crc_) {
+    return node.refusal.empty() ? "the node does not have the tables yet" : node.refusal;
+  }
   if (report_.state != static_cast<std::uint8_t>(node::NodeState::compensating))
     return fmt::format("the node does not compensate every axis: status {:04X}h",
                        report_.any_status);

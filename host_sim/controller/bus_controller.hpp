@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "comp/tables/thermal.hpp"
 #include "host_sim/controller/axis_commander.hpp"
 #include "host_sim/controller/bus_settings.hpp"
 #include "host_sim/controller/node_probe.hpp"
@@ -49,6 +50,10 @@ class BusController {
   // What is done at the targets of this cycle, for a node that watches strokes (201Ah).
   void send_process_state(const ProcessState& state);
   void send_sync();
+  // How warm the axes are, deg C by input; not a number: no sensor.
+  void send_temperatures(const Temperatures& temperatures);
+  // The date as CANopen TIME.
+  void send_time(std::int64_t unix_s);
 
   // Resets every node on the bus; whoever boots is configured and started.
   void power_on(std::uint64_t now_us);
@@ -92,6 +97,7 @@ class BusController {
   void configure_drive(Station& s, std::size_t axis);
   void configure_node(SdoChannel& sdo);
   void queue_tables(SdoChannel& sdo);
+  void take_refusal(Station& s);
   void set_modes();
   void set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode);
 

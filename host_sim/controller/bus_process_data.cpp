@@ -1,5 +1,8 @@
 // What motion controller, drives and compensation node tell each other every cycle.
 
+#include <cmath>
+
+#include "comp/realtime/temperature_input.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/stroke_objects.hpp"
 #include "host_sim/controller/bus_controller.hpp"
@@ -76,6 +79,32 @@ void BusController::send_process_state(const ProcessState& state) {
   canopen::store_le(frame.data.data(), 2, state.slot);
   canopen::store_le(&frame.data[2], 2, flags);
   canopen::store_le(&frame.data[4], 4, static_cast<std::uint32_t>(state.feed_nm_per_s));
+  send_latest(frame);
+}
+
+// 2700h as the node maps it by default.
+void BusController::send_temperatures(const Temperatures& temperatures) {
+  hal::CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(canopen::kTpdo2 + settings_.controller);
+  frame.size = 8;
+  for (std::size_t i = 0; i < temperatures.size(); ++i) {
+    const bool known = std::isfinite(temperatures[i]);
+    const auto hundredths = known ? static_cast<std::int16_t>(std::lround(100.0F * temperatures[i]))
+                                  : TemperatureInput::kNone;
+    canopen::store_le(&frame.data.at(2 * i), 2, static_cast<std::uint16_t>(hundredths));
+  }
+  send_latest(frame);
+}
+
+// CiA 301, section 7.2.6: milliseconds after midnight, days since 1 January 1984.
+void BusController::send_time(std::int64_t unix_s) {
+  constexpr std::int64_t kDay_s = 86'400;
+  constexpr std::int64_t kDaysTo1984 = 5113;
+  hal::CanFrame frame;
+  frame.id = canopen::kTime;
+  frame.size = 6;
+  canopen::store_le(frame.data.data(), 4, static_cast<std::uint32_t>(unix_s % kDay_s * 1000));
+  canopen::store_le(&frame.data[4], 2, static_cast<std::uint16_t>(unix_s / kDay_s - kDaysTo1984));
   send_latest(frame);
 }
 

@@ -12,6 +12,12 @@
 
 namespace volcomp::sim {
 
+// Run-time units (nm or 2^-40 turn) per unit of a drive.
+struct DriveScale {
+  std::uint32_t numerator = 1;
+  std::uint32_t denominator = 1;
+};
+
 struct BusAxis {
   char letter = '\0';
   std::uint8_t drive = 0;  // node id
@@ -21,6 +27,8 @@ struct BusAxis {
   std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
   std::int32_t highest = 0;
   std::int64_t latch_delay_ns = 0;  // of the touch probe input
+  // How the drive counts where that is not what the controller has been told.
+  std::optional<DriveScale> counts_otherwise;
 };
 
 struct BusSettings {
@@ -33,12 +41,15 @@ struct BusSettings {
   std::uint16_t heartbeat_timeout_ms = 350;
   std::uint32_t machine_id = 0;
   std::vector<BusAxis> axes;
+  // A controller that was given no tables waits until the node compensates with those it has
+  // itself, stored or from a service tool; a node without any is accepted as it is.
+  bool node_brings_tables = false;
   bool probes = false;  // the drives latch the rising edges of a touch probe and report them
   CompensatorSettings<LoadedCompensator::kAxes> limits{};  // per cycle of this period
   std::optional<WatchedStrokes> strokes;  // the axes X, Z and C grind a helical gear
 };
 
-// Axes 1, 2, 3 … of the machine file on drives 1, 2, 3 …, 1 nm or 2^-31 turn per unit.
+// Node ids, units and software limits as the machine file says.
 [[nodiscard]] BusSettings bus_settings(const MachineFile& machine, double cycle_hz);
 
 }  // namespace volcomp::sim

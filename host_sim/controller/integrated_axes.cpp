@@ -10,17 +10,17 @@
 namespace volcomp::sim {
 namespace {
 
-std::unique_ptr<LoadedCompensator> make_compensator(const LoadedCompensator::Settings& settings,
-                                                    const std::vector<std::uint8_t>& image) {
+std::unique_ptr<OrientingCompensator> make_compensator(
+    const OrientingCompensator::Settings& settings, const std::vector<std::uint8_t>& image) {
   if (image.empty()) {
-    auto idle = std::make_unique<LoadedCompensator>();
+    auto idle = std::make_unique<OrientingCompensator>();
     require(idle->configure(settings), "[correction]");
     return idle;
   }
   const auto tables = std::make_unique<MachineTables>();
   require(decode_image(image, kDefaultKnots, *tables), "table image");
   auto compensator =
-      std::make_unique<LoadedCompensator>(LoadedMachine<5>{make_runtime_chain(tables->machine)});
+      std::make_unique<OrientingCompensator>(OrientingMachine{make_runtime_chain(tables->machine)});
   require(compensator->configure(settings), "[correction]");
   const Vec3 tool = Eigen::Map<const Vec3>(tables->machine.tool_point.data());
   const std::uint32_t crc = image_crc(image);
@@ -57,8 +57,9 @@ AxisLimits in_units(const AxisCorrection& c, bool rotary, double period_s, doubl
 
 }  // namespace
 
-LoadedCompensator::Settings compensator_settings(const CorrectionFile& c, const AxisKinds& kinds) {
-  LoadedCompensator::Settings s;
+OrientingCompensator::Settings compensator_settings(const CorrectionFile& c,
+                                                    const AxisKinds& kinds) {
+  OrientingCompensator::Settings s;
   const double period = 1.0 / c.tick_hz;
   for (std::size_t a = 0; a < s.axis.size(); ++a) {
     const AxisCorrection values =
@@ -81,6 +82,12 @@ IntegratedAxes::IntegratedAxes(const AxisKinds& kinds, const CorrectionFile& set
 void IntegratedAxes::cycle(const Targets& target) {
   axes_.set_target(target);
   loop_.on_servo_interrupt();
+  show();
+}
+
+void IntegratedAxes::add_states(MachineSnapshot& snapshot) const {
+  for (std::size_t a = 0; a < snapshot.axes; ++a)
+    snapshot.axis[a].correction_status = loop_.last_output().status[a];
 }
 
 // One ramp moves the offsets of all axes together.
@@ -91,6 +98,17 @@ std::unique_ptr<MotionCell> make_integrated_cell(const TrueMachine& machine,
                                                  const std::vector<std::uint8_t>& image) {
   auto axes = std::make_unique<IntegratedAxes>(axis_kinds(machine.chain), correction, image);
   return std::make_unique<MotionCell>(machine, std::move(axes));
+}
+
+CellFactory watched_integrated_cells(std::string letters, MachineWatch& watch) {
+  return [letters = std::move(letters), &watch](const TrueMachine& machine,
+                                                const CorrectionFile& correction,
+                                                const std::vector<std::uint8_t>& image) {
+    const AxisKinds kinds = axis_kinds(machine.chain);
+    auto axes = std::make_unique<IntegratedAxes>(kinds, correction, image);
+    axes->watch(watch, letters, kinds);
+    return std::make_unique<MotionCell>(machine, std::move(axes));
+  };
 }
 
 }  // namespace volcomp::sim

@@ -33,10 +33,12 @@ class IntegratedAxes final : public AxisGroup {
   [[nodiscard]] bool ramping() const override;
 
  private:
+  void add_states(MachineSnapshot& snapshot) const override;
+
   double period_s_;
   SimulatedAxes axes_;
-  std::unique_ptr<LoadedCompensator> compensator_;
-  ServoLoop<LoadedCompensator, SimulatedAxes> loop_;
+  std::unique_ptr<OrientingCompensator> compensator_;
+  ServoLoop<OrientingCompensator, SimulatedAxes> loop_;
 };
 
 // A CellFactory: one servo period per 1 / tick_hz of the machine file.
@@ -44,8 +46,11 @@ class IntegratedAxes final : public AxisGroup {
     const TrueMachine& machine, const CorrectionFile& correction,
     const std::vector<std::uint8_t>& image);
 
+// The same with axes of these letters that are looked at; `watch` must outlive the cells.
+[[nodiscard]] CellFactory watched_integrated_cells(std::string letters, MachineWatch& watch);
+
 // Settings of the compensator for a machine file: mm, rad and seconds turned into units and ticks.
-[[nodiscard]] LoadedCompensator::Settings compensator_settings(const CorrectionFile& correction,
-                                                               const AxisKinds& kinds);
+[[nodiscard]] OrientingCompensator::Settings compensator_settings(const CorrectionFile& correction,
+                                                                  const AxisKinds& kinds);
 
 }  // namespace volcomp::sim

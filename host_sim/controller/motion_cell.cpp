@@ -115,4 +115,19 @@ Vec3 MotionCell::deviation_mm() const {
          machine_.error(q, axes_->approach(), machine_.chain.tool_point()).position_work;
 }
 
+Vec3 MotionCell::orientation_rad() const {
+  const Pose q = axes_->position();
+  const MachineChain& chain = machine_.chain;
+  const auto tool_in_work = [&chain](const Pose& at) {
+    const Frame work = chain.ideal(chain.work(), at);
+    const Frame tool = chain.ideal(chain.tool(), at);
+    return Mat3(work.R.transpose() * tool.R);
+  };
+  const Mat3 turn = tool_in_work(q) * tool_in_work(target_).transpose();
+  const Vec3 beside_target(turn(2, 1) - turn(1, 2), turn(0, 2) - turn(2, 0),
+                           turn(1, 0) - turn(0, 1));
+  return 0.5 * beside_target +
+         machine_.error(q, axes_->approach(), chain.tool_point()).orientation_work;
+}
+
 }  // namespace volcomp::sim

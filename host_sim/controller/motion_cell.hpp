@@ -58,6 +58,8 @@ class MotionCell {
   // Where the functional point really is relative to the work, against where it should be at the
   // commanded target: mm, work frame.
   [[nodiscard]] Vec3 deviation_mm() const;
+  // The same of the orientation: rotation vector, work frame.
+  [[nodiscard]] Vec3 orientation_rad() const;
   [[nodiscard]] const Pose& target() const { return target_; }
   [[nodiscard]] const AxisGroup& axes() const { return *axes_; }
 

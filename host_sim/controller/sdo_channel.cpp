@@ -23,6 +23,7 @@ void SdoChannel::clear() {
   started_ = outgoing_ = false;
   failure_.clear();
   abort_code_ = canopen::AbortCode::none;
+  refused_ = false;
 }
 
 void SdoChannel::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
@@ -48,6 +49,8 @@ void SdoChannel::advance(std::uint64_t now_us) {
   } else if (started_ && client_.state() == SdoClient::State::failed) {
     const Job& job = jobs_.front();
     abort_code_ = client_.abort_code();
+    refused_ = client_.aborted_by_server();
+    failed_ = job.object;
     failure_ = fmt::format("node {}: {} ({:04X}h:{:02X}): {} [abort {:08X}h]", node_, job.what,
                            job.object.index, job.object.sub, canopen::sentence(abort_code_),
                            static_cast<std::uint32_t>(abort_code_));

@@ -36,6 +36,10 @@ class SdoChannel {
   [[nodiscard]] bool idle() const { return jobs_.empty() && !outgoing_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
   [[nodiscard]] canopen::AbortCode abort_code() const { return abort_code_; }
+  // Whether the node said no; otherwise this side did, to an answer that is none or too long.
+  [[nodiscard]] bool refused() const { return refused_; }
+  // Whose transfer the last failure was.
+  [[nodiscard]] canopen::ObjectId failed() const { return failed_; }
   // Forgets everything queued and any failure.
   void clear();
 
@@ -66,6 +70,8 @@ class SdoChannel {
   canopen::SdoData request_{};
   std::string failure_;
   canopen::AbortCode abort_code_ = canopen::AbortCode::none;
+  bool refused_ = false;
+  canopen::ObjectId failed_;
 };
 
 // An unsigned number from the bytes of an object.

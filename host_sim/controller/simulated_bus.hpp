@@ -37,6 +37,7 @@ class SimulatedBus {
   void run_until_quiet();
 
   [[nodiscard]] hal::LoopbackBus& bus() { return bus_; }
+  [[nodiscard]] const hal::LoopbackBus& bus() const { return bus_; }
 
  private:
   struct Participant {

@@ -27,8 +27,9 @@ struct Station {
   std::uint64_t last_heard_us = 0;
   std::uint64_t retry_us = 0;  // when to try again what failed
   std::uint32_t boots = 0;
-  std::string refusal;  // why we will not work with it although it answers
-  int not_started = 0;  // heartbeats in a row that say it does not run though it should
+  bool refused = false;  // by us, in this attempt: its units are not those of the machine file
+  std::string refusal;   // why the last attempt failed, until one succeeds
+  int not_started = 0;   // heartbeats in a row that say it does not run though it should
 };
 
 // One emergency message as received.

@@ -1,5 +1,7 @@
 #include "host_sim/controller_tables/isg_ssfk.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <sstream>
 
@@ -74,18 +76,22 @@ Status write_ssfk(const SsfkTable& table, std::string& text) {
   where.field = "axis";
   if (table.axis.empty()) return refuse(Reason::bad_setting, where);
   if (table.forward.size() != table.reverse.size()) return refuse(Reason::length_mismatch);
+  const double units = file_units(table.rotary);
   for (const auto* const offsets : {&table.forward, &table.reverse}) {
-    if (const Status s = check_offsets(*offsets, kMostEntries, false, 1.0); !s.ok()) return s;
+    if (const Status s = check_offsets(*offsets, kMostEntries, false, kInt32, units); !s.ok())
+      return s;
   }
-  if (const Status s = check_nominal(table.nominal, table.forward.size()); !s.ok()) return s;
+  if (const Status s = check_nominal(table.nominal, table.forward.size(), kInt32, kPerUnit);
+      !s.ok())
+    return s;
   text = fmt::format(
       "kopf.log_achs_nr {}\nkopf.log_achs_name {}\nkw.ssfk.interval 0\nkw.ssfk.kw_startpos {}\n"
       "kw.ssfk.kw_nr_max {}\nkw.ssfk.unit 1\nkw.ssfk.bilateral 1\n",
       table.axis_number, table.axis, nearest(table.nominal.front() * kPerUnit),
       table.nominal.size());
   text += column("setpoint", table.nominal, kPerUnit);
-  text += column("pos", table.forward, -file_units(table.rotary));
-  text += column("neg", table.reverse, -file_units(table.rotary));
+  text += column("pos", table.forward, -units);
+  text += column("neg", table.reverse, -units);
   return {};
 }
 
@@ -110,7 +116,8 @@ SsfkTable read_ssfk(const std::string& text, bool rotary) {
     table.forward.push_back(value("pos", -file_units(rotary)));
     table.reverse.push_back(value("neg", -file_units(rotary)));
   }
-  if (!check_nominal(table.nominal, table.forward.size()).ok())
+  const std::vector<double>& at = table.nominal;
+  if (std::adjacent_find(at.begin(), at.end(), std::greater_equal<>()) != at.end())
     throw UserError("setpoints must ascend");
   return table;
 }

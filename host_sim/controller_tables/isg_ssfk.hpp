@@ -19,7 +19,8 @@ struct SsfkTable {
   bool rotary = false;
 };
 
-// Refused: bad_setting ("axis"), length_mismatch, what check_offsets() and check_nominal() refuse.
+// Entries and setpoints are integers of 32 bits. Refused: bad_setting ("axis"), length_mismatch,
+// what check_offsets() and check_nominal() refuse.
 Status write_ssfk(const SsfkTable& table, std::string& text);
 
 // Bilateral tables with setpoints. Throws UserError with the line.

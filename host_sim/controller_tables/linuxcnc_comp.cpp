@@ -1,14 +1,38 @@
 #include "host_sim/controller_tables/linuxcnc_comp.hpp"
 
-#include <sstream>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "comp/tables/interpolation.hpp"
 #include "host_sim/controller_tables/text_numbers.hpp"
+#include "host_sim/data/csv_cells.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
+namespace {
+
+double finite(double value, const CsvLines& lines) {
+  if (!std::isfinite(value)) lines.fail("a number must be finite");
+  return value;
+}
+
+void read_entry(const std::vector<std::string_view>& words, const CsvLines& lines,
+                LinuxcncComp& table) {
+  if (words.size() != 3) lines.fail("expected: nominal forward reverse");
+  const double at = finite(lines.number(words[0]), lines);
+  const auto trim = [&](std::string_view word) {
+    const double value = lines.number(word);
+    return finite(table.type == 0 ? at - value : value, lines);
+  };
+  if (!table.nominal.empty() && !(at > table.nominal.back()))
+    lines.fail("nominal positions must ascend");
+  table.nominal.push_back(at);
+  table.forward.push_back(trim(words[1]));
+  table.reverse.push_back(trim(words[2]));
+}
+
+}  // namespace
 
 Status write_linuxcnc(const LinuxcncComp& table, std::string& text) {
   Where where;
@@ -16,9 +40,12 @@ Status write_linuxcnc(const LinuxcncComp& table, std::string& text) {
   if (table.type != 0 && table.type != 1) return refuse(Reason::bad_setting, where);
   if (table.forward.size() != table.reverse.size()) return refuse(Reason::length_mismatch);
   for (const auto* const column : {&table.forward, &table.reverse}) {
-    if (const Status s = check_offsets(*column, kLinuxcncEntries, false, 1.0); !s.ok()) return s;
+    if (const Status s = check_offsets(*column, kLinuxcncEntries, false, kSixDecimals, 1.0);
+        !s.ok())
+      return s;
   }
-  if (const Status s = check_nominal(table.nominal, table.forward.size()); !s.ok()) return s;
+  if (const Status s = check_nominal(table.nominal, table.forward.size(), kSixDecimals); !s.ok())
+    return s;
   std::string out;
   for (std::size_t k = 0; k < table.nominal.size(); ++k) {
     const double at = table.nominal[k];
@@ -30,41 +57,26 @@ Status write_linuxcnc(const LinuxcncComp& table, std::string& text) {
   return {};
 }
 
-LinuxcncComp read_linuxcnc(const std::string& text, int type) {
+LinuxcncComp read_linuxcnc(std::istream& stream, const std::string& name, int type) {
+  CsvLines lines(stream, name);
   LinuxcncComp table;
   table.type = type;
-  std::istringstream stream(text);
   std::string row;
   bool ended = false;
-  for (int line = 1; std::getline(stream, row); ++line) {
-    std::istringstream words(row);
-    std::string nominal;
-    std::string forward;
-    std::string reverse;
-    std::string more;
-    if (!(words >> nominal)) {
+  while (lines.any(row)) {
+    const std::vector<std::string_view> words = words_of(row);
+    if (words.empty()) {
       ended = true;
       continue;
     }
-    if (ended) throw UserError(at_line(line, "LinuxCNC reads nothing after an empty line"));
+    if (ended) lines.fail("LinuxCNC reads nothing after an empty line");
     if (table.nominal.size() == kLinuxcncEntries)
-      throw UserError(at_line(line, fmt::format("more than {} entries", kLinuxcncEntries)));
-    if (!(words >> forward >> reverse) || words >> more)
-      throw UserError(at_line(line, "expected: nominal forward reverse"));
-    const double at = read_decimal(nominal, line);
-    const auto trim = [&](const std::string& word) {
-      const double value = read_decimal(word, line);
-      return type == 0 ? at - value : value;
-    };
-    if (!table.nominal.empty() && !(at > table.nominal.back()))
-      throw UserError(at_line(line, "nominal positions must ascend"));
-    table.nominal.push_back(at);
-    table.forward.push_back(trim(forward));
-    table.reverse.push_back(trim(reverse));
+      lines.fail(fmt::format("more than {} entries", kLinuxcncEntries));
+    read_entry(words, lines, table);
   }
   if (table.nominal.size() < 2)
-    throw UserError(
-        fmt::format("{} entries; 2 to {} are allowed", table.nominal.size(), kLinuxcncEntries));
+    throw UserError(fmt::format("{}: {} entries; 2 to {} are allowed", name, table.nominal.size(),
+                                kLinuxcncEntries));
   return table;
 }
 

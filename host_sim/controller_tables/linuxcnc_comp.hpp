@@ -5,6 +5,7 @@
 // src/emc/motion/usrmotintf.cc of LinuxCNC, which stops without a word at the first line that is
 // not three numbers: here such a line is refused.
 
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ struct LinuxcncComp {
 // check_nominal() refuse.
 Status write_linuxcnc(const LinuxcncComp& table, std::string& text);
 
-// Throws UserError with the line.
-[[nodiscard]] LinuxcncComp read_linuxcnc(const std::string& text, int type);
+// Throws UserError with file and line. Entry k stands in line k + 1.
+[[nodiscard]] LinuxcncComp read_linuxcnc(std::istream& stream, const std::string& name, int type);
 
 // t at a position; `travel` is +1 or −1; the ends are held.
 [[nodiscard]] double offset_at(const LinuxcncComp& table, double position, int travel);

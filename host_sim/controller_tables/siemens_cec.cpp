@@ -22,10 +22,11 @@ Status check(const CecTable& table) {
   if (table.input.empty()) where.field = "input";
   if (table.output.empty()) where.field = "output";
   if (!(table.step > 0.0)) where.field = "step";
+  if (!fits_extent(table.min, table.step, table.offset.size())) where.field = "min";
   if (table.direction < -1 || table.direction > 1) where.field = "direction";
   if (table.sign != 1 && table.sign != -1) where.field = "sign";
   if (where.field != nullptr) return refuse(Reason::bad_setting, where);
-  return check_offsets(table.offset, kMostEntries, table.modulo, file_units(table));
+  return check_offsets(table.offset, kMostEntries, table.modulo, kSixDecimals, file_units(table));
 }
 
 // What one assignment of the file says about the table.

@@ -25,7 +25,11 @@ Status write_enc_comp(const EncCompTable& table, std::string& text) {
   if (table.axis.empty()) return refuse(Reason::bad_setting, where);
   where.field = "step";
   if (!(table.step > 0.0)) return refuse(Reason::bad_setting, where);
-  if (const Status s = check_offsets(table.offset, kMostEntries, table.modulo, units); !s.ok())
+  where.field = "min";
+  if (!fits_extent(table.min, table.step, table.offset.size()))
+    return refuse(Reason::bad_setting, where);
+  if (const Status s = check_offsets(table.offset, kMostEntries, table.modulo, kSixDecimals, units);
+      !s.ok())
     return s;
   std::string out = fmt::format("{}\nCHANDATA(1)\n", kHeader);
   for (std::size_t k = 0; k < table.offset.size(); ++k)

@@ -22,8 +22,8 @@ struct EncCompTable {
   bool rotary = false;
 };
 
-// Six decimals: 1 nm or 1e-6 degree. Refused: bad_setting ("axis", "step"), what check_offsets()
-// refuses; `text` is then unchanged.
+// Six decimals: 1 nm or 1e-6 degree. Refused: bad_setting ("axis", "step", "min"), what
+// check_offsets() refuses; `text` is then unchanged.
 Status write_enc_comp(const EncCompTable& table, std::string& text);
 
 // Throws UserError with the line.

@@ -75,6 +75,11 @@ std::vector<double> complete_entries(const std::map<long long, double>& entries,
   return values;
 }
 
+bool fits_extent(double min, double step, std::size_t entries) {
+  const double max = min + step * static_cast<double>(entries);
+  return std::abs(min) <= kSixDecimals.most && std::abs(max) <= kSixDecimals.most;
+}
+
 void check_extent(double min, double max, double step, std::size_t entries) {
   constexpr double kRounding = 2e-6;  // six decimals
   const double wanted = min + step * (static_cast<double>(entries) - 1.0);

@@ -23,6 +23,9 @@ struct SystemVariable {
 [[nodiscard]] std::vector<double> complete_entries(const std::map<long long, double>& entries,
                                                    const std::string& name);
 
+// Whether six decimals hold both ends of a table.
+[[nodiscard]] bool fits_extent(double min, double step, std::size_t entries);
+
 // MIN, MAX and STEP of a table agree with its number of entries. Throws UserError.
 void check_extent(double min, double max, double step, std::size_t entries);
 

@@ -20,6 +20,16 @@ Number read_all(const std::string& text, int line, const char* kind) {
   return value;
 }
 
+// Finite and of the form; `where` has the index.
+Status check_number(double value, const NumberForm& form, const char* field, Where where) {
+  if (!std::isfinite(value)) return refuse(Reason::not_finite, where);
+  if (std::abs(value) <= form.most) return {};
+  where.field = field;
+  where.has_value = true;
+  where.value = value;
+  return refuse(Reason::bad_setting, where);
+}
+
 }  // namespace
 
 std::string six_decimals(double value) {
@@ -51,7 +61,7 @@ std::string at_line(int line, const std::string& complaint) {
 }
 
 Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, bool modulo,
-                     double file_units) {
+                     const NumberForm& form, double file_units) {
   Where where;
   where.count = static_cast<int>(offsets.size());
   if (offsets.size() < 2) return refuse(Reason::too_few_knots, where);
@@ -59,7 +69,8 @@ Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, b
   where.count = -1;
   for (std::size_t i = 0; i < offsets.size(); ++i) {
     where.index = static_cast<int>(i);
-    if (!std::isfinite(offsets[i])) return refuse(Reason::not_finite, where);
+    const Status s = check_number(offsets[i] * file_units, form, "offset", where);
+    if (!s.ok()) return s;
   }
   if (!modulo) return {};
   const double first = offsets.front() * file_units;
@@ -70,13 +81,16 @@ Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, b
   return refuse(Reason::not_periodic, where);
 }
 
-Status check_nominal(const std::vector<double>& nominal, std::size_t offsets) {
+Status check_nominal(const std::vector<double>& nominal, std::size_t offsets,
+                     const NumberForm& form, double file_units) {
   if (nominal.size() != offsets) return refuse(Reason::length_mismatch);
   Where where;
   for (std::size_t i = 0; i < nominal.size(); ++i) {
     where.index = static_cast<int>(i);
-    if (!std::isfinite(nominal[i])) return refuse(Reason::not_finite, where);
-    if (i == 0 || nominal[i] > nominal[i - 1]) continue;
+    const Status s = check_number(nominal[i] * file_units, form, "position", where);
+    if (!s.ok()) return s;
+    const auto printed = [&](double at) { return std::round(at * file_units * form.last_digits); };
+    if (i == 0 || printed(nominal[i]) > printed(nominal[i - 1])) continue;
     const bool same = !(nominal[i] < nominal[i - 1]);
     return refuse(same ? Reason::positions_duplicate : Reason::positions_not_monotone, where);
   }

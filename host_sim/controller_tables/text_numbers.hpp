@@ -10,8 +10,16 @@ namespace volcomp::sim {
 
 [[nodiscard]] std::string six_decimals(double value);
 
-// Nearest integer, half away from zero.
+// Nearest integer, half away from zero; of numbers that kInt32 holds.
 [[nodiscard]] long long nearest(double value);
+
+// What a number of a file can be.
+struct NumberForm {
+  double last_digits = 1.0;  // in one unit of the file
+  double most = 0.0;         // units of the file
+};
+inline constexpr NumberForm kSixDecimals{1e6, 1e9};  // beyond, a double has fewer decimals
+inline constexpr NumberForm kInt32{1.0, 2147483647.0};
 
 // Throw UserError naming the line unless all of `text` is one number.
 [[nodiscard]] double read_decimal(const std::string& text, int line);
@@ -23,14 +31,17 @@ namespace volcomp::sim {
 // The line in front of a complaint about it.
 [[nodiscard]] std::string at_line(int line, const std::string& complaint);
 
-// Of a table before it is written: at least two offsets, at most `capacity`, all finite, the first
-// and the last printed alike if it is to wrap. too_few_knots, too_many_knots (count), not_finite
-// (index), not_periodic (deviation).
+// Of a table before it is written: at least two offsets, at most `capacity`, all finite and of the
+// form, the first and the last printed alike if it is to wrap; `file_units`: in one mm or rad.
+// too_few_knots, too_many_knots (count), not_finite (index), bad_setting ("offset", index),
+// not_periodic (deviation).
 Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, bool modulo,
-                     double file_units);
+                     const NumberForm& form, double file_units);
 
-// Ascending positions, as many as offsets: length_mismatch, not_finite, positions_duplicate,
+// Positions that ascend as they are printed, as many as offsets; `file_units`: in one mm or degree.
+// length_mismatch, not_finite, bad_setting ("position"), positions_duplicate,
 // positions_not_monotone (index).
-Status check_nominal(const std::vector<double>& nominal, std::size_t offsets);
+Status check_nominal(const std::vector<double>& nominal, std::size_t offsets,
+                     const NumberForm& form, double file_units = 1.0);
 
 }  // namespace volcomp::sim

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/data/utf8.hpp"
 
 namespace volcomp::sim {
 
@@ -52,7 +53,9 @@ std::string quoted(std::string_view cell) {
 bool CsvLines::next(std::string& line) {
   while (any(line)) {
     const std::string_view content = trimmed(line);
-    if (!content.empty() && content.front() != '#') return true;
+    if (content.empty() || content.front() == '#') continue;
+    if (!is_utf8(content)) fail("the line is not UTF-8; save the file as UTF-8 or ASCII");
+    return true;
   }
   return false;
 }
@@ -94,7 +97,8 @@ double CsvLines::number(std::string_view cell, const std::string& what) const {
   double value = 0.0;
   const char* begin = cell.data();
   const char* end = begin + cell.size();
-  if (begin != end && *begin == '+') ++begin;
+  // One sign, as every other reader of numbers has it: "+-1" is none.
+  if (cell.size() > 1 && cell[0] == '+' && cell[1] != '-') ++begin;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc::result_out_of_range)
     fail(fmt::format("{}{} is out of range", what, quoted(cell)));

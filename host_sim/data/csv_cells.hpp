@@ -28,13 +28,15 @@ class CsvLines {
  public:
   CsvLines(std::istream& stream, std::string name) : stream_(stream), name_(std::move(name)) {}
 
-  // The next line that has content: not empty, not a comment (#).
+  // The next line that has content: not empty, not a comment (#). Fails if it is not UTF-8.
   bool next(std::string& line);
 
   // The next line.
   bool any(std::string& line);
 
   [[nodiscard]] const std::string& name() const { return name_; }
+  // The line read last, from 1.
+  [[nodiscard]] std::size_t line() const { return line_; }
 
   // Throws UserError("NAME:LINE: text").
   [[noreturn]] void fail(const std::string& text) const;

@@ -13,7 +13,9 @@ struct Interrupted : std::runtime_error {
   int signal;
 };
 
-// While one lives, SIGINT, SIGTERM and SIGHUP are only noted. One at a time.
+// While one lives, SIGINT, SIGTERM and SIGHUP are only noted, each once: the second of a kind ends
+// the program as ever. SIGHUP stays ignored where it was (nohup). One inside another is fine: both
+// see them.
 class Interruption {
  public:
   Interruption();
@@ -21,14 +23,10 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
   ~Interruption();
 
-  // Throws Interrupted when there was such a signal.
+  // Whether there was such a signal.
+  [[nodiscard]] bool asked() const;
+  // Throws Interrupted when there was.
   void check() const;
-
- private:
-  using Handler = void (*)(int);
-  Handler interrupt_before_;
-  Handler terminate_before_;
-  Handler hang_up_before_;
 };
 
 }  // namespace volcomp::sim

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "host_sim/data/csv_cells.hpp"
+#include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
@@ -82,10 +82,8 @@ ErrorMap read_map(std::istream& stream, const std::string& name) {
 }
 
 ErrorMap read_map_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw UserError(path.string() + ": cannot be opened");
-  return read_map(stream, path.string());
+  InputFile file(path);
+  return read_map(file.stream(), file.name());
 }
 
 std::string map_csv(const ErrorMap& map) {

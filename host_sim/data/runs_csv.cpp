@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -11,8 +10,9 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include "comp/units.hpp"
 #include "host_sim/data/csv_cells.hpp"
+#include "host_sim/data/csv_units.hpp"
+#include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/data/whole_file.hpp"
 
@@ -20,23 +20,6 @@ namespace volcomp::sim {
 namespace {
 
 constexpr std::size_t kMaxRuns = 1000;  // both directions together
-
-struct Unit {
-  const char* name;
-  double factor;  // to mm or rad
-  bool angle;
-};
-
-constexpr std::array<Unit, 10> kUnits{{{"mm", 1.0, false},
-                                       {"um", 1e-3, false},
-                                       {"\xC2\xB5m", 1e-3, false},
-                                       {"nm", 1e-6, false},
-                                       {"rad", 1.0, true},
-                                       {"mrad", 1e-3, true},
-                                       {"urad", 1e-6, true},
-                                       {"\xC2\xB5rad", 1e-6, true},
-                                       {"arcsec", kPi / 648000.0, true},
-                                       {"deg", kPi / 180.0, true}}};
 
 // What a column holds. Channels 0…5 = EX…EC.
 struct Column {
@@ -52,9 +35,9 @@ struct Reading {
   ErrorMotion value = ErrorMotion::Zero();
 };
 
-class Reader {
+class RunsReader {
  public:
-  Reader(std::istream& stream, const std::string& name) : lines_(stream, name) {}
+  RunsReader(std::istream& stream, const std::string& name) : lines_(stream, name) {}
 
   RunsFile read() {
     std::string line;
@@ -74,24 +57,9 @@ class Reader {
  private:
   [[noreturn]] void fail(const std::string& text) const { lines_.fail(text); }
 
-  Unit unit_of(std::string_view cell, std::string_view& label) const {
-    const std::size_t open = cell.find('[');
-    const std::size_t close = cell.find(']');
-    if (open == std::string_view::npos || close == std::string_view::npos || close < open) {
-      fail(fmt::format("column {} needs its unit in brackets, for instance [um] or [urad]",
-                       quoted(cell)));
-    }
-    label = trimmed(cell.substr(0, open));
-    const std::string_view name = trimmed(cell.substr(open + 1, close - open - 1));
-    for (const Unit& unit : kUnits) {
-      if (name == unit.name) return unit;
-    }
-    fail(fmt::format("unknown unit {} (known: mm um nm rad mrad urad arcsec deg)", quoted(name)));
-  }
-
   Column channel_column(std::string_view cell) {
     std::string_view label;
-    const Unit unit = unit_of(cell, label);
+    const CsvUnit unit = unit_of(lines_, cell, label);
     if (label == "target") {
       target_is_angle_ = unit.angle;
       return {Column::Kind::target, 0, unit.factor};
@@ -228,14 +196,12 @@ RunViews::RunViews(const RunsFile& file) {
 }
 
 RunsFile read_runs(std::istream& stream, const std::string& name) {
-  return Reader(stream, name).read();
+  return RunsReader(stream, name).read();
 }
 
 RunsFile read_runs_file(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path))
-    throw UserError(path.string() + ": cannot be opened");
-  return read_runs(stream, path.string());
+  InputFile file(path);
+  return read_runs(file.stream(), file.name());
 }
 
 void write_runs(std::ostream& stream, const RunsFile& runs) {
@@ -260,10 +226,14 @@ void write_runs(std::ostream& stream, const RunsFile& runs) {
   write(runs.down, "down");
 }
 
-void write_runs_file(const std::filesystem::path& path, const RunsFile& runs) {
+std::string runs_csv(const RunsFile& runs) {
   std::ostringstream text;
   write_runs(text, runs);
-  write_whole_file(path, text.str());
+  return text.str();
+}
+
+void write_runs_file(const std::filesystem::path& path, const RunsFile& runs) {
+  write_whole_file(path, runs_csv(runs));
 }
 
 }  // namespace volcomp::sim

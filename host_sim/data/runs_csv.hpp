@@ -41,6 +41,7 @@ struct RunViews {
 [[nodiscard]] RunsFile read_runs(std::istream& stream, const std::string& name);
 [[nodiscard]] RunsFile read_runs_file(const std::filesystem::path& path);
 
+[[nodiscard]] std::string runs_csv(const RunsFile& runs);
 void write_runs(std::ostream& stream, const RunsFile& runs);
 // Whole or not at all.
 void write_runs_file(const std::filesystem::path& path, const RunsFile& runs);

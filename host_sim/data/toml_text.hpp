@@ -13,10 +13,11 @@
 
 namespace volcomp::sim {
 
+// Of one that refuse_monsters will find too large, not more than it takes to see that.
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& path);
 
 // The TOML library recurses once per bracket and copies freely; no file of ours comes near these
-// limits.
+// limits. Of a key in quotes that is not UTF-8 it reads beyond the end (toml11 3.7).
 void refuse_monsters(const std::string& text, const std::string& name);
 
 // What `read` makes of the top table.

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "host_sim/data/file_draft.hpp"
+
 namespace volcomp::sim {
 
 // All of a file. Throws UserError naming it: cannot be opened, cannot be read, more than `largest`
@@ -21,8 +23,29 @@ struct NamedText {
   std::string text;
 };
 
-// Several files into one folder, made if need be: none is put in place before all are written.
-void write_whole_files(const std::filesystem::path& folder, const std::vector<NamedText>& files);
+// Several files: none is put in place before all are written. What was not put in place is gone,
+// with the folders made for it. All throw UserError naming the file or the folder.
+class WholeFiles {
+ public:
+  WholeFiles() = default;
+  ~WholeFiles();
+  WholeFiles(const WholeFiles&) = delete;
+  WholeFiles& operator=(const WholeFiles&) = delete;
+
+  // With those above it.
+  void add_folder(const std::filesystem::path& path);
+  void add(const std::filesystem::path& path, std::string_view text);
+  void put_in_place();
+
+ private:
+  struct Direct {
+    std::filesystem::path path;
+    std::string text;
+  };
+  std::vector<FileDraft> drafts_;
+  std::vector<Direct> direct_;                      // nothing of these can be taken back
+  std::vector<std::filesystem::path> new_folders_;  // innermost first
+};
 
 // With those above it; one that exists is fine. Throws UserError naming it.
 void create_folder(const std::filesystem::path& path);

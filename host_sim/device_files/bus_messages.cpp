@@ -51,6 +51,10 @@ void set_unit(BusSignal& signal, Quantity quantity, bool rotary) {
     case Quantity::time:
       signal.unit = "ns";
       break;
+    case Quantity::temperature:
+      signal.unit = "degC";
+      signal.factor = 0.01;
+      break;
     case Quantity::count:
       signal.unit = "1";
       break;
@@ -132,13 +136,11 @@ BusMessage node_status(const BusSettings& bus) {
                       {"Node_Status", kNode, {kController}, "State of the compensation"});
 }
 
-BusMessage process_state(const BusSettings& bus) {
-  const PdoParameters pdo = node::default_receive_pdo(node::kProcessStatePdo, {}, bus.controller);
+BusMessage told_by_controller(const BusSettings& bus, std::size_t receive_pdo, const char* name,
+                              const char* comment) {
+  const PdoParameters pdo = node::default_receive_pdo(receive_pdo, {}, bus.controller);
   return process_data(pdo, node::named_node_dictionary(), false,
-                      {"Controller_ProcessState",
-                       kController,
-                       {kNode},
-                       "What a grinder does at the targets of the same cycle"});
+                      {fmt::format("{}_{}", kController, name), kController, {kNode}, comment});
 }
 
 void add_points(const BusSettings& bus, std::vector<BusMessage>& messages) {
@@ -179,6 +181,18 @@ BusMessage sync(const BusSettings& bus) {
           everybody_but(bus, kController),
           "Begins a cycle",
           {{"SyncCounter", 0, 8, false, 1.0, "1", "1 to 240 (1019h), then 1 again"}}};
+}
+
+// The upper four bits of the first 32 are reserved.
+BusMessage time_of_day(const BusSettings& bus) {
+  return {canopen::kTime,
+          "TIME",
+          6,
+          kController,
+          everybody_but(bus, kController),
+          "The date, for tables that expire",
+          {{"Milliseconds", 0, 28, false, 1.0, "ms", "After midnight"},
+           {"Days", 32, 16, false, 1.0, "d", "Since 1 January 1984"}}};
 }
 
 std::uint16_t id_of(std::uint16_t function, std::uint8_t node) {
@@ -271,9 +285,16 @@ std::vector<std::string> bus_stations(const BusSettings& bus) {
 
 std::vector<BusMessage> bus_messages(const BusSettings& bus) {
   check(bus);
-  std::vector<BusMessage> messages{nmt_command(bus), sync(bus), node_status(bus),
-                                   process_state(bus),
-                                   heartbeat(bus, bus.controller, kController, kController)};
+  std::vector<BusMessage> messages{
+      nmt_command(bus),
+      sync(bus),
+      node_status(bus),
+      told_by_controller(bus, node::kProcessStatePdo, "ProcessState",
+                         "What a grinder does at the targets of the same cycle"),
+      told_by_controller(bus, node::kTemperaturePdo, "Temperatures",
+                         "How warm the axes are; -327.68: no sensor"),
+      time_of_day(bus),
+      heartbeat(bus, bus.controller, kController, kController)};
   add_points(bus, messages);
   add_services(bus, bus.node, kNode, kNode, messages);
   for (const BusAxis& axis : bus.axes) {

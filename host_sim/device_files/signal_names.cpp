@@ -54,7 +54,11 @@ const std::vector<SignalText>& texts() {
       {{0x2401, 8}, "PointUncertainty", Quantity::position, "Largest of the three coordinates"},
       {{0x2600, 1}, "NodeState", Quantity::code, nullptr, node_states()},
       {{0x2600, 2}, "SyncCounter", Quantity::count},
-      {{0x2600, 3}, "AxisStatusBits", Quantity::code, kStatusBitNames}};
+      {{0x2600, 3}, "AxisStatusBits", Quantity::code, kStatusBitNames},
+      {{0x2700, 1}, "Temperature0", Quantity::temperature},
+      {{0x2700, 2}, "Temperature1", Quantity::temperature},
+      {{0x2700, 3}, "Temperature2", Quantity::temperature},
+      {{0x2700, 4}, "Temperature3", Quantity::temperature}};
   return all;
 }
 
@@ -104,6 +108,7 @@ ValueNames touch_verdicts() {
 ValueNames error_codes() {
   using canopen::ErrorCode;
   return {named(ErrorCode::none, "error gone"),
+          named(ErrorCode::temperature_held, "temperature missing or implausible"),
           named(ErrorCode::store_failed, "saving failed"),
           named(ErrorCode::unexpected_reset, "restarted by watchdog or fault"),
           named(ErrorCode::background_overdue, "background hangs"),
@@ -122,6 +127,7 @@ ValueNames error_codes() {
           named(ErrorCode::no_authority, "correcting axes cannot act here"),
           named(ErrorCode::table_refused, "table refused"),
           named(ErrorCode::table_damaged, "active tables damaged"),
+          named(ErrorCode::tables_expired, "active tables past their expiry"),
           named(ErrorCode::foreign_sync, "second SYNC producer"),
           named(ErrorCode::offset_not_confirmed, "drive does not report its offset"),
           named(ErrorCode::touch_rejected, "touch rejected"),

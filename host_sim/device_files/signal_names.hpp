@@ -6,7 +6,7 @@
 
 namespace volcomp::sim {
 
-enum class Quantity : std::uint8_t { code, count, position, speed, time };
+enum class Quantity : std::uint8_t { code, count, position, speed, time, temperature };
 
 struct SignalText {
   canopen::ObjectId object;

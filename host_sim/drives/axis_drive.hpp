@@ -13,8 +13,9 @@ inline constexpr double kDriveTimeConstant_s = 0.002;
 
 class AxisDrive {
  public:
-  AxisDrive(double period_s, double time_constant_s)
-      : gain_(1.0 - std::exp(-period_s / time_constant_s)) {}
+  // `presliding_nm`: way over which the reversal builds up.
+  AxisDrive(double period_s, double time_constant_s, double presliding_nm = 2000.0)
+      : gain_(1.0 - std::exp(-period_s / time_constant_s)), presliding_nm_(presliding_nm) {}
 
   void stand_at(std::int64_t position_nm) { position_nm_ = static_cast<double>(position_nm); }
 
@@ -23,8 +24,7 @@ class AxisDrive {
     position_nm_ += step;
     // Reversal builds up over 2 µm of travel and then stays: a nanometre of correction does not
     // turn it round.
-    constexpr double kPresliding_nm = 2000.0;
-    approach_ = std::clamp(approach_ + 2.0 * step / kPresliding_nm, -1.0, 1.0);
+    approach_ = std::clamp(approach_ + 2.0 * step / presliding_nm_, -1.0, 1.0);
   }
 
   [[nodiscard]] double position_mm() const { return position_nm_ * 1e-6; }
@@ -33,6 +33,7 @@ class AxisDrive {
 
  private:
   double gain_;
+  double presliding_nm_;
   double position_nm_ = 0.0;
   double approach_ = 0.0;
 };

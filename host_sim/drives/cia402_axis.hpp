@@ -11,7 +11,8 @@
 
 namespace volcomp::sim {
 
-// Position units: 1 nm of a linear axis; 2⁻³¹ turn of a rotary one, counted through.
+// Position units: those of the drive, 1 nm of a linear axis and 2⁻³¹ turn of a rotary one unless
+// its settings say otherwise; counted through.
 inline constexpr double kDriveUnitsPerTurn = 2147483648.0;
 
 // As INTEGER32 on the bus: a linear position stays at the end of the range.
@@ -31,10 +32,11 @@ struct ForeignMechanics {
 
 class Cia402Axis {
  public:
-  Cia402Axis(double period_s, double time_constant_s)
+  // `presliding_units`: way over which the reversal of the axis builds up.
+  Cia402Axis(double period_s, double time_constant_s, double presliding_units = 2000.0)
       : period_s_(period_s),
         gain_(1.0 - std::exp(-period_s / time_constant_s)),
-        drive_(period_s, time_constant_s) {}
+        drive_(period_s, time_constant_s, presliding_units) {}
 
   // The world's side. The reading moves along: the encoder is absolute.
   void stand_at(std::int64_t units);

@@ -43,10 +43,11 @@ Cia402Objects default_objects(const Cia402Drive::Settings& settings, std::uint64
   o.software_limit = {settings.software_min, settings.software_max};
   o.quick_stop_deceleration = settings.deceleration;
   const std::uint32_t turn =
-      settings.rotary ? static_cast<std::uint32_t>(kDriveUnitsPerTurn) : settings.feed_per_turn;
+      settings.rotary ? static_cast<std::uint32_t>(std::lround(settings.units.units_per_turn))
+                      : settings.feed_per_turn;
   o.encoder_resolution = {turn, 1};
   o.feed = {turn, 1};
-  o.position_unit = settings.rotary ? kIncrement : kNanometre;
+  o.position_unit = settings.rotary ? kIncrement : settings.units.position_unit;
   set_cycle(o, period_us);
   return o;
 }
@@ -57,7 +58,7 @@ Cia402Drive::Cia402Drive(const Settings& settings)
     : settings_(settings),
       period_us_(static_cast<std::uint64_t>(std::llround(settings.period_s * 1e6))),
       device_({cia402_dictionary(), &objects_.communication, receive_, transmit_}, *this),
-      axis_(settings.period_s, settings.time_constant_s) {
+      axis_(settings.period_s, settings.time_constant_s, settings.units.presliding) {
   device_.set_node_id(settings.node_id);
 }
 

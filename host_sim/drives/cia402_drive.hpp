@@ -30,7 +30,14 @@ inline constexpr auto kCommunicationErrorCode = static_cast<canopen::ErrorCode>(
 
 class Cia402Drive final : private canopen::Application {
  public:
-  // Positions in units: 1 nm of a linear, 2⁻³¹ turn of a rotary axis.
+  // How a drive counts.
+  struct Units {
+    double mm_per_unit = 1e-6;                   // linear
+    double units_per_turn = kDriveUnitsPerTurn;  // rotary
+    double presliding = 2000.0;                  // way of reversal: 2 µm
+    std::uint32_t position_unit = kNanometre;    // 60A8h of a linear axis
+  };
+  // Positions in units: 1 nm of a linear, 2⁻³¹ turn of a rotary axis if `units` is left as it is.
   struct Settings {
     std::uint8_t node_id = 1;                    // 1…127
     bool rotary = false;                         // positions wrap, software limits do not apply
@@ -43,6 +50,7 @@ class Cia402Drive final : private canopen::Application {
     std::uint32_t feed_per_turn = 10'000'000;    // 6092h:01, linear axes: a 10 mm screw
     std::int64_t latch_delay_ns = 0;             // from an edge of the probe to its latch, ≥ 0
     std::int64_t latch_resolution_ns = 20;       // instants of latches are multiples of this
+    Units units{};
   };
 
   // What the position loop takes in at a SYNC.
@@ -95,8 +103,12 @@ class Cia402Drive final : private canopen::Application {
 
   // Where the axis really is, counted through.
   [[nodiscard]] double position_units() const { return axis_.position_units(); }
-  [[nodiscard]] double position_mm() const { return position_units() * 1e-6; }  // linear
-  [[nodiscard]] double position_turns() const { return position_units() / kDriveUnitsPerTurn; }
+  [[nodiscard]] double position_mm() const {
+    return position_units() * settings_.units.mm_per_unit;
+  }  // linear
+  [[nodiscard]] double position_turns() const {
+    return position_units() / settings_.units.units_per_turn;
+  }
   [[nodiscard]] double approach() const { return axis_.approach(); }  // −1…+1
   // What the drive wants, counted through from its own zero (607Ch), and the 60B0h it had at the
   // last SYNC.

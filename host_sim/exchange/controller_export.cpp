@@ -176,7 +176,7 @@ ExportedFormat linuxcnc(const std::array<OwnTable, 3>& own, const ExportOptions&
 ExportedFormat isg(const std::array<OwnTable, 3>& own, const ExportOptions& options) {
   ExportedFormat out;
   out.name = "isg";
-  out.units = "whole numbers of 0.1 um (kw.ssfk.unit 1)";
+  out.units = "whole numbers of 0.1 µm (kw.ssfk.unit 1)";
   out.sign = "an entry is actual minus setpoint: minus the offset";
   out.not_held = kOwnOnly;
   out.to_do = "lr_param.ssfk (P-AXIS-00175) to enable; compare kopf.log_achs_nr with the machine";

@@ -7,9 +7,9 @@
 namespace volcomp::sim {
 namespace {
 
-class Reader {
+class EtalonReader {
  public:
-  Reader(std::istream& stream, const std::string& name, ForeignErrors& errors)
+  EtalonReader(std::istream& stream, const std::string& name, ForeignErrors& errors)
       : lines_(stream, name), errors_(errors) {}
 
   void read() {
@@ -91,7 +91,7 @@ class Reader {
 }  // namespace
 
 void read_etalon(std::istream& stream, const std::string& name, ForeignErrors& errors) {
-  Reader(stream, name, errors).read();
+  EtalonReader(stream, name, errors).read();
 }
 
 }  // namespace volcomp::sim

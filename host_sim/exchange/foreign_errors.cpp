@@ -7,13 +7,12 @@
 
 #include "comp/units.hpp"
 #include "host_sim/data/user_error.hpp"
+#include "host_sim/machine/chain_string.hpp"
 
 namespace volcomp::sim {
 namespace {
 
 constexpr std::string_view kLetters = "XYZABC";
-constexpr double kSamePosition = 1e-5;  // mm or rad: what run files tell apart
-constexpr double kFarthest = 1e9;       // mm or rad
 
 std::string channel_name(std::size_t channel, char axis) {
   return fmt::format("E{}{}", kLetters[channel], axis);
@@ -22,7 +21,7 @@ std::string channel_name(std::size_t channel, char axis) {
 bool same_positions(const ForeignCurve& a, const ForeignCurve& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const ForeignPoint& p, const ForeignPoint& q) {
-                      return std::abs(p.at - q.at) < kSamePosition;
+                      return std::abs(p.at - q.at) < kNearestTargets;
                     });
 }
 
@@ -54,7 +53,7 @@ void check_channels(char axis, const std::array<ForeignCurve, 6>& curves, const 
 
 }  // namespace
 
-bool is_rotary_letter(char letter) { return letter >= 'A' && letter <= 'C'; }
+bool fits_run_file(double value) { return std::abs(value) <= kLargestInRuns; }
 
 bool read_error_name(std::string_view text, ErrorName& out) {
   const bool short_location = text.size() == 3 && text[1] == '0';
@@ -73,10 +72,11 @@ void add_point(ForeignErrors& errors, const ErrorName& name, double at, double v
                const CsvLines& lines) {
   if (!std::isfinite(at) || !std::isfinite(value)) lines.fail("a number must be finite");
   const double position = is_rotary_letter(name.axis) ? at * kPi / 180.0 : at;
-  if (std::abs(position) > kFarthest) lines.fail("the position is out of range");
+  if (!fits_run_file(position)) lines.fail("the position is out of range");
+  if (!fits_run_file(value)) lines.fail("the error is out of range");
   ForeignCurve& curve = errors.axis[name.axis][name.channel];
   const bool twice = std::any_of(curve.begin(), curve.end(), [&](const ForeignPoint& p) {
-    return std::abs(p.at - position) < kSamePosition;
+    return std::abs(p.at - position) < kNearestTargets;
   });
   if (twice)
     lines.fail(fmt::format("{} has position {} twice", channel_name(name.channel, name.axis), at));

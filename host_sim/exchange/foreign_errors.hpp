@@ -31,6 +31,12 @@ struct ForeignErrors {
   std::vector<LocationError> location;
 };
 
+// What a run file holds, mm or rad. Targets that are nearer than this are one.
+inline constexpr double kNearestTargets = 1e-5;
+inline constexpr double kLargestInRuns = 1e9;
+// NaN does not.
+[[nodiscard]] bool fits_run_file(double value);
+
 // What a file must not leave to a guess.
 struct ImportRules {
   int sign = 1;              // −1: the file holds nominal − actual
@@ -47,10 +53,8 @@ struct ErrorName {
 // "EXY" or "C0Y" ("EC0Y"), letters XYZABC; false for anything else.
 [[nodiscard]] bool read_error_name(std::string_view text, ErrorName& out);
 
-[[nodiscard]] bool is_rotary_letter(char letter);
-
 // Adds one point; both readers take lengths in mm, angles in rad and rotary positions in degrees.
-// Fails with the line for a point that is not finite, twice there, or one too many.
+// Fails with the line for a point that is not finite, too large, twice there, or one too many.
 void add_point(ForeignErrors& errors, const ErrorName& name, double at, double value,
                const CsvLines& lines);
 

@@ -13,9 +13,9 @@ struct Column {
   ErrorName name;
 };
 
-class Reader {
+class IsgReader {
  public:
-  Reader(std::istream& stream, const std::string& name, ForeignErrors& errors)
+  IsgReader(std::istream& stream, const std::string& name, ForeignErrors& errors)
       : lines_(stream, name), errors_(errors) {}
 
   void read() {
@@ -125,7 +125,7 @@ class Reader {
 }  // namespace
 
 void read_isg_csv(std::istream& stream, const std::string& name, ForeignErrors& errors) {
-  Reader(stream, name, errors).read();
+  IsgReader(stream, name, errors).read();
 }
 
 }  // namespace volcomp::sim

@@ -1,10 +1,26 @@
 #include "host_sim/exchange/table_model.hpp"
 
+#include "comp/realtime/table_set.hpp"
 #include "comp/tables/image.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
+#include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {
+namespace {
+
+// A node takes tables over by folding them, which bounds what they can ask for. Done here with room
+// for any machine and any table.
+void require_foldable(const MachineTables& tables, const std::string& name) {
+  const auto view = std::make_unique<TablesView>();
+  require(view_tables(tables, *view), name);
+  const RuntimeChain chain = make_runtime_chain(tables.machine);
+  const auto set = std::make_unique<TableSet<kMaxAxes, kTableKnots>>();
+  FoldReport report;
+  require(fold_tables(*view, chain, view->chain.tool_point(), TableSetView(*set), report), name);
+}
+
+}  // namespace
 
 TableModel table_model(const MachineTables& tables, const std::string& name) {
   TableModel out;
@@ -22,7 +38,8 @@ TableModel table_model(const MachineTables& tables, const std::string& name) {
 std::unique_ptr<MachineTables> read_tables_file(const std::filesystem::path& path) {
   const std::vector<std::uint8_t> image = read_image_file(path);
   auto tables = std::make_unique<MachineTables>();
-  require(decode_image({image.data(), image.size()}, kTableKnots, *tables), path.string());
+  require(decode_image({image.data(), image.size()}, kTableKnots, *tables), shown_name(path));
+  require_foldable(*tables, shown_name(path));
   return tables;
 }
 

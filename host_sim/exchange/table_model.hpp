@@ -19,7 +19,8 @@ struct TableModel {
 // Throws UserError with `name` when the machine is refused.
 [[nodiscard]] TableModel table_model(const MachineTables& tables, const std::string& name);
 
-// An image file (.vct), checked as the node checks it. Throws UserError naming the file.
+// An image file (.vct), checked as the node checks it: the bytes, and that its tables can be meant.
+// Throws UserError naming the file.
 [[nodiscard]] std::unique_ptr<MachineTables> read_tables_file(const std::filesystem::path& path);
 
 }  // namespace volcomp::sim

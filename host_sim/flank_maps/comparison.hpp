@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "comp/evaluation/map_comparison.hpp"
+#include "host_sim/scenarios/report/document.hpp"
 
 namespace volcomp::sim {
 
@@ -83,8 +84,8 @@ struct FlankComparison {
 
 [[nodiscard]] std::string comparison_text(const FlankComparison& comparison);
 [[nodiscard]] nlohmann::json comparison_json(const FlankComparison& comparison);
-// A document for write_report.
+// The document of a report.
 [[nodiscard]] nlohmann::json comparison_document(const FlankComparison& comparison,
-                                                 const std::string& command);
+                                                 const RunContext& run);
 
 }  // namespace volcomp::sim

@@ -7,8 +7,8 @@
 
 #include "comp/evaluation/face_gear_grade.hpp"
 #include "host_sim/flank_maps/comparison.hpp"
+#include "host_sim/scenarios/report/provenance.hpp"
 #include "host_sim/scenarios/report_parts.hpp"
-#include "host_sim/version.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -130,39 +130,38 @@ json frame_table(const FlankComparison& c) {
            "squares."}};
 }
 
-json provenance(const FlankComparison& c, const std::string& command) {
-  json list = json::array({{"command", command}, {"version", kVersion}});
-  for (const FlankPair& pair : c.flanks) {
+Origins origins_of(const FlankComparison& c) {
+  Origins origins;
+  origins.data = "measured: what the files hold";
+  origins.settings.emplace_back("conventions", conventions_of(c.options));
+  for (std::size_t f = 0; f < c.flanks.size(); ++f) {
     for (std::size_t k = 0; k < 2; ++k)
-      list.push_back({fmt::format("{} flank, {}", pair.name, c.options.names.at(k)),
-                      pair.measured.at(k).file});
+      add_origin(origins, fmt::format("{} flank, {}", c.flanks[f].name, c.options.names.at(k)),
+                 c.options.files.at(2 * f + k));
   }
-  if (!c.options.gear.empty()) list.push_back({"gear", c.options.gear});
-  list.push_back({"conventions", conventions_of(c.options)});
-  return list;
+  if (!c.options.gear.empty()) add_origin(origins, "gear", c.options.gear);
+  return origins;
 }
 
 }  // namespace
 
-json comparison_document(const FlankComparison& c, const std::string& command) {
-  json sections = json::array();
-  add_maps(c, sections);
-  sections.push_back(line_bars(c, "row", kGridRows, [](const MapDifference& d) { return d.row; }));
-  sections.push_back(
-      line_bars(c, "column", kGridColumns, [](const MapDifference& d) { return d.column; }));
-  sections.push_back(profile_table(c));
-  if (!c.frame.empty()) sections.push_back(frame_table(c));
-  json document{
-      {"title", fmt::format("Face gear: {} against {}", c.options.names[0], c.options.names[1])},
-      {"subtitle", conventions_of(c.options)},
-      {"provenance", provenance(c, command)},
-      {"sections", sections}};
+json comparison_document(const FlankComparison& c, const RunContext& run) {
+  ReportParts parts;
+  parts.title = fmt::format("Face gear: {} against {}", c.options.names[0], c.options.names[1]);
+  parts.subtitle = conventions_of(c.options);
   if (c.options.limit_um)
-    document["verdict"] = {
-        {"ok", c.within_limit()},
-        {"text", fmt::format("Largest difference {:.1f} µm; {:g} µm are allowed.", c.largest_um,
-                             *c.options.limit_um)}};
-  return document;
+    parts.verdict =
+        Verdict{c.within_limit(), fmt::format("Largest difference {:.1f} µm; {:g} µm are allowed.",
+                                              c.largest_um, *c.options.limit_um)};
+  add_maps(c, parts.plots);
+  parts.plots.push_back(
+      line_bars(c, "row", kGridRows, [](const MapDifference& d) { return d.row; }));
+  parts.plots.push_back(
+      line_bars(c, "column", kGridColumns, [](const MapDifference& d) { return d.column; }));
+  parts.details.push_back(profile_table(c));
+  if (!c.frame.empty()) parts.details.push_back(frame_table(c));
+  parts.provenance = provenance(run, origins_of(c));
+  return report_document(std::move(parts));
 }
 
 }  // namespace volcomp::sim

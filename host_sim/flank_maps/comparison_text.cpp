@@ -54,7 +54,7 @@ std::string flank_text(const FlankComparison& c, const FlankPair& pair) {
   }
   text += map_text(pair.difference);
   const CellStatistics& s = pair.difference.overall;
-  return text + fmt::format("  largest {:.1f} um at row {}, column {}; rms {:.2f} um\n\n",
+  return text + fmt::format("  largest {:.1f} µm at row {}, column {}; rms {:.2f} µm\n\n",
                             s.largest, s.row + 1, s.column + 1, s.rms);
 }
 
@@ -66,7 +66,7 @@ std::string profile_text(const FlankComparison& c) {
     const auto& p = c.profile.at(k);
     text += fmt::format("  {}: ", c.options.names.at(k));
     if (p)
-      text += fmt::format("{:.1f} um, {} flank, column {}: ", p->value_um,
+      text += fmt::format("{:.1f} µm, {} flank, column {}: ", p->value_um,
                           c.flanks.at(p->flank).name, p->column + 1);
     text += grade_text(p) + "\n";
   }
@@ -79,9 +79,9 @@ std::string frame_text(const FlankComparison& c) {
   for (const FrameFinding& f : c.frame) {
     const FrameShare& s = f.share;
     text += fmt::format(
-        "  {:<44} {:3.0f} %, rms {:.2f} -> {:.2f} um; X {:.1f} Y {:.1f} Z {:.1f} um, about X "
+        "  {:<44} {:3.0f} %, rms {:.2f} -> {:.2f} µm; X {:.1f} Y {:.1f} Z {:.1f} µm, about X "
         "{:.0f} "
-        "Y {:.0f} Z {:.0f} urad\n",
+        "Y {:.0f} Z {:.0f} µrad\n",
         f.what, 100.0 * s.explained, s.rms_before, s.rms_after, tenths(s.shift.x()),
         tenths(s.shift.y()), tenths(s.shift.z()), 1e3 * s.turn.x(), 1e3 * s.turn.y(),
         1e3 * s.turn.z());
@@ -171,7 +171,7 @@ std::string comparison_text(const FlankComparison& c) {
   std::string text = conventions_of(c.options) + "\n\n";
   for (const FlankPair& pair : c.flanks)
     text += flank_text(c, pair);
-  text += fmt::format("all: largest difference {:.1f} um, rms {:.2f} um\n", c.largest_um, c.rms_um);
+  text += fmt::format("all: largest difference {:.1f} µm, rms {:.2f} µm\n", c.largest_um, c.rms_um);
   if (c.options.limit_um)
     text += fmt::format("{} the limit of {:g} um: {}\n", c.within_limit() ? "within" : "beyond",
                         *c.options.limit_um, c.within_limit() ? "PASS" : "FAIL");

@@ -36,6 +36,10 @@ FaceGear parse_face_gear(const std::string& text, const std::string& name) {
   });
 }
 
+bool is_published_gear(const std::string& name_or_file) {
+  return name_or_file == "table1" || name_or_file == "table3";
+}
+
 GearChoice choose_face_gear(const std::string& name_or_file) {
   if (name_or_file == "table3") return {face_gear_of_table_3(), face_grid_of_table_3()};
   const FaceGear gear = name_or_file == "table1"

@@ -8,9 +8,10 @@
 namespace volcomp::sim {
 
 // Apparent squareness of the machine's own errors along the three lines, plus 1 σ noise on each
-// angle.
+// angle. X, Y and Z are the NC axes `xyz`; the others stand at zero.
 [[nodiscard]] XyfzSquareness measure_squareness(const TrueMachine& machine, const Vec3& tool_point,
                                                 const SquarenessLines& place, double sigma_rad,
-                                                Random& random);
+                                                Random& random,
+                                                const std::array<std::size_t, 3>& xyz = {0, 1, 2});
 
 }  // namespace volcomp::sim

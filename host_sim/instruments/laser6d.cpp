@@ -64,18 +64,24 @@ ErrorMotion Laser6D::true_reading(double q, double approach) const {
 ErrorMotion Laser6D::read(double q, double approach, const NoiseClasses& classes,
                           Random& random) const {
   const TrueAxis& truth = machine_.axis.at(axis_);
-  const double u = (q - truth.lo) / (truth.hi - truth.lo);
-  const auto along = static_cast<Eigen::Index>(machine_.chain.axis(axis_).axis);
-  ErrorMotion r = true_reading(q, approach);
+  const LaserPlace place{machine_.chain.axis(axis_).axis, q, truth.lo, truth.hi};
+  return laser_reading(true_reading(q, approach), place, setup_, classes, random);
+}
+
+ErrorMotion laser_reading(const ErrorMotion& truth, const LaserPlace& place,
+                          const LaserSetup& setup, const NoiseClasses& classes, Random& random) {
+  const double u = (place.q - place.lo) / (place.hi - place.lo);
+  const auto along = static_cast<Eigen::Index>(place.axis);
+  ErrorMotion r = truth;
   std::size_t straightness = 0;
   for (Eigen::Index c = 0; c < 6; ++c) {
     const auto i = static_cast<std::size_t>(c);
-    if (c == along) r(c) += q * setup_.scale;
-    if (c < 3 && c != along) r(c) *= 1.0 + setup_.straightness_gain.at(straightness++);
-    if (c >= 3) r(c) *= 1.0 + setup_.angle_gain.at(i - 3);
-    const double wave = setup_.wave.at(i) * std::sin(2.0 * kPi * u + setup_.wave_phase.at(i));
+    if (c == along) r(c) += place.q * setup.scale;
+    if (c < 3 && c != along) r(c) *= 1.0 + setup.straightness_gain.at(straightness++);
+    if (c >= 3) r(c) *= 1.0 + setup.angle_gain.at(i - 3);
+    const double wave = setup.wave.at(i) * std::sin(2.0 * kPi * u + setup.wave_phase.at(i));
     if (c != along) r(c) += wave;
-    if (c == along + 3) r(c) += setup_.roll * u;
+    if (c == along + 3) r(c) += setup.roll * u;
     r(c) += random.normal(c < 3 ? classes.repeatability_mm : classes.repeatability_rad);
     r(c) = rounded(r(c), c < 3 ? kResolution : kResolution * 1e-3);
   }

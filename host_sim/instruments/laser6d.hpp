@@ -22,6 +22,19 @@ struct LaserSetup {
 
 [[nodiscard]] LaserSetup mount_laser(const NoiseClasses& classes, Random& random);
 
+// Where an axis stands, in which travel.
+struct LaserPlace {
+  Axis axis = Axis::x;
+  double q = 0.0;
+  double lo = 0.0;
+  double hi = 1.0;
+};
+
+// What such an instrument shows where the errors at the sensed point are these.
+[[nodiscard]] ErrorMotion laser_reading(const ErrorMotion& truth, const LaserPlace& place,
+                                        const LaserSetup& setup, const NoiseClasses& classes,
+                                        Random& random);
+
 class Laser6D {
  public:
   // `sensed`: reading head → sensed point as declared. The instrument stands so that the sensed

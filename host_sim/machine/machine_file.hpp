@@ -12,8 +12,23 @@
 #include "comp/surfaces/internal_gear.hpp"
 #include "comp/tables/abbe.hpp"
 #include "comp/tables/error_table.hpp"
+#include "comp/tables/thermal.hpp"
 
 namespace volcomp::sim {
+
+// The drive of an axis on the bus.
+struct DriveFile {
+  std::uint8_t node = 0;
+  std::uint32_t scale_numerator = 1;  // run-time units (nm or 2^-40 turn) per unit of the drive
+  std::uint32_t scale_denominator = 1;
+  std::optional<std::array<double, 2>> software_limits_mm;  // 607Dh
+};
+
+// Everybody else on the bus.
+struct BusFile {
+  std::uint8_t node = 32;  // that compensates
+  std::uint8_t controller = 127;
+};
 
 struct AxisFile {
   char letter = '\0';
@@ -24,6 +39,12 @@ struct AxisFile {
   double reference = 0.0;
   SensedPoint sensed;
   double latch_delay_us = 0.0;  // of the touch probe input of its drive
+  DriveFile drive;
+  // Its error where the runs count as zero, in the convention and on the side of the file. Of a
+  // rotary axis: where it is and how it lies.
+  ErrorMotion at_reference = ErrorMotion::Zero();
+
+  [[nodiscard]] bool full_turn() const;  // rotary, from anywhere once round
 };
 
 // A touch probe at the tool point.
@@ -40,6 +61,14 @@ struct SquarenessFile {
   std::size_t points = 7;  // per line
 
   [[nodiscard]] std::vector<double> line(std::size_t axis) const;
+};
+
+// How the axes grow, and how long tables are good for.
+inline constexpr double kMostExpiry_days = 36'500.0;
+struct ThermalFile {
+  double reference_C = 20.0;  // of the campaign
+  double expires_days = 0.0;  // after tables are built; 0: never
+  Expansions expansion{};     // by NC axis
 };
 
 struct CorrectionFile {
@@ -74,11 +103,13 @@ struct MachineFile {
   Side side = Side::moving;
   MachineChain chain;
   std::vector<AxisFile> axes;  // by NC axis
+  BusFile bus;
   std::vector<std::string> body_names;
   CorrectionFile correction;
   std::size_t refine = 8;
   Interpolation interpolation = Interpolation::catmull_rom;
   std::optional<SquarenessFile> squareness;
+  ThermalFile thermal;
   std::optional<ProbeFile> probe;
   std::optional<GrindingFile> grinding;
 
@@ -91,7 +122,9 @@ struct MachineFile {
 [[nodiscard]] MachineFile read_machine_file(const std::filesystem::path& path);
 [[nodiscard]] MachineFile parse_machine(const std::string& text, const std::string& name);
 
-// A machine that comes with the program, by name ("xyfz").
+// The machines that come with the program, by name ("xyfz"), in alphabetical order.
+[[nodiscard]] std::vector<std::string> bundled_machines();
+// One of them.
 [[nodiscard]] std::filesystem::path bundled_machine(const std::string& name);
 
 }  // namespace volcomp::sim

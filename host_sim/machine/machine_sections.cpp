@@ -48,6 +48,21 @@ SquarenessFile read_squareness(const TomlSection& s) {
   return q;
 }
 
+ErrorMotion read_error(const TomlSection& s, const std::string& key) {
+  // Beyond this it is a wrong unit.
+  constexpr double kMost_mm = 1.0;
+  constexpr double kMost_rad = 5e-3;
+  const auto values = s.numbers<6>(key);
+  ErrorMotion error;
+  for (std::size_t c = 0; c < 6; ++c) {
+    if (std::abs(values[c]) > (c < 3 ? kMost_mm : kMost_rad))
+      s.complain(key,
+                 fmt::format("'{}' is in mm and rad, up to {} and {}", key, kMost_mm, kMost_rad));
+    error(static_cast<Eigen::Index>(c)) = values[c];
+  }
+  return error;
+}
+
 double read_delay_us(const TomlSection& s, const std::string& key) {
   const double us = s.number_or(key, 0.0);
   if (!(us >= 0.0 && us <= 1000.0))
@@ -88,7 +103,40 @@ void read_gear(const TomlSection& s, GrindingFile& g) {
   g.width_mm = number_within(s, "width_mm", kMandatory, 4.0, 1000.0);
 }
 
+AxisExpansion read_expansion(const TomlSection& s, const Joint& joint) {
+  s.allow_only({"per_K", "fixed_mm", "input"});
+  const auto within = [&s](const char* key, double most) {
+    const double absent = 2.0 * most;
+    return static_cast<float>(number_within(s, key, absent, -most, most));
+  };
+  AxisExpansion e;
+  e.per_K = within("per_K", static_cast<double>(kMaxExpansion_per_K));
+  s.check(check_expansion(e, joint), "per_K");
+  e.fixed_mm = within("fixed_mm", static_cast<double>(kMaxFixed_mm));
+  e.input =
+      static_cast<std::uint8_t>(s.integer("input", 0, static_cast<long>(kTemperatureInputs) - 1));
+  return e;
+}
+
 }  // namespace
+
+// One table per axis that grows: [thermal.X].
+ThermalFile read_thermal(const TomlSection& s, const MachineFile& machine) {
+  std::vector<std::string> known{"reference_C", "expires_days"};
+  for (const AxisFile& axis : machine.axes)
+    known.emplace_back(1, axis.letter);
+  s.allow_only(known);
+  ThermalFile t;
+  t.reference_C =
+      number_within(s, "reference_C", t.reference_C, static_cast<double>(kLeastTemperature_C),
+                    static_cast<double>(kMostTemperature_C));
+  t.expires_days = number_within(s, "expires_days", t.expires_days, 0.0, kMostExpiry_days);
+  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    const std::string letter(1, machine.axes[a].letter);
+    if (s.has(letter)) t.expansion.at(a) = read_expansion(s.table(letter), machine.chain.axis(a));
+  }
+  return t;
+}
 
 // A stroke that has not reached its feed at the gear would be watched while it accelerates.
 GrindingFile read_grinding(const TomlSection& top) {

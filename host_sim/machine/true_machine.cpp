@@ -10,11 +10,16 @@ ErrorMotion TrueMachine::relative_error(std::size_t a, double q, double approach
     e(channel_index) =
         truth.channel[c].at(q, truth.lo, truth.hi) + 0.5 * approach * truth.reversal[c];
   }
-  // Scales grow with the machine: the position error along the axis. Graduated circles do not care.
-  const Joint& joint = chain.axis(a);
-  if (joint.kind == JointKind::prismatic)
-    e(static_cast<Eigen::Index>(joint.axis)) += q * expansion_per_K * temperature_offset_K;
   return e;
+}
+
+// Scales grow with the machine: a carriage that reads q has gone farther. Graduated circles do not
+// care.
+void TrueMachine::grow(std::size_t a, double q, ErrorMotion& body) const {
+  const Joint& joint = chain.axis(a);
+  if (joint.kind != JointKind::prismatic) return;
+  const double warmer = temperature_offset_K + warmer_K.at(a);
+  body(static_cast<Eigen::Index>(joint.axis)) += joint.sign * (q * expansion_per_K * warmer);
 }
 
 ErrorSet TrueMachine::errors(const Pose& q, const Approach& approach) const {
@@ -22,6 +27,7 @@ ErrorSet TrueMachine::errors(const Pose& q, const Approach& approach) const {
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
     set[a] = to_internal(relative_error(a, q[a], approach[a]), chain.axis(a), q[a],
                          Convention::relative, Side::moving);
+    grow(a, q[a], set[a]);
   }
   return set;
 }

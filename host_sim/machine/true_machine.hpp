@@ -23,10 +23,12 @@ struct TrueMachine {
   MachineChain chain;
   std::array<TrueAxis, kMaxAxes> axis;
   DirectionErrors directions = zero_directions();
-  double expansion_per_K = 11.7e-6;
-  double temperature_offset_K = 0.0;  // against the temperature of the campaign
+  double expansion_per_K = 11.7e-6;         // of every scale
+  double temperature_offset_K = 0.0;        // against the temperature of the campaign
+  std::array<double, kMaxAxes> warmer_K{};  // of one axis more than that
 
-  // Relative values of one axis, and all of them in the internal convention.
+  // Relative values of one axis as warm as in the campaign, and all axes as warm as they are in the
+  // internal convention.
   [[nodiscard]] ErrorMotion relative_error(std::size_t axis, double q, double approach) const;
   [[nodiscard]] ErrorSet errors(const Pose& q, const Approach& approach) const;
 
@@ -34,6 +36,9 @@ struct TrueMachine {
   // rotation model rxryrz, work frame (mm, rad).
   [[nodiscard]] VolumetricError error(const Pose& q, const Approach& approach,
                                       const Vec3& tool_point) const;
+
+ private:
+  void grow(std::size_t axis, double q, ErrorMotion& body) const;
 };
 
 }  // namespace volcomp::sim

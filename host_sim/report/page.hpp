@@ -8,7 +8,11 @@ namespace volcomp::sim {
 // Where the page expects the report's JSON.
 inline constexpr std::string_view report_data_mark = "@VOLCOMP_REPORT_DATA@";
 
-// The report page without data; generated at build time by embed.mjs.
+// The report page without data, and the live page with its script and style; generated at build
+// time by embed.mjs.
 std::string report_page();
+std::string live_page();
+std::string live_script();
+std::string live_style();
 
 }  // namespace volcomp::sim

@@ -1,6 +1,6 @@
 // Entry of the page: reads the report's JSON out of the page and shows it.
 
-import { CHART_TYPES, chartsOf, seriesNames } from './series.mjs';
+import { CHART_TYPES, chartsOf, prepared, seriesNames } from './series.mjs';
 import { makeTheme } from './theme.mjs';
 import { makeFigure } from './page/chart-view.mjs';
 import { element } from './page/dom.mjs';
@@ -17,16 +17,24 @@ function makeBody(section) {
   return { node: element('p', { class: 'note' }, `This page cannot show a section of type "${section.type}".`) };
 }
 
+const beginsChapter = (sections, index) =>
+  Boolean(sections[index].chapter) && sections[index].chapter !== sections[index - 1]?.chapter;
+
 function build(report) {
   const bodies = report.sections.map(makeBody);
   const ids = report.sections.map((section, index) => section.id ?? `section-${index + 1}`);
-  const sections = report.sections.map((section, index) => element(
-    'section', { id: ids[index], class: section.type }, element('h2', {}, section.title), bodies[index].node,
-  ));
-  const contents = report.sections.map((section, index) => ({ id: ids[index], title: section.title }));
+  const inChapters = report.sections.some((section) => section.chapter);
+  const sections = report.sections.flatMap((section, index) => [
+    beginsChapter(report.sections, index) ? element('h2', { class: 'chapter' }, section.chapter) : null,
+    element('section', { id: ids[index], class: section.type },
+      element(inChapters ? 'h3' : 'h2', { class: 'title' }, section.title), bodies[index].node),
+  ]);
+  const contents = report.sections.map((section, index) => ({
+    id: ids[index], title: section.title, chapter: beginsChapter(report.sections, index) ? section.chapter : null,
+  }));
   const hint = element(
     'p', { class: 'hint' }, 'Charts: hover for values, click a name to hide its curve, Ctrl + wheel or a pinch to zoom, ',
-    'drag to move, double click to see all again.',
+    'drag to move or to turn a volume, double click to see all again.',
   );
   const footer = element('footer', {}, 'The data of this page: ', element('a', { href: 'report.json' }, 'report.json'));
   document.title = report.title ?? 'Report';
@@ -57,7 +65,7 @@ function followThemeAndPrint(draw) {
 }
 
 function show() {
-  const report = JSON.parse(document.getElementById('report-data').textContent);
+  const report = prepared(JSON.parse(document.getElementById('report-data').textContent));
   const figures = build(report);
   const names = seriesNames(chartsOf(report));
   followThemeAndPrint((mode, onPaper) => {

@@ -3,7 +3,7 @@
 
 import { readFile } from 'node:fs/promises';
 import { parseArgs } from 'node:util';
-import { CHART_TYPES } from './series.mjs';
+import { CHART_TYPES, prepared } from './series.mjs';
 import { svgFigure } from './svg-figure.mjs';
 
 const USAGE = 'usage: node render-svg.mjs REPORT.json CHART_ID [--width 900] [--height 420] > OUT.svg';
@@ -38,7 +38,7 @@ async function load(file) {
     throw new UsageError(`Cannot read ${file}: ${error.code}.`);
   });
   try {
-    return JSON.parse(text);
+    return prepared(JSON.parse(text));
   } catch (error) {
     throw new UsageError(`${file} is not valid JSON: ${error.message}.`);
   }

@@ -1,7 +1,19 @@
 // Questions about the data of a document: what is in it, how far it reaches, and
 // how to draw fewer points of it without losing a peak.
 
-export const CHART_TYPES = ['lines', 'bars', 'heatmap', 'histogram'];
+import { positioningSeries } from './charts/iso230_2.mjs';
+
+export const CHART_TYPES = ['lines', 'bars', 'heatmap', 'histogram', 'iso230_2', 'volume'];
+
+const CURVES = ['lines', 'iso230_2'];
+
+// The same document with the series of those charts whose series follow from other members.
+export function prepared(document) {
+  const withSeries = (chart) => (chart.type === 'iso230_2' ? { ...chart, series: positioningSeries(chart) } : chart);
+  const sections = (document.sections ?? []).map((section) => (
+    section.type === 'group' ? { ...section, charts: (section.charts ?? []).map(withSeries) } : withSeries(section)));
+  return { ...document, sections };
+}
 
 // Every chart of a document, those inside groups too, in reading order.
 export function chartsOf(document) {
@@ -21,7 +33,7 @@ export function legendEntries(charts) {
   const looks = new Map();
   for (const chart of charts) {
     for (const series of chart.series ?? []) {
-      const look = chart.type === 'lines' ? series.style ?? 'solid' : 'block';
+      const look = CURVES.includes(chart.type) ? series.style ?? 'solid' : 'block';
       if (!looks.has(series.name)) looks.set(series.name, look);
     }
   }

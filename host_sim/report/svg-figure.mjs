@@ -31,7 +31,7 @@ export function svgFigure(section, report, { width, height }) {
 
 function drawChart(chart, theme, box, yRange) {
   const instance = init(null, null, { renderer: 'svg', ssr: true, width: box.width, height: box.height });
-  instance.setOption(chartOption(chart, theme, { width: box.width, maxPoints: box.width, yRange }));
+  instance.setOption(chartOption(chart, theme, { width: box.width, height: box.height, maxPoints: box.width, yRange }));
   const drawing = slim(instance.renderToSVGString({ useViewBox: false }));
   instance.dispose();
   return `<g transform="translate(${box.x} ${box.y})">${drawing}</g>`;

@@ -9,7 +9,7 @@ const SERIES_COLOURS = {
 };
 
 // These compensation modes look the same in every report, whichever of them it has.
-const FIXED = { uncompensated: 0, naive: 1, abbe: 2, abbe_closed: 3 };
+const FIXED = { uncompensated: 0, before: 0, naive: 1, abbe: 2, abbe_closed: 3 };
 const ORDER_OF_OTHERS = [2, 3, 1, 4, 5, 0];
 
 const SURFACES = {

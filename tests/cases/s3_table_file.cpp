@@ -1,5 +1,7 @@
 // Seed 003: tables of controllers, to the letter; read back and written again.
 
+#include <sstream>
+
 #include "host_sim/controller_tables/isg_ssfk.hpp"
 #include "host_sim/controller_tables/linuxcnc_comp.hpp"
 #include "host_sim/controller_tables/siemens_cec.hpp"
@@ -35,7 +37,8 @@ std::string linuxcnc(const json& in) {
                                 numbers(in.at("rev"))};
   std::string text;
   require(sim::write_linuxcnc(table, text));
-  require(sim::write_linuxcnc(sim::read_linuxcnc(text, table.type), text));
+  std::istringstream written(text);
+  require(sim::write_linuxcnc(sim::read_linuxcnc(written, "written", table.type), text));
   return text;
 }
 

@@ -39,7 +39,8 @@ void read_errors(void (*read)(std::istream&, const std::string&, ForeignErrors&)
 void read_any(unsigned format, const std::string& text) {
   switch (format % 6U) {
     case 0: {
-      const LinuxcncComp table = read_linuxcnc(text, format < 128 ? 0 : 1);
+      std::istringstream stream(text);
+      const LinuxcncComp table = read_linuxcnc(stream, "axis.comp", format < 128 ? 0 : 1);
       check(table.forward.size() == table.nominal.size());
       return;
     }

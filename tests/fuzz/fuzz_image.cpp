@@ -47,9 +47,9 @@ void run(const MachineTables& tables) {
   constexpr std::int32_t kLimit = 300'000;
   constexpr std::int32_t kRate = 5'000;
   const RuntimeChain chain = make_runtime_chain(tables.machine);
-  if (chain.axes > LoadedCompensator::kAxes) return;
-  const auto compensator = std::make_unique<LoadedCompensator>(LoadedMachine<5>{chain});
-  LoadedCompensator::Settings settings;
+  if (chain.axes > OrientingCompensator::kAxes) return;
+  const auto compensator = std::make_unique<OrientingCompensator>(OrientingMachine{chain});
+  OrientingCompensator::Settings settings;
   for (AxisLimits& l : settings.axis) {
     l.limit = kLimit;
     l.rate = kRate;
@@ -60,9 +60,9 @@ void run(const MachineTables& tables) {
                   tables.machine.tool_point[2]);
   if (!compensator->stage(tables, tool, 0).ok()) return;
   require(compensator->activate().ok());
-  LoadedCompensator::Input in;
-  LoadedCompensator::Output out;
-  std::array<std::int32_t, LoadedCompensator::kAxes> last{};
+  OrientingCompensator::Input in;
+  OrientingCompensator::Output out;
+  std::array<std::int32_t, OrientingCompensator::kAxes> last{};
   for (int n = 0; n < 64; ++n) {
     for (std::size_t a = 0; a < chain.axes; ++a) {
       const AxisTable& t = tables.axis[a];

@@ -34,6 +34,7 @@ std::vector<std::uint8_t> make_image() {
     table.knots = 6;
     for (std::size_t k = 0; k < table.knots; ++k)
       table.value[0][k] = table.value[1][k] = {1e3F * static_cast<float>(k), -2e4F, 3e3F, 1e-5F};
+    tables->expansion[a] = {11.7e-6F, 0.0F, static_cast<std::uint8_t>(a)};
   }
   std::vector<std::uint8_t> image(image_size(*tables));
   std::size_t written = 0;
@@ -123,7 +124,7 @@ class Watched {
     const NodeObjects& o = node_->objects();
     for (std::size_t a = 0; a < kNodeAxes; ++a) {
       const WireScale scale{o.scale_numerator[a], o.scale_denominator[a], o.rotary[a] != 0};
-      const std::int64_t slew = std::max(1, offset_to_wire(o.slew[a], scale));
+      const std::int64_t slew = step_to_wire(o.slew[a], scale);
       const std::int64_t held = o.held_offset[a];
       const std::int64_t start = offset_to_wire(o.start_offset[a], scale);
       const std::int64_t limit = offset_to_wire(o.limit[a], scale);
@@ -137,7 +138,9 @@ class Watched {
       require(std::abs(now) <= reach_[a] + 1);
       offset_[a] = now;
     }
-    if (node_->device().state() != canopen::NmtState::operational) offset_ = {};
+    // Nothing is sent now. What was sent last stays to be read; a reset forgets it.
+    if (node_->device().state() != canopen::NmtState::operational)
+      std::copy(o.offset.begin(), o.offset.end(), offset_.begin());
   }
 
   Stored stored_;

@@ -51,7 +51,10 @@ line=$(grep -n ' 201#' "$work/bus.log" | sed -n '3000s/:.*//p')
 sed -E "${line}s/(201#.{9})./\1$(sed -nE "${line}s/.*201#.{9}(.).*/\1/p" "$work/bus.log" | tr '0-9A-F' '89ABCDEF01234567')/" \
   "$work/bus.log" >"$work/changed.log"
 cmp -s "$work/bus.log" "$work/changed.log" && { echo 'FAILED: nothing was changed'; failed=1; }
-expect 1 'first difference' "$volcomp" replay "$work/changed.log"
+expect 1 'first difference' "$volcomp" replay "$work/changed.log" --json "$work/changed.json"
+grep -q '"ok": false' "$work/changed.json" || { echo 'FAILED: the JSON knows of no difference'; failed=1; }
+"$volcomp" replay - --json - <"$work/bus.log" 2>/dev/null | grep -q '"difference": null' ||
+  { echo 'FAILED: a log from a pipe does not replay'; failed=1; }
 
 tail -n 1000 "$work/bus.log" >"$work/headless.log"
 expect 2 'no start of node 32' "$volcomp" replay "$work/headless.log"

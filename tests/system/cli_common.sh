@@ -27,3 +27,8 @@ one_line() {
     failed=1
   fi
 }
+
+# noise COUNT: so many bytes of no format, the same in every run.
+noise() {
+  /usr/bin/python3 -c 'import random, sys; sys.stdout.buffer.write(random.Random(1).randbytes(int(sys.argv[1])))' "$1"
+}

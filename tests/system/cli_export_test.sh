@@ -24,7 +24,7 @@ expect 0 'entries X 81 Y 81 Z 81' "$volcomp" export-tables --machine "$machine" 
 few=(--entries 11)
 from_runs=("$volcomp" export-tables --machine "$machine" --runs "${runs[@]}" --out "$work/few" "${few[@]}")
 expect 0 'an entry is actual minus setpoint' "${from_runs[@]}" --format isg
-expect 0 'they differ by up to 4.000 0.000 0.000 um' "${from_runs[@]}" --format siemens
+expect 0 'they differ by up to 4.000 0.000 0.000 µm' "${from_runs[@]}" --format siemens
 expect 0 '15 files' "${from_runs[@]}" "${formats[@]}"
 
 # From the image of the same runs: the same files.
@@ -40,7 +40,7 @@ grep -qx '$AN_CEC_INPUT_AXIS\[10\]=(MX1)' "$work/c/siemens_cec_x_to_y.ini" || { 
 expect 0 'nominal minus the offset' "${export[@]}" "${few[@]}" --format linuxcnc --comp-type 0
 expect 0 'isg_ssfk_z.lis' "${export[@]}" "${few[@]}" --format isg --axis-numbers 4 5 9
 grep -qx 'kopf.log_achs_nr 9' "$work/c/isg_ssfk_z.lis" || { echo 'FAILED: --axis-numbers'; failed=1; }
-"${export[@]}" "${few[@]}" --format isg isg --json - | "$python" -c 'import json, sys
+"${export[@]}" "${few[@]}" --format isg isg --json - 2>/dev/null | "$python" -c 'import json, sys
 assert len(json.load(sys.stdin)["formats"]) == 1' || { echo 'FAILED: --json -'; failed=1; }
 
 # What cannot be exported: exit 2, one sentence, the folder as it was.
@@ -58,6 +58,26 @@ head -c 3000 "$work/tables.vct" >"$work/bad.vct"
 refused 'image_truncated' --image "$work/bad.vct"
 sed 's/\x00/\x01/' "$work/tables.vct" >"$work/bad.vct"
 refused 'bad.vct:' --image "$work/bad.vct"
+# A whole image of numbers that nobody means: every sum of it is right, and no node would take it.
+"$python" - "$work/tables.vct" "$work/bad.vct" <<'PYTHON'
+import struct, sys, zlib
+image = bytearray(open(sys.argv[1], "rb").read())
+knots, header = 81, 54  # of the last axis
+end = len(image) - 4
+block = end - 4 - knots * 48 - header
+struct.pack_into("<f", image, block + header + 48, 3e38)
+crc = 0xFFFFFFFF
+for byte in image[block:end - 4]:
+    crc ^= byte
+    for _ in range(8):
+        crc = crc >> 1 ^ (0x82F63B78 if crc & 1 else 0)
+struct.pack_into("<I", image, end - 4, crc ^ 0xFFFFFFFF)
+struct.pack_into("<I", image, end, zlib.crc32(image[:end]))
+open(sys.argv[2], "wb").write(image)
+PYTHON
+refused 'These tables can ask for more than the tick can represent. [bound_exceeded]' --image "$work/bad.vct"
+expect 2 'bad.vct: ' "$volcomp" export-tables --out "$work/c" --format linuxcnc isg --image "$work/bad.vct"
+expect 2 'standard input: ' "$volcomp" export-tables --out "$work/c" --format isg --image - <"$work/bad.vct"
 refused 'larger than any table image' --image /dev/zero
 refused 'bad_magic' --image "$machine"
 : >"$work/empty.vct"

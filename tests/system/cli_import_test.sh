@@ -35,6 +35,11 @@ is runs_Y.csv 0.1 up EYY -0.098742
 expect 0 'axis B' "${comp[@]}" --axis B --type 1 --unit deg --absent zero "$examples/linuxcnc_x.comp"
 is runs_B.csv '0.2*pi/180' down EBB -0.003389708660053307
 
+# Saved by an editor that marks UTF-8, with signs as sscanf of LinuxCNC takes them.
+{ printf '\xef\xbb\xbf'; sed 's/^0/+0/' "$examples/linuxcnc_x.comp"; } >"$work/marked.comp"
+expect 0 'axis Z, 3 positions' "${comp[@]}" --axis Z --type 1 --unit mm --absent zero "$work/marked.comp"
+is runs_Z.csv 0.1 up EZZ -0.098742
+
 expect 0 'runs_C.csv: axis C, 3 positions, one direction' "${isg[@]}" "$examples/isg_volumetric.csv"
 is runs_X.csv 10 up EZX 0.0005
 is runs_X.csv 20 up ECX 3e-6
@@ -65,6 +70,32 @@ sed 's/\(E.\)X/\1Z/g; s/^-500/-400/; s/^-250/-200/' "$example" >"$work/own_z.csv
 expect 0 'X  3 targets -> 17 knots, known reversal' "$volcomp" build-tables \
   --machine "$source_dir/host_sim/machines/xyfz.toml" --runs "$example" "$work/own_y.csv" "$work/own_z.csv" --out "$work/tables.vct"
 
+# For programs: what was read and where it is; the words go beside it.
+"${isg[@]}" "$examples/isg_volumetric.csv" --json - 2>"$work/words.txt" >"$work/isg.json" || { echo 'FAILED: import --json -'; failed=1; }
+grep -q 'runs_C.csv: axis C' "$work/words.txt" || { echo 'FAILED: import says nothing for people'; failed=1; }
+"$volcomp" import linuxcnc --out "$work/inch" --axis X --type 0 --unit inch --absent zero "$examples/linuxcnc_x.comp" --json "$work/comp.json" \
+  >/dev/null || failed=1
+/usr/bin/python3 - "$work/isg.json" "$work/comp.json" "$examples" <<'PYTHON' || { echo 'FAILED: figures of import'; failed=1; }
+import json, math, sys
+isg, comp = (json.load(open(path)) for path in sys.argv[1:3])
+assert isg["sources"] == [sys.argv[3] + "/isg_volumetric.csv"] and isg["source_convention"] == {"sign": "actual-minus-nominal"}, isg
+assert comp["source_convention"] == {"type": 0, "unit": "inch"} and comp["location_errors"] is None, comp
+assert isg["values"] == comp["values"] == {"meaning": "actual - nominal", "length_unit": "mm", "angle_unit": "rad"}
+for result in isg, comp:
+    assert result["absent_channels"] == "zero"
+    for axis in result["axes"]:
+        lines = [line.split(",") for line in open(axis["file"]) if not line.startswith("#")]
+        head, rows = lines[0], lines[1:]
+        places = [float(row[head.index(f"target [{axis['unit']}]")]) for row in rows]
+        assert axis["rows"] == len(rows) and axis["targets"] == len(set(places)), axis
+        assert (axis["from"], axis["to"]) == (min(places), max(places)), axis
+        ways = [row[head.index("direction")] for row in rows]
+        assert (axis["runs_up"] > 0, axis["runs_down"] > 0) == ("up" in ways, "down" in ways), axis
+turning, = [axis for axis in isg["axes"] if axis["axis"] == "C"]
+assert turning["unit"] == "rad" and turning["to"] <= 2 * math.pi, turning
+assert "rad" in open(isg["location_errors"]).read()
+PYTHON
+
 # Nothing is guessed.
 expect 2 '--sign' "$volcomp" import isg-csv --out "$work/out" "$examples/isg_volumetric.csv"
 expect 2 '--sign' "$volcomp" import etalon --out "$work/out" "$examples/etalon_vendor.txt"
@@ -91,6 +122,8 @@ to_isg '4s/0.002/0,002/' 'bad.txt:4: "0,002" is not a number'
 to_isg '4s/ 4.2e-6//' 'bad.txt:4: 6 numbers instead of 7'
 to_isg '4s/0.002/nan/' 'bad.txt:4: a number must be finite'
 to_isg '4s/0.002/1e999/' 'bad.txt:4: "1e999" is out of range'
+to_isg '4s/0.002/1e99/' 'bad.txt:4: the error is out of range'
+to_isg '5s/^20.0/1e99/' 'bad.txt:5: the position is out of range'
 to_isg '4s/^10.0/20.0/' 'bad.txt:5: EXX has position 20 twice'
 to_isg '2s/EXX/FXX/' 'bad.txt:2: unknown column "FXX"'
 to_isg '2s/EYX/EXX/' 'bad.txt:2: column "EXX" occurs twice'
@@ -131,15 +164,33 @@ to_etalon '1,$s/.*//' 'there is no block'
 
 read_comp=("${comp[@]}" --axis X --type 0 --unit mm --absent zero)
 to_comp() { sed "$1" "$examples/linuxcnc_x.comp" >"$bad"; refused "$2" "${read_comp[@]}"; }
-to_comp '2s/0.098742/0,098742/' "bad.txt: line 2: '0,098742' is not a number"
-to_comp '2s/ 0.051632//' 'bad.txt: line 2: expected: nominal forward reverse'
-to_comp '2s/$/ 7/' 'bad.txt: line 2: expected: nominal forward reverse'
-to_comp '3s/^0.2/0.1/' 'bad.txt: line 3: nominal positions must ascend'
-to_comp '2s/0.098742/inf/' 'bad.txt: line 2: a number must be finite'
-to_comp '2s/^/\n/' 'bad.txt: line 3: LinuxCNC reads nothing after an empty line'
-to_comp '2,3d' '2 to 256 are allowed'
+to_comp '2s/0.098742/0,098742/' 'bad.txt:2: "0,098742" is not a number'
+to_comp '2s/ 0.051632//' 'bad.txt:2: expected: nominal forward reverse'
+to_comp '2s/$/ 7/' 'bad.txt:2: expected: nominal forward reverse'
+to_comp '3s/^0.2/0.1/' 'bad.txt:3: nominal positions must ascend'
+to_comp '2s/0.098742/inf/' 'bad.txt:2: a number must be finite'
+to_comp '2s/^/\n/' 'bad.txt:3: LinuxCNC reads nothing after an empty line'
+to_comp '2,3d' 'bad.txt: 1 entries; 2 to 256 are allowed'
 seq 0 256 | awk '{print $1, 0, 0}' >"$bad"
-refused 'bad.txt: line 257: more than 256 entries' "${read_comp[@]}"
+refused 'bad.txt:257: more than 256 entries' "${read_comp[@]}"
+# What a run file could not hold, once it is in mm and rad.
+inch=("${comp[@]}" --axis X --unit inch --absent zero)
+turns=("${comp[@]}" --axis C --unit deg --absent zero)
+printf '0 0 0\n1e308 0 0\n' >"$bad"
+refused 'bad.txt:2: the position is out of range' "${inch[@]}" --type 0
+refused 'bad.txt:2: the position is out of range' "${inch[@]}" --type 1
+printf '0 0 0\n1 0 -1e308\n' >"$bad"
+refused 'bad.txt:2: the error is out of range' "${inch[@]}" --type 0
+refused 'bad.txt:2: the error is out of range' "${inch[@]}" --type 1
+printf '0 0 0\n1e-7 0 0\n' >"$bad"
+refused 'bad.txt:2: positions nearer than 1e-05 mm are one in a run file' "${inch[@]}" --type 1
+printf '0 0 0\n5e-4 0 0\n' >"$bad"
+refused 'bad.txt:2: positions nearer than 1e-05 rad are one in a run file' "${turns[@]}" --type 1
+# From a pipe, too.
+printf '0 0 0\n1 x 0\n' >"$bad"
+expect 2 'standard input:2: "x" is not a number' "${read_comp[@]}" - <"$bad"
+expect 2 'standard input: the file holds one error motion' "${comp[@]}" --axis X --type 0 --unit mm - <"$examples/linuxcnc_x.comp"
+expect 2 'standard input: axis C lacks EXC' "$volcomp" import isg-csv --sign actual-minus-nominal --out "$work/out" - <"$examples/isg_volumetric.csv"
 
 # Files that are none of it: empty, other encodings, binary, endless, a million lines.
 for import in isg etalon read_comp; do
@@ -148,7 +199,7 @@ for import in isg etalon read_comp; do
   refused 'bad.txt' "${command[@]}"
   printf 'X EXX\n\xb5\xff 1\n' >"$bad"
   refused 'bad.txt' "${command[@]}"
-  head -c 3000 /dev/urandom >"$bad"
+  noise 3000 >"$bad"
   refused 'bad.txt' "${command[@]}"
   head -c 200000 /dev/zero >"$bad"
   refused 'bad.txt' "${command[@]}"
@@ -159,10 +210,11 @@ for import in isg etalon read_comp; do
 done
 iconv -t UTF-16 "$examples/isg_volumetric.csv" >"$bad"
 refused 'bad.txt:1: the file is UTF-16' "${isg[@]}"
+refused 'bad.txt:1: the file is UTF-16' "${read_comp[@]}"
 awk 'BEGIN {print "X EXX"; for (i = 0; i < 1000000; ++i) print i, 0}' >"$bad"
 refused 'bad.txt:514: more than 512 positions' "${isg[@]}"
 awk 'BEGIN {for (i = 0; i < 1000000; ++i) print i, 0, 0}' >"$bad"
-refused 'bad.txt: larger than 1024 KiB' "${read_comp[@]}"
+refused 'bad.txt:257: more than 256 entries' "${read_comp[@]}"
 awk 'BEGIN {print "[EXY]\nGridpoints = {"; for (i = 0; i < 1000000; ++i) print i, 0}' >"$bad"
 refused 'bad.txt:515: more than 512 positions' "${etalon[@]}"
 

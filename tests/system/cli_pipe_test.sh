@@ -54,8 +54,9 @@ exec 9>&-
 start_node "$work/third"
 "${campaign[@]}" --can "pipe:$work/third" --log "$work/third/log" >"$work/third/run.txt" 2>&1 &
 campaign_process=$!
-# Some thousand frames: it moves.
-while kill -0 "$campaign_process" 2>/dev/null && [ "$(frames_in "$work/third/log")" -lt 20000 ]; do
+# Some thousand frames: it moves. The log takes its place at the end.
+growing_log=$work/third/log.$campaign_process.tmp
+while kill -0 "$campaign_process" 2>/dev/null && [ "$(frames_in "$growing_log")" -lt 20000 ]; do
   sleep 0.05
 done
 kill -9 "$node_process"
@@ -67,10 +68,19 @@ if [ "$status" -ne 2 ] || ! grep -qx "volcomp: pipe:$work/third: the node at the
   failed=1
 fi
 
+[ -z "$(find "$work/third" -name 'log*')" ] || { echo 'FAILED: half a log was left behind'; failed=1; }
+
 # --- input that cannot be used
 one_line "$volcomp" diagnose --can pipe:/no/such/folder
 expect 2 'there is no such folder' "$volcomp" diagnose --can pipe:/no/such/folder
 expect 2 'there is no such folder' "$node" --can pipe:/no/such/folder
+expect 2 'no-such-can: ' "$node" --can no-such-can
+expect 2 '--can is required' "$node"
+expect 2 '--node-id' "$node" --can can0 --node-id 128
+expect 0 'volcomp-node ' "$node" --version
+printf 'a letter' > "$work/letter"
+expect 2 'the file does not have the size of the store' "$node" --can pipe:/no/such/folder --store "$work/letter"
+expect 2 'there is no such folder' "$node" --can pipe:/no/such/folder --store "$work/new.store"
 expect 2 'needs a folder' "$volcomp" diagnose --can pipe:
 expect 2 'No such file' "$volcomp" diagnose --can slcan:/dev/no-such-line
 expect 2 'neither a serial line nor a socket' "$volcomp" upload "$work/never.vct" --can slcan:/dev/null

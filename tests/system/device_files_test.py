@@ -37,12 +37,23 @@ class Database(unittest.TestCase):
         self.assertEqual(self.decode(0x1FF, "4E 00 09 00 C0 77 CC 00"),
                          {"Slot": 78, "StrokeFlags": 9, "StrokeFeed": 13400000})
 
+    def test_temperatures(self):
+        # 23.5, -1.25 and no sensor at all.
+        self.assertEqual(self.decode(0x2FF, "2E 09 83 FF 00 80 00 80"),
+                         {"Temperature0": 2350, "Temperature1": -125, "Temperature2": -32768, "Temperature3": -32768})
+        self.assertEqual(float(self.frame(0x2FF).signal_by_name("Temperature0").factor), 0.01)
+
+    def test_time(self):
+        # 1 January 2000, one in the morning: 5844 days after 1 January 1984.
+        self.assertEqual(self.decode(0x100, "80 EE 36 00 D4 16"), {"Milliseconds": 3600000, "Days": 5844})
+
     def test_every_frame_has_its_place(self):
         expected = {0x000: ("NMT_Command", 2), 0x080: ("SYNC", 1), 0x0A0: ("Node_Emergency", 8),
                     0x1A0: ("Node_Status", 8), 0x2A0: ("Point", 8), 0x3A0: ("Point_XY", 8),
                     0x4A0: ("Point_Z", 8), 0x5A0: ("Node_SdoResponse", 8),
                     0x620: ("Node_SdoRequest", 8), 0x720: ("Node_Heartbeat", 1),
-                    0x1FF: ("Controller_ProcessState", 8), 0x77F: ("Controller_Heartbeat", 1)}
+                    0x1FF: ("Controller_ProcessState", 8), 0x2FF: ("Controller_Temperatures", 8),
+                    0x100: ("TIME", 6), 0x77F: ("Controller_Heartbeat", 1)}
         for drive, axis in enumerate("XYZ", start=1):
             per_axis = {0x080: ("Emergency", 8), 0x180: ("Actual", 8), 0x200: ("Command", 6),
                         0x280: ("Probe", 8), 0x300: ("Offset", 4), 0x380: ("ProbeCounter", 6),

@@ -11,12 +11,12 @@
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/data/temporary_folder.hpp"
 #include "host_sim/data/toml_text.hpp"
-#include "host_sim/data/user_error.hpp"
 #include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/internal_helical/bus_grinder.hpp"
 #include "host_sim/scenarios/internal_helical/grinding_job.hpp"
 #include "host_sim/scenarios/internal_helical/integrated_grinder.hpp"
 #include "host_sim/scenarios/internal_helical/scenario.hpp"
+#include "tests/complaint.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -35,15 +35,6 @@ const MachineFile& machine() {
 WatchedStrokes watched(LearningWay way) {
   static const FlankGrinding grinding(grinding_job(machine()), {});
   return watched_strokes(grinding_job(machine()), grinding.flank_per_x(), way);
-}
-
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const UserError& error) {
-    return error.what();
-  }
-  return "not refused";
 }
 
 void replace(std::string& text, const std::string& from, const std::string& to) {
@@ -161,7 +152,7 @@ TEST(InternalHelicalBus, OneTableForBothDirectionsIsRefused) {
   options.way = LearningWay::one_table;
   options.make_axes = loopback_axes();
   options.machine = bundled_machine("internal_grinder");
-  EXPECT_THAT(refusal([&] {
+  EXPECT_THAT(complaint_of([&] {
                 static_cast<void>(run_internal_helical(options, [](double, const std::string&) {}));
               }),
               HasSubstr("--wrong one-table"));
@@ -172,7 +163,7 @@ TEST(InternalHelicalBus, MachinesThatCannotDoItAreRefused) {
   const auto with = [&text](const std::string& from, const std::string& to) {
     std::string changed = text;
     replace(changed, from, to);
-    return refusal([&changed] {
+    return complaint_of([&changed] {
       static_cast<void>(grinder_axes(parse_machine(changed, "mine.toml"),
                                      watched(LearningWay::right), loopback_axes()));
     });
@@ -181,7 +172,7 @@ TEST(InternalHelicalBus, MachinesThatCannotDoItAreRefused) {
               HasSubstr("mine.toml: 'axes' of [correction] must contain C"));
   EXPECT_THAT(with("rate_rad_per_s = 0.2", "rate_rad_per_s = 0.1"),
               HasSubstr("mine.toml: 'rate_rad_per_s' of [correction] must be at least 0.102"));
-  EXPECT_THAT(refusal([] {
+  EXPECT_THAT(complaint_of([] {
                 static_cast<void>(grinder_axes(read_machine_file(bundled_machine("xyfz")),
                                                watched(LearningWay::right), loopback_axes()));
               }),
@@ -293,7 +284,7 @@ TEST_F(DisturbedGrinder, DoesNotUseACycleWithoutThePositionOfZ) {
 // A drive without power stops the machine: nothing is ground with half an offset.
 TEST_F(DisturbedGrinder, StopsWithoutADrive) {
   axes().power_drive(1, false);
-  EXPECT_THAT(refusal([this] { world_.grind(world_.grinder, 1); }),
+  EXPECT_THAT(complaint_of([this] { world_.grind(world_.grinder, 1); }),
               HasSubstr("the machine on the bus has stopped: "));
 }
 
@@ -306,7 +297,7 @@ TEST_F(DisturbedGrinder, UsesTablesForTheirFeedOnly) {
   });
   EXPECT_EQ(axes().drive(kC).offset_taken(), 0);
   EXPECT_NE(strokes().offset_status & kOtherFeed, 0);
-  EXPECT_THAT(refusal([this] { world_.grinder.learn(); }),
+  EXPECT_THAT(complaint_of([this] { world_.grinder.learn(); }),
               HasSubstr("its tables are for F=13.4 mm/s, the stroke has F=20 mm/s"));
   world_.grind(world_.grinder, 1);
   EXPECT_EQ(strokes().offset_status & kOtherFeed, 0);

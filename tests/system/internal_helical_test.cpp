@@ -2,6 +2,7 @@
 // to learn that must come out worse.
 
 #include <cmath>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -93,7 +94,8 @@ TEST(InternalHelical, ControllerFilesSayWhatWasLearned) {
   const CecTable up = read_cec(files[0].text, true, 1);
   const CecTable down = read_cec(files[1].text, true, 1);
   const EncCompTable slots = read_enc_comp(files[2].text, true);
-  const LinuxcncComp linuxcnc = read_linuxcnc(files[3].text, 1);
+  std::istringstream comp(files[3].text);
+  const LinuxcncComp linuxcnc = read_linuxcnc(comp, files[3].name, 1);
   const SsfkTable isg = read_ssfk(files[4].text, false);
   const double p = result.gear.screw_parameter();
   constexpr double kRounding_rad = 0.51e-6 * kRadPerDegree;
@@ -120,7 +122,7 @@ TEST(InternalHelical, FiguresAndReportAreComplete) {
   EXPECT_EQ(j["grades"].size(), 20U);
   EXPECT_EQ(j["signals"]["before"]["slots"]["verdict"], "compensate");
   EXPECT_EQ(j["tables_written"].size(), 1U);
-  EXPECT_EQ(internal_helical_document(right_way(), "", "")["sections"].size(), 14U);
+  EXPECT_EQ(internal_helical_document(right_way(), {})["sections"].size(), 15U);
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 // 5.4 (or another, where said), found by touches over the bus.
 
 #include <map>
+#include <memory>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "comp/units.hpp"
@@ -69,6 +71,25 @@ TEST(L300g, P8SpoilsTheProfileAndCompensationPutsItRight) {
   EXPECT_NEAR(p8().before.profile[1].figures.slope, 20.6, kTolerance_um);
   expect_good_gear(p8().after, kTolerance_um);
   EXPECT_TRUE(l300g_verdict(p8()).ok);
+}
+
+// In words, it is what the grades of each flank say (worse, better or neither) and nothing else.
+TEST(L300g, TheVerdictSaysWhatTheGradesSay) {
+  const auto claim_of = [](std::array<int, 2> profile, std::array<int, 2> lead) {
+    auto changed = std::make_unique<L300gResult>(p8());
+    for (std::size_t side = 0; side < 2; ++side) {
+      changed->before.profile[side].grade_1995 = profile[side];
+      changed->before.lead[side].grade_1995 = lead[side];
+    }
+    return l300g_verdict(*changed).text;
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(claim_of({8, 8}, {4, 4}), HasSubstr("the profile lost its grade, the lead did not"));
+  EXPECT_THAT(claim_of({4, 8}, {4, 4}), HasSubstr("the profile lost its grade, the lead did not"));
+  EXPECT_THAT(claim_of({8, 8}, {5, 4}), HasSubstr("profile and lead are put right"));
+  EXPECT_THAT(claim_of({4, 4}, {5, 4}), HasSubstr("the lead lost its grade, the profile did not"));
+  EXPECT_THAT(claim_of({4, 3}, {4, 4}), HasSubstr("looked better than it is"));
+  EXPECT_THAT(claim_of({4, 4}, {4, 4}), HasSubstr("nothing to compensate"));
 }
 
 // Of constants of 0.004°: X + Y + B − A by components, B tilted by 1.3° at the flank.

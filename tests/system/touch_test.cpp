@@ -14,14 +14,14 @@ namespace volcomp::sim {
 namespace {
 
 constexpr double kSpeed_mm_s = 1000.0 / 60.0;
-constexpr double kArmLevel = -39.025 * kPi / 180.0;
+constexpr double kSwungLevel = -39.025 * kPi / 180.0;
 constexpr double kOnAxis = 168.8053;  // reading of Y with the ball at y = 0
 constexpr std::array<double, 4> kDelay_s{12e-6, 14e-6, 16e-6, 18e-6};  // probe and drive together
 constexpr double kPeriod_ns = 4e6;
 
 // All four axes move, Y towards the plane; the plane turns with A.
-constexpr Pose kBegin{-1.0, kOnAxis + 66.0, kArmLevel + 0.02, 0.0};
-constexpr Pose kBeyond{1.0, kOnAxis + 60.0, kArmLevel - 0.01, 0.2};
+constexpr Pose kBegin{-1.0, kOnAxis + 66.0, kSwungLevel + 0.02, 0.0};
+constexpr Pose kBeyond{1.0, kOnAxis + 60.0, kSwungLevel - 0.01, 0.2};
 
 // 60 mm from the axis of A, leaning.
 const Vec3 kNormal = Vec3(0.1, 0.9, 0.2).normalized();

@@ -45,6 +45,27 @@ if(VOLCOMP_BUILD_HOST_SIM)
   install(FILES firmware/integrated/xyfz.vct firmware/volcomp.eds firmware/volcomp.dbc
     DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp" COMPONENT tools)
 endif()
+
+# What the program says about itself, where man and shells look for it (zsh and fish: Debian's folders). Instrumented
+# programs are not installed.
+if(VOLCOMP_BUILD_HOST_SIM AND NOT VOLCOMP_SANITIZE AND NOT VOLCOMP_COVERAGE AND NOT VOLCOMP_FUZZ)
+  file(MAKE_DIRECTORY "${volcomp_made}")
+  add_custom_command(
+    OUTPUT "${volcomp_made}/volcomp.1" "${volcomp_made}/volcomp.bash" "${volcomp_made}/_volcomp" "${volcomp_made}/volcomp.fish"
+    COMMAND volcomp man > "${volcomp_made}/volcomp.1"
+    COMMAND volcomp completion bash > "${volcomp_made}/volcomp.bash"
+    COMMAND volcomp completion zsh > "${volcomp_made}/_volcomp"
+    COMMAND volcomp completion fish > "${volcomp_made}/volcomp.fish"
+    DEPENDS volcomp)
+  add_custom_target(volcomp_shell_files ALL DEPENDS "${volcomp_made}/volcomp.1")
+  install(FILES "${volcomp_made}/volcomp.1" firmware/posix/volcomp-node.1
+    DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tools)
+  install(FILES "${volcomp_made}/volcomp.bash"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME volcomp COMPONENT tools)
+  install(FILES "${volcomp_made}/_volcomp" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions" COMPONENT tools)
+  install(FILES "${volcomp_made}/volcomp.fish"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d" COMPONENT tools)
+endif()
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/libvolcomp-dev" RENAME copyright COMPONENT dev)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/volcomp" RENAME copyright COMPONENT tools)
 

@@ -25,9 +25,9 @@ TICK_OF = {
     "xyz_second_order_compiled": r"CompiledMachine<volcomp::bench::kGeneric, \(volcomp::RuntimeModel\)2>",
     "xyb_a_compiled": r"CompiledMachine<volcomp::bench::kGrinder, \(volcomp::RuntimeModel\)0>",
     "five_axis_compiled": r"CompiledMachine<volcomp::bench::kFiveAxis, \(volcomp::RuntimeModel\)0>",
-    "xyb_a_loaded": r"LoadedMachine<5u>",
-    "five_axis_loaded": r"LoadedMachine<5u>",
-    "xyfz_loaded": r"LoadedMachine<5u>",
+    "xyb_a_loaded": r"LoadedMachine<5u, 0u>",
+    "five_axis_loaded": r"LoadedMachine<5u, 0u>",
+    "xyfz_loaded": r"LoadedMachine<5u, 0u>",
 }
 
 

@@ -81,7 +81,6 @@ char* strncpy(char* __restrict to, const char* __restrict from, std::size_t coun
 thread_local int errno;
 
 // It was compiled with a guard below its return addresses.
-// NOLINTBEGIN(bugprone-reserved-identifier)
 extern const std::uintptr_t __stack_chk_guard;
 const std::uintptr_t __stack_chk_guard = 0x595E'9FBD'94FD'A766;
 
@@ -89,6 +88,5 @@ const std::uintptr_t __stack_chk_guard = 0x595E'9FBD'94FD'A766;
   volcomp::hal::virt::uart::put("\nFAULT: a function has overwritten its return address\n");
   end_of_program(volcomp::boards::kFault);
 }
-// NOLINTEND(bugprone-reserved-identifier)
 
 }  // extern "C"

@@ -85,7 +85,7 @@ export function limitSeries(section, theme, { along, unit, anchor }) {
 
 export function tooltip(theme, extra) {
   return {
-    confine: true, transitionDuration: 0, backgroundColor: theme.surface, borderColor: theme.rule,
+    className: 'hover', confine: true, transitionDuration: 0, backgroundColor: theme.surface, borderColor: theme.rule,
     padding: [8, 10], textStyle: { color: theme.ink, fontSize: 12.5, fontFamily: theme.font },
     extraCssText: 'box-shadow:0 2px 10px rgba(0,0,0,.15);border-radius:4px', ...extra,
   };

@@ -12,7 +12,7 @@ export function makeHeader(report) {
 }
 
 // The word and the sign say it too, for print and for those who cannot tell red from green.
-function makeVerdict({ ok, text }) {
+export function makeVerdict({ ok, text }) {
   return element(
     'p', { class: `verdict ${ok ? 'pass' : 'fail'}`, role: 'status' },
     element('b', {}, ok ? '\u2713 Pass' : '\u2717 Fail'), element('span', {}, text),
@@ -20,7 +20,10 @@ function makeVerdict({ ok, text }) {
 }
 
 export function makeContents(entries) {
-  const links = entries.map(({ id, title }) => element('li', {}, element('a', { href: `#${id}` }, title)));
+  const links = entries.flatMap(({ id, title, chapter }) => [
+    chapter ? element('li', { class: 'chapter' }, chapter) : null,
+    element('li', {}, element('a', { href: `#${id}` }, title)),
+  ].filter(Boolean));
   return element('nav', { 'aria-label': 'Contents' }, element('ol', {}, ...links));
 }
 

@@ -129,7 +129,7 @@ std::string grade_text(const FaceInspection& inspection) {
   if (!profile) return "no grade: cells of the map are missing";
   const std::optional<int> grade = face_gear_grade(*profile);
   const int last = kFaceGearLimits.back().grade;
-  return fmt::format("{:.1f} um, {}", *profile,
+  return fmt::format("{:.1f} µm, {}", *profile,
                      grade ? fmt::format("grade {}", *grade) : fmt::format("worse than {}", last));
 }
 
@@ -144,8 +144,8 @@ Verdict face_gear_verdict(const FaceGearResult& run) {
          all.rms <= std::min(one.rms, frame.rms) &&
          pitch <= 2.0 * scale_step_um(run);  // of the highest tooth and of the lowest
   v.text = fmt::format(
-      "Maps are {:.2f} um rms from the gear with the frame of one ball, {:.2f} with that of {} "
-      "touches, {:.2f} with the machine compensated as well; F_p then differs by {:.1f} um from "
+      "Maps are {:.2f} µm rms from the gear with the frame of one ball, {:.2f} with that of {} "
+      "touches, {:.2f} with the machine compensated as well; F_p then differs by {:.1f} µm from "
       "that of the gear, of which the scale of the table may be {:.1f}.",
       one.rms, frame.rms, run.at(FaceStage::frame).frame.touches, all.rms, pitch,
       2.0 * scale_step_um(run));
@@ -186,13 +186,13 @@ std::string face_gear_summary(const FaceGearResult& run) {
   const FaceFrame& fit = *run.at(FaceStage::compensated).frame.fit;
   const Eigen::Matrix<double, 6, 1> sd = frame_deviations(run.gear, fit.observability);
   text += fmt::format(
-      "frame of {} touches: condition {:.1f}; per um of noise {:.2f} {:.2f} {:.2f} um along, "
+      "frame of {} touches: condition {:.1f}; per µm of noise {:.2f} {:.2f} {:.2f} µm along, "
       "{:.2f} "
-      "{:.2f} {:.2f} um about X, Y, Z\n\n",
+      "{:.2f} {:.2f} µm about X, Y, Z\n\n",
       run.at(FaceStage::compensated).frame.touches, fit.observability.condition, sd(0), sd(1),
       sd(2), sd(3), sd(4), sd(5));
   text +=
-      fmt::format("{:14}{:^16}  {:^26}{:^26}\n", "um", "map - gear", "left flanks", "right flanks");
+      fmt::format("{:14}{:^16}  {:^26}{:^26}\n", "µm", "map - gear", "left flanks", "right flanks");
   text += fmt::format("{:14}{:>8}{:>8}{:>10}{:>8}{:>8}{:>10}{:>8}{:>8}  profile\n", "", "rms",
                       "max", "F_p", "f_pt", "F_p10", "F_p", "f_pt", "F_p10");
   for (std::size_t s = 0; s < kFaceStages.size(); ++s)
@@ -202,9 +202,8 @@ std::string face_gear_summary(const FaceGearResult& run) {
                       truth[0].figures.total, truth[0].figures.single, truth[0].over_10,
                       truth[1].figures.total, truth[1].figures.single, truth[1].over_10);
   text += fmt::format("grades: {}\n", kFaceGearLimitsSource);
-  text +=
-      fmt::format("scale of the table {:.1f}\", swing arm +-{:.0f} um; one distance {:.0f} ns\n",
-                  kScaleStep_rad * kArcSeconds, kUmPerMm * kArmRepeatability_mm, run.kernel_ns);
+  text += fmt::format("scale of the table {:.1f}\", swing arm ±{:.0f} µm; one distance {:.0f} ns\n",
+                      kScaleStep_rad * kArcSeconds, kUmPerMm * kArmRepeatability_mm, run.kernel_ns);
   const NodeAgreement node = agreement_of(run);
   text +=
       fmt::format("{} touches judged by the node: distances as here to {} nm, {} other verdicts\n",

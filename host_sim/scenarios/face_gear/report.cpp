@@ -1,18 +1,28 @@
 #include "host_sim/scenarios/face_gear/report.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "comp/evaluation/face_gear_grade.hpp"
 #include "comp/units.hpp"
+#include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/face_gear/figures.hpp"
 #include "host_sim/scenarios/face_gear/flank_charts.hpp"
+#include "host_sim/scenarios/face_gear/published_maps.hpp"
+#include "host_sim/scenarios/report/before_after.hpp"
+#include "host_sim/scenarios/report/provenance.hpp"
 #include "host_sim/scenarios/report_parts.hpp"
-#include "host_sim/version.hpp"
 
 namespace volcomp::sim {
 namespace {
 
 using nlohmann::json;
+
+constexpr double kMicro = 1e6;
+constexpr double kDegreesPerRad = 180.0 / kPi;
 
 json stage_table(const FaceGearResult& run) {
   json rows = json::array();
@@ -36,9 +46,22 @@ json stage_table(const FaceGearResult& run) {
             column("f_pt left", "µm", 1),
             column("F_p right", "µm", 1),
             column("f_pt right", "µm", 1),
-            {{"title", "profile, rows 2 to 6"}}}},
+            {{"title", fmt::format("profile, rows {} to {}", kProfileRows.first + 1,
+                                   kProfileRows.last + 1)}}}},
           {"rows", rows},
           {"note", fmt::format("Grades: {}.", kFaceGearLimitsSource)}};
+}
+
+double largest_over_all_rows() {
+  double largest = 0.0;
+  for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
+    ProfileDeviation profile;
+    require(
+        profile_deviation(published_map(PublishedMap::machine, side), {0, kGridRows - 1}, profile),
+        "Tables 5 and 6");
+    largest = std::max(largest, profile.value);
+  }
+  return largest;
 }
 
 json statement_table() {
@@ -53,74 +76,104 @@ json statement_table() {
             column("stated", "µm", 1),
             column("in the tables", "µm", 1)}},
           {"rows", rows},
-          {"note",
-           "The profile is the largest range of a column over rows 2 to 6; with all seven "
-           "rows the same column has 8.0 µm."}};
+          {"note", fmt::format("The profile is the largest range of a column over rows {} to {}; "
+                               "over all {} rows the largest is {:.1f} µm.",
+                               kProfileRows.first + 1, kProfileRows.last + 1, kGridRows,
+                               largest_over_all_rows())}};
 }
 
 // The paper gives nothing of it.
 json machine_table(const FaceGearResult& run) {
   json rows = json::array();
   for (const AxisFile& axis : run.machine.axes) {
-    const double scale = axis.rotary ? 180.0 / kPi : 1.0;
-    rows.push_back(
-        {std::string(1, axis.letter), scale * axis.lo, scale * axis.hi, axis.rotary ? "deg" : "mm",
-         axis.rotary ? "3 µm, 10 µrad once per turn" : "3 µm, 10 µrad along the travel"});
+    const double scale = axis.rotary ? kDegreesPerRad : 1.0;
+    rows.push_back({std::string(1, axis.letter), scale * axis.lo, scale * axis.hi,
+                    axis.rotary ? "deg" : "mm",
+                    fmt::format("{:g} µm, {:g} µrad {}", kUmPerMm * kFaceLengthError_mm,
+                                kMicro * kFaceAngleError_rad,
+                                axis.rotary ? "once per turn" : "along the travel")});
   }
   const Vec3 off = kUmPerMm * (true_mounting().t - nominal_mounting().t);
-  return {{"type", "table"},
-          {"id", "machine"},
-          {"title", "The machine, as chosen here"},
-          {"columns",
-           {{{"title", "axis"}},
-            {{"title", "from"}, {"digits", 0}},
-            {{"title", "to"}, {"digits", 0}},
-            {{"title", "unit"}},
-            {{"title", "size of its six errors"}}}},
-          {"rows", rows},
-          {"note",
-           fmt::format("Neither chain nor strokes nor errors of the YK7280 are published: all of "
-                       "it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm out of place and 1' "
-                       "turned; scale of the table 1.8\", swing arm within {:g} µm.",
-                       off.x(), off.y(), off.z(), kUmPerMm * kArmRepeatability_mm)}};
+  const Mat3 rotation = nominal_mounting().R.transpose() * true_mounting().R;
+  return {
+      {"type", "table"},
+      {"id", "machine"},
+      {"title", "The machine, as chosen here"},
+      {"columns",
+       {{{"title", "axis"}},
+        {{"title", "from"}, {"digits", 0}},
+        {{"title", "to"}, {"digits", 0}},
+        {{"title", "unit"}},
+        {{"title", "size of its six errors"}}}},
+      {"rows", rows},
+      {"note",
+       fmt::format("Neither chain nor strokes nor errors of the YK7280 are published: all of "
+                   "it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm out of place and {:.1f}' "
+                   "turned; steps of the table's scale {:.1f}\", swing arm within {:g} µm.",
+                   off.x(), off.y(), off.z(),
+                   60.0 * kDegreesPerRad * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
+                   3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)}};
 }
 
-json provenance(const FaceGearResult& run, const std::string& command,
-                const std::string& transport) {
+json before_after(const FaceGearResult& run) {
+  const FaceInspection& before = run.at(FaceStage::one_ball);
+  const FaceInspection& after = run.at(FaceStage::compensated);
+  std::vector<BeforeAfter> lines{
+      {"error map from the gear, rms", run.map_error.front().rms, run.map_error.back().rms},
+      {"error map from the gear, largest", run.map_error.front().max, run.map_error.back().max}};
+  for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
+    const PitchDeviations& truth = run.true_pitch[side].figures;
+    lines.push_back({fmt::format("pitch F_p, {} flanks", kFaceSideNames[side]),
+                     before.pitch[side].figures.total, after.pitch[side].figures.total,
+                     truth.total});
+    lines.push_back({fmt::format("pitch f_pt, {} flanks", kFaceSideNames[side]),
+                     before.pitch[side].figures.single, after.pitch[side].figures.single,
+                     truth.single});
+  }
+  return before_after_table(lines,
+                            fmt::format("Before: the frame of the gear from one ball as in the "
+                                        "paper, nothing compensated. After: the frame of {} "
+                                        "touches, the machine compensated.",
+                                        after.frame.touches),
+                            0);
+}
+
+Origins origins(const FaceGearResult& run) {
   const FaceGearOptions& o = run.options;
-  return json::array({{"data", "simulated: no machine and no gear was measured"},
-                      {"command", command},
-                      {"version", kVersion},
-                      {"machine file", o.machine.filename().string()},
-                      {"gear", o.gear},
+  Origins origins;
+  origins.settings = {{"gear", o.gear},
                       {"form of the flanks", kFormTruths.at(static_cast<std::size_t>(o.form))},
-                      {"seed", std::to_string(o.seed)},
-                      {"transport", transport}});
+                      {"seed", fmt::format("{} (errors of machine and gear)", o.seed)}};
+  origins.inputs = run.inputs;
+  origins.instruments = {
+      "touch probe of the machine: delays and radius of the machine file, corrected by the node",
+      fmt::format("table: steps of its scale {:.1f}\"; swing arm repeats within {:g} µm",
+                  3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)};
+  origins.chosen = {"chain, strokes and errors of the machine: none is published"};
+  origins.untouched = {"maps, pitch and frame as measured"};
+  return origins;
 }
 
 }  // namespace
 
-json face_gear_document(const FaceGearResult& run, const std::string& command,
-                        const std::string& transport) {
-  const Verdict verdict = face_gear_verdict(run);
-  json sections = json::array();
-  sections.push_back(topography(run, FaceStage::compensated));
-  for (json& map : flank_maps(run, FaceStage::compensated))
-    sections.push_back(std::move(map));
-  sections.push_back(stage_table(run));
-  sections.push_back(pitch_curves(run));
+json face_gear_document(const FaceGearResult& result, const RunContext& run) {
+  ReportParts parts;
+  parts.title = "YK7280: a face gear measured on its machine";
+  parts.subtitle = fmt::format(
+      "{} teeth, module {:g}, shaper of {} teeth; every touch through drives, bus and node",
+      result.gear.teeth, result.gear.module, result.gear.shaper_teeth);
+  parts.verdict = face_gear_verdict(result);
+  parts.before_after = before_after(result);
+  parts.plots.push_back(topography(result, FaceStage::compensated));
+  for (json& map : flank_maps(result, FaceStage::compensated))
+    parts.plots.push_back(std::move(map));
+  parts.plots.push_back(pitch_curves(result));
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
-    sections.push_back(single_pitch_bars(run, side));
-  sections.push_back(statement_table());
-  sections.push_back(machine_table(run));
-  return {{"title", "YK7280: a face gear measured on its machine"},
-          {"subtitle",
-           fmt::format("{} teeth, module {:g}, shaper of {} teeth; every touch through drives, bus "
-                       "and node",
-                       run.gear.teeth, run.gear.module, run.gear.shaper_teeth)},
-          {"verdict", {{"ok", verdict.ok}, {"text", verdict.text}}},
-          {"provenance", provenance(run, command, transport)},
-          {"sections", sections}};
+    parts.plots.push_back(single_pitch_bars(result, side));
+  parts.details = {stage_table(result), statement_table(), machine_table(result)};
+  parts.ticks = run.ticks;
+  parts.provenance = provenance(run, origins(result));
+  return report_document(std::move(parts));
 }
 
 }  // namespace volcomp::sim

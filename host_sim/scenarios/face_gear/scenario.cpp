@@ -116,6 +116,8 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const Progress& pro
   if (!run.machine.probe) throw UserError(run.machine.path + ": the machine has no [probe]");
   const GearChoice choice = choose_face_gear(options.gear);
   run.gear = choice.gear;
+  run.inputs = {hashed_file("machine file", options.machine)};
+  if (!is_published_gear(options.gear)) run.inputs.push_back(hashed_file("gear", options.gear));
   require(make_face_grid(choice.gear, choice.plan, run.grid), options.gear);
   if (options.flanks < 1 || options.flanks > run.gear.teeth)
     throw UserError(fmt::format("--flanks: 1 to {}, not {}", run.gear.teeth, options.flanks));

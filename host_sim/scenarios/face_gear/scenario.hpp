@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host_sim/commissioning/identification.hpp"
+#include "host_sim/data/hashed_input.hpp"
 #include "host_sim/scenarios/face_gear/inspection.hpp"
 #include "host_sim/scenarios/face_gear/truth.hpp"
 #include "host_sim/scenarios/progress.hpp"
@@ -38,6 +39,7 @@ struct MapError {
 struct FaceGearResult {
   FaceGearOptions options;
   MachineFile machine;
+  std::vector<HashedInput> inputs;
   FaceGear gear;
   FaceGrid grid;
   FaceGearErrors errors;

@@ -6,7 +6,7 @@
 
 #include "comp/units.hpp"
 #include "host_sim/data/user_error.hpp"
-#include "host_sim/instruments/noise.hpp"
+#include "host_sim/scenarios/drawn_errors.hpp"
 #include "host_sim/scenarios/face_gear/published_maps.hpp"
 
 namespace volcomp::sim {
@@ -14,9 +14,6 @@ namespace {
 
 constexpr double kHeight_mm = 200.0;    // of the gear above the table
 constexpr double kFirstSlot_rad = 0.3;  // lies anywhere
-
-constexpr double kLength_mm = 3e-3;
-constexpr double kAngle_rad = 10e-6;
 
 // A table repeats itself every turn.
 ErrorFunction once_per_turn(double amplitude, Random& random) {
@@ -30,12 +27,8 @@ ErrorFunction once_per_turn(double amplitude, Random& random) {
 }
 
 ErrorFunction along_slide(double amplitude, Random& random) {
-  ErrorFunction f;
-  f.linear = amplitude * random.uniform(-1.0, 1.0);
-  f.amplitude = {amplitude, 0.5 * amplitude, 0.25 * amplitude};
-  for (double& phase : f.phase)
-    phase = random.uniform(0.0, 2.0 * kPi);
-  return f;
+  const double rise = amplitude * random.uniform(-1.0, 1.0);
+  return waves_on_line(rise, amplitude, random);
 }
 
 TrueAxis true_axis(const AxisFile& file, Random& random) {
@@ -43,7 +36,7 @@ TrueAxis true_axis(const AxisFile& file, Random& random) {
   axis.lo = file.lo;
   axis.hi = file.hi;
   for (std::size_t c = 0; c < axis.channel.size(); ++c) {
-    const double amplitude = c < 3 ? kLength_mm : kAngle_rad;
+    const double amplitude = c < 3 ? kFaceLengthError_mm : kFaceAngleError_rad;
     axis.channel[c] =
         file.rotary ? once_per_turn(amplitude, random) : along_slide(amplitude, random);
   }

@@ -18,6 +18,10 @@ namespace volcomp::sim {
 inline constexpr std::array<int, 2> kFaceSides{1, -1};  // left is the flank at y > 0
 inline constexpr std::array<const char*, 2> kFaceSideNames{"left", "right"};
 
+// Amplitudes of the errors of every axis.
+inline constexpr double kFaceLengthError_mm = 3e-3;
+inline constexpr double kFaceAngleError_rad = 10e-6;
+
 // Smooth errors of a few µm and µrad on every axis, phases from `seed`. Throws UserError when the
 // machine has other axes than X Y Z C.
 [[nodiscard]] TrueMachine make_yk7280_truth(const MachineFile& file, std::uint64_t seed);

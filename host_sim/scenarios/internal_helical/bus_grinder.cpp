@@ -56,6 +56,13 @@ void check(const MachineFile& machine, const BusSettings& settings, const Watche
     throw UserError(machine.path +
                     ": 'axes' of [correction] must contain C: the learned offset is "
                     "added to that of C");
+  for (const BusAxis& axis : settings.axes) {
+    if (axis.scale_numerator == (axis.rotary ? 512U : 1U) && axis.scale_denominator == 1) continue;
+    throw UserError(
+        fmt::format("{}: the drives of the simulated grinder count in nanometres and "
+                    "2^-31 turn; axis {} has other units",
+                    machine.path, axis.letter));
+  }
   const std::int32_t slew = settings.limits.axis[kC].rate;
   constexpr std::uint8_t kLate = 2;  // 2200h:04
   if (node::OffsetGate::unhindered(slew, kLate) < watched.offsets.rate) {

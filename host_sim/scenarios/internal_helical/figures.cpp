@@ -179,7 +179,7 @@ Verdict internal_helical_verdict(const InternalHelicalResult& run) {
   if (run.options.way != LearningWay::right) {
     const WrongWay wrong = wrong_way(run);
     return {false, fmt::format(
-                       "Learned the wrong way ({}): {} is {:.1f} um after it, {} {:.1f} um.",
+                       "Learned the wrong way ({}): {} is {:.1f} µm after it, {} {:.1f} µm.",
                        kLearningWays.at(static_cast<std::size_t>(run.options.way)), wrong.what,
                        wrong.found, wrong.beyond() ? "beyond" : "yet not beyond", wrong.threshold)};
   }
@@ -196,7 +196,7 @@ Verdict internal_helical_verdict(const InternalHelicalResult& run) {
                      : fmt::format("{} medians lie outside", outside);
   const bool geometry = !same || geometry_ok(run.geometry);
   return {outside == 0 && learned && geometry,
-          fmt::format("Z and C are out of step by {:.2f} um rms on the flank before, {:.2f} after "
+          fmt::format("Z and C are out of step by {:.2f} µm rms on the flank before, {:.2f} after "
                       "{} updates ({:.1f} times less); {}{}.",
                       before, after, run.options.updates, before / after, ranges,
                       geometry ? "" : "; the first order misses the exact envelope")};
@@ -243,18 +243,18 @@ std::string internal_helical_summary(const InternalHelicalResult& run) {
       "for one error, {:.1f} nm for all at once (95 of 100)\n",
       run.geometry.regenerated_nm, run.geometry.single_nm, run.geometry.all_nm);
   text +=
-      fmt::format("lags on the flank: Z alone {:.1f} um, C alone {:.1f} um, together {:.2f} um\n",
+      fmt::format("lags on the flank: Z alone {:.1f} µm, C alone {:.1f} µm, together {:.2f} µm\n",
                   run.lags.z_um, run.lags.c_um, run.lags.together_um);
   text += signal_lines(run);
   text += fmt::format(
       "largest error of Z: {:.3f} mm before, {:.3f} mm after: the helix goes on "
       "lagging, in step\n\n",
       z_peak(run, false).median, z_peak(run, true).median);
-  text += fmt::format("{:16}{:>8}{:>8}{:>7}{:>18}{:>13}{:>8}{:>8}\n", "um", "median", "min", "max",
+  text += fmt::format("{:16}{:>8}{:>8}{:>7}{:>18}{:>13}{:>8}{:>8}\n", "µm", "median", "min", "max",
                       "median allowed", "grade 1995", "2013", "paper");
   for (const HelicalMeasure& m : helical_measures(run))
     text += measure_row(run, m);
-  text += "\nsynchronisation, um rms on the flank, round by round:";
+  text += "\nsynchronisation, µm rms on the flank, round by round:";
   for (const double um : learning_curve(run))
     text += fmt::format(" {:.2f}", um);
   const Verdict verdict = internal_helical_verdict(run);

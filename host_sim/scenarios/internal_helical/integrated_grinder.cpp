@@ -32,8 +32,8 @@ StrokeState stroke_state(const StrokeStep& step) {
 }  // namespace
 
 IntegratedGrinder::IntegratedGrinder(const WatchedStrokes& watched, LearningWay way,
-                                     GrinderPlant& plant)
-    : watched_(watched), way_(way), plant_(plant) {
+                                     GrinderPlant& plant, MachineWatch* watch)
+    : watched_(watched), way_(way), plant_(plant), watch_(watch) {
   require(monitor_->configure(watched.monitor), "monitor");
   require(offsets_->configure(watched.offsets), "offsets");
   for (auto& learner : stroke_)
@@ -61,7 +61,31 @@ void IntegratedGrinder::cycle(const StrokeStep& step) {
   const std::int32_t offset = offsets_->tick(stroke_state(step));
   plant_.follow_x(step.x);
   plant_.follow_z(step.z);
-  plant_.follow_c(step.c + node::offset_to_wire(offset, kScaleOfC));
+  const std::int64_t demand = step.c + node::offset_to_wire(offset, kScaleOfC);
+  plant_.follow_c(demand);
+  if (watch_ != nullptr) show(step, kFiner * (demand - step.c));
+}
+
+void IntegratedGrinder::show(const StrokeStep& step, std::int64_t offset_of_c) {
+  if (++shown_.cycle == 1) shown_.machine = watch_->enter();
+  shown_.period_s = kStrokeTick_s;
+  shown_.axes = 3;
+  const auto linear = [](char letter, std::int64_t target, std::int64_t actual) {
+    AxisSnapshot axis;
+    axis.letter = letter;
+    axis.target = target;
+    axis.position = static_cast<double>(actual) / kNmPerMm;
+    return axis;
+  };
+  AxisSnapshot& c = shown_.axis[2];
+  shown_.axis[0] = linear('X', step.x, plant_.read_x());
+  shown_.axis[1] = linear('Z', step.z, plant_.read_z());
+  c.letter = 'C';
+  c.rotary = true;
+  c.target = kFiner * step.c;
+  c.offset = offset_of_c;
+  c.position = static_cast<double>(plant_.read_c()) / kWirePerRad;
+  watch_->cycle(shown_);
 }
 
 void IntegratedGrinder::collect() {

@@ -6,6 +6,7 @@
 
 #include "comp/realtime/helix_instances.hpp"
 #include "comp/tables/learning_guard.hpp"
+#include "host_sim/controller/machine_watch.hpp"
 #include "host_sim/scenarios/internal_helical/grinder_control.hpp"
 #include "host_sim/scenarios/internal_helical/grinder_plant.hpp"
 
@@ -13,8 +14,9 @@ namespace volcomp::sim {
 
 class IntegratedGrinder final : public GrinderControl {
  public:
-  // `plant` must outlive it.
-  IntegratedGrinder(const WatchedStrokes& watched, LearningWay way, GrinderPlant& plant);
+  // `plant` and `watch`, if any, must outlive it.
+  IntegratedGrinder(const WatchedStrokes& watched, LearningWay way, GrinderPlant& plant,
+                    MachineWatch* watch = nullptr);
 
   void cycle(const StrokeStep& step) override;
   void learn() override;
@@ -24,6 +26,7 @@ class IntegratedGrinder final : public GrinderControl {
  private:
   [[nodiscard]] HelixFrame frame(const StrokeStep& step);
   void collect();
+  void show(const StrokeStep& step, std::int64_t offset_of_c);
   [[nodiscard]] std::vector<NodeSums> stroke_sums(Direction direction) const;
   [[nodiscard]] std::vector<NodeSums> slot_sums() const;
   [[nodiscard]] std::vector<double> means_on_flank(const std::vector<NodeSums>& sums) const;
@@ -33,6 +36,8 @@ class IntegratedGrinder final : public GrinderControl {
   WatchedStrokes watched_;
   LearningWay way_;
   GrinderPlant& plant_;
+  MachineWatch* watch_;
+  MachineSnapshot shown_;
   std::uint16_t sequence_ = 0;
   std::int32_t feed_nm_per_s_ = 0;
   std::unique_ptr<GrinderMonitor> monitor_ = std::make_unique<GrinderMonitor>();

@@ -1,11 +1,15 @@
 #include "host_sim/scenarios/internal_helical/report.hpp"
 
+#include <string_view>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "host_sim/scenarios/internal_helical/charts.hpp"
 #include "host_sim/scenarios/internal_helical/figures.hpp"
+#include "host_sim/scenarios/report/before_after.hpp"
+#include "host_sim/scenarios/report/provenance.hpp"
 #include "host_sim/scenarios/report_parts.hpp"
-#include "host_sim/version.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -31,7 +35,7 @@ json measure_table(const InternalHelicalResult& run) {
   }
   return {{"type", "table"},
           {"id", "deviations"},
-          {"title", "The gear before and after"},
+          {"title", "Deviations over the seeds"},
           {"columns",
            {{{"title", "deviation"}},
             {{"title", ""}},
@@ -87,38 +91,74 @@ json truth_table(const InternalHelicalResult& run) {
                t.visible_phase / kRadPerDegree, t.runout_phase / kRadPerDegree)}};
 }
 
-json provenance(const InternalHelicalResult& run, const std::string& command,
-                const std::string& transport) {
-  return json::array({{"data", "simulated: no machine and no gear was measured"},
-                      {"command", command},
-                      {"version", kVersion},
-                      {"learned", kLearningWays.at(static_cast<std::size_t>(run.options.way))},
-                      {"seeds", fmt::format("1 to {}; curves are of seed 1", run.options.seeds)},
-                      {"transport", transport}});
+std::string grade_word(const InternalHelicalResult& run, const HelicalMeasure& m) {
+  const GearGrade grade = helical_grade(run.job, m, GearStandard::iso1328_1995);
+  return grade.grade ? std::to_string(*grade.grade) : "none";
+}
+
+json before_after(const InternalHelicalResult& run) {
+  std::vector<BeforeAfter> lines{{"Z and C out of step on the flank, rms",
+                                  sync_spread(run, false).median, sync_spread(run, true).median}};
+  const std::vector<HelicalMeasure> measures = helical_measures(run);
+  for (const HelicalMeasure& before : measures) {
+    if (before.after) continue;
+    for (const HelicalMeasure& after : measures) {
+      const bool same = after.after && std::string_view(after.name) == before.name &&
+                        std::string_view(after.side) == before.side;
+      if (!same) continue;
+      lines.push_back({fmt::format("{} {}", before.name, before.side), before.found.median,
+                       after.found.median, std::nullopt, grade_word(run, before),
+                       grade_word(run, after)});
+    }
+  }
+  return before_after_table(lines,
+                            fmt::format("Medians of {} simulated grinders: the first gear, ground "
+                                        "with no offsets, and the last, after {} updates. Grades "
+                                        "by ISO 1328-1:1995.",
+                                        run.options.seeds, run.options.updates),
+                            0);
+}
+
+Origins origins(const InternalHelicalResult& run) {
+  Origins origins;
+  origins.settings = {{"learned", kLearningWays.at(static_cast<std::size_t>(run.options.way))},
+                      {"seeds", fmt::format("1 to {}; curves are of seed 1", run.options.seeds)}};
+  origins.inputs = run.inputs;
+  origins.instruments = {fmt::format("encoders of the machine: steps of {:g} µm and {:g} µrad",
+                                     kUmPerMm * run.options.truth.resolution_z_mm,
+                                     1e6 * run.options.truth.resolution_c_rad),
+                         fmt::format("measuring machine for the gear: {:g} µm rms of every point",
+                                     kUmPerMm * run.options.truth.probe_mm)};
+  origins.chosen = {
+      "amounts and angles of what disturbs the grinder, so that the sums land at the deviations "
+      "the "
+      "paper prints"};
+  origins.untouched = {"what is learned, and the deviations after it"};
+  return origins;
 }
 
 }  // namespace
 
-json internal_helical_document(const InternalHelicalResult& run, const std::string& command,
-                               const std::string& transport) {
-  const Verdict verdict = internal_helical_verdict(run);
-  json sections =
-      json::array({measure_table(run), tracking_charts(run), learning_chart(run), lag_charts(run),
-                   slot_chart(run), spectrum_along_z(run), spectrum_around_c(run),
-                   stroke_table_chart(run), slot_table_chart(run), cumulative_pitch_charts(run)});
+json internal_helical_document(const InternalHelicalResult& result, const RunContext& run) {
+  ReportParts parts;
+  parts.title = "Internal helical gear: grinding watched and compensated";
+  parts.subtitle = fmt::format(
+      "{} teeth, module {:g}, helix {:g}°, width {:g} mm; offsets of C learned in "
+      "{} updates",
+      result.gear.teeth, result.gear.module, result.gear.helix_angle / kRadPerDegree,
+      result.job.width_mm, result.options.updates);
+  parts.verdict = internal_helical_verdict(result);
+  parts.before_after = before_after(result);
+  parts.plots = {tracking_charts(result), learning_chart(result), cumulative_pitch_charts(result)};
   for (std::size_t side = 0; side < kHelicalSides.size(); ++side)
-    sections.push_back(single_pitch_chart(run, side));
-  sections.push_back(profile_charts(run));
-  sections.push_back(truth_table(run));
-  return {{"title", "Internal helical gear: grinding watched and compensated"},
-          {"subtitle",
-           fmt::format("{} teeth, module {:g}, helix {:g}°, width {:g} mm; offsets of C learned in "
-                       "{} updates",
-                       run.gear.teeth, run.gear.module, run.gear.helix_angle / kRadPerDegree,
-                       run.job.width_mm, run.options.updates)},
-          {"verdict", {{"ok", verdict.ok}, {"text", verdict.text}}},
-          {"provenance", provenance(run, command, transport)},
-          {"sections", sections}};
+    parts.plots.push_back(single_pitch_chart(result, side));
+  parts.plots.push_back(profile_charts(result));
+  parts.details = {measure_table(result),    lag_charts(result),        slot_chart(result),
+                   spectrum_along_z(result), spectrum_around_c(result), stroke_table_chart(result),
+                   slot_table_chart(result), truth_table(result)};
+  parts.ticks = run.ticks;
+  parts.provenance = provenance(run, origins(result));
+  return report_document(std::move(parts));
 }
 
 }  // namespace volcomp::sim

@@ -18,7 +18,8 @@ std::unique_ptr<GrinderControl> make_control(const MachineFile& machine,
                                              const InternalHelicalOptions& options,
                                              GrindingProcess& process) {
   if (!options.make_axes)
-    return std::make_unique<IntegratedGrinder>(watched, options.way, process.plant());
+    return std::make_unique<IntegratedGrinder>(watched, options.way, process.plant(),
+                                               options.watch);
   if (options.way == LearningWay::one_table)
     throw UserError(
         "--wrong one-table: a node keeps a table for each direction; without --can "
@@ -110,6 +111,7 @@ InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options
   InternalHelicalResult run;
   run.options = options;
   const MachineFile machine = read_machine_file(options.machine);
+  run.inputs = {hashed_file("machine file", options.machine)};
   run.job = grinding_job(machine);
   run.gear = run.job.gear;
   progress(0.0, "geometry against the exact envelope");

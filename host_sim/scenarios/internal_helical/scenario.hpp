@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "host_sim/controller/bus_axes.hpp"
+#include "host_sim/data/hashed_input.hpp"
 #include "host_sim/scenarios/internal_helical/geometry_check.hpp"
 #include "host_sim/scenarios/internal_helical/grinder_control.hpp"
 #include "host_sim/scenarios/internal_helical/inspection.hpp"
@@ -23,6 +24,7 @@ struct InternalHelicalOptions {
   GrindingTruth truth;
   std::filesystem::path machine;  // file
   BusAxesFactory make_axes;       // with the compensation on a bus; empty: integrated
+  MachineWatch* watch = nullptr;  // of the integrated form
 };
 
 // A gear as it was ground and what was seen of it.
@@ -49,6 +51,7 @@ struct HelicalDetail {
 
 struct InternalHelicalResult {
   InternalHelicalOptions options;
+  std::vector<HashedInput> inputs;
   GrindingFile job;
   InternalGear gear;
   std::vector<double> roll_length;

@@ -59,7 +59,7 @@ std::string signal_lines(const InternalHelicalResult& run) {
   const std::vector<SignalReport> before = signal_reports(run, run.detail.before);
   const std::vector<SignalReport> after = signal_reports(run, run.detail.after);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    text += fmt::format("C out of step over the {}: +-{:.1f} um{}; at last +-{:.1f} um{}\n",
+    text += fmt::format("C out of step over the {}: ±{:.1f} µm{}; at last ±{:.1f} µm{}\n",
                         before[i].name, before[i].amplitude_um, verdict_of(before[i], true),
                         after[i].amplitude_um, verdict_of(after[i], false));
   }

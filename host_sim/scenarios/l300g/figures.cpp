@@ -91,15 +91,38 @@ std::string grades(const std::array<FlankTrace, 2>& trace) {
   return left == right ? left : left + "/" + right;
 }
 
+// What the machine makes of a gear before it is compensated, on either flank.
+struct Picture {
+  bool worse = false;
+  bool better = false;
+};
+
+Picture picture_of(const std::array<FlankTrace, 2>& before,
+                   const std::array<FlankTrace, 2>& itself) {
+  Picture p;
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    const auto number = [side](const std::array<FlankTrace, 2>& trace) {
+      return trace[side].grade_1995.value_or(last_grade(GearStandard::iso1328_1995) + 1);
+    };
+    p.worse = p.worse || number(before) > number(itself);
+    p.better = p.better || number(before) < number(itself);
+  }
+  return p;
+}
+
 // Does the machine turn a bad picture of a good gear into a good one, as the paper says?
 std::string claim(const L300gResult& r, bool found) {
-  const std::string itself = grades(r.truth.profile);
   if (!found)
     return "the tables do not hold what is wrong with this machine: the gear is not found as it is";
-  if (grades(r.before.profile) == itself) return "there was nothing to compensate";
-  if (grades(r.before.lead) != grades(r.truth.lead)) return "profile and lead are put right";
-  return "the paper's claim holds: the profile lost its grade, the lead did not, and it is put "
-         "right";
+  const Picture profile = picture_of(r.before.profile, r.truth.profile);
+  const Picture lead = picture_of(r.before.lead, r.truth.lead);
+  if (profile.worse && lead.worse) return "profile and lead are put right";
+  if (profile.worse)
+    return "the paper's claim holds: the profile lost its grade, the lead did not, and it is put "
+           "right";
+  if (lead.worse) return "the lead lost its grade, the profile did not, and it is put right";
+  if (profile.better || lead.better) return "uncompensated the gear looked better than it is";
+  return "there was nothing to compensate";
 }
 
 }  // namespace

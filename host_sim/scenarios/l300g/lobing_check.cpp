@@ -17,8 +17,8 @@ constexpr double kSphere_mm = 15.0;
 constexpr double kLobing_mm = 5e-3;
 constexpr double kNoise_mm = 0.1e-3;
 constexpr double kAway_mm = 5.0;  // so that the way to the next direction is clear of the sphere
-constexpr double kPast_mm = 0.3;
-constexpr double kDegree = kPi / 180.0;
+constexpr double kBeyond_mm = 0.3;
+constexpr double kRadPerDegree = kPi / 180.0;
 constexpr int kAround = 9;  // directions of a ring: third order needs seven
 constexpr ProbingFeeds kFeeds{50.0, 10.0, 50.0};
 
@@ -34,10 +34,10 @@ std::vector<Vec3> directions(const Rings& elevations, double turned_deg) {
   for (const double elevation : elevations) {
     for (int i = 0; i < kAround; ++i) {
       const int step = back ? kAround - 1 - i : i;
-      const double azimuth = (turned_deg + 360.0 / kAround * step) * kDegree;
-      const double level = std::cos(elevation * kDegree);
+      const double azimuth = (turned_deg + 360.0 / kAround * step) * kRadPerDegree;
+      const double level = std::cos(elevation * kRadPerDegree);
       all.emplace_back(level * std::sin(azimuth), level * std::cos(azimuth),
-                       std::sin(elevation * kDegree));
+                       std::sin(elevation * kRadPerDegree));
     }
     back = !back;
   }
@@ -49,9 +49,9 @@ double largest(const LobingMap& map) {
   double most = 0.0;
   for (int e = -90; e <= 90; e += 5) {
     for (int a = 0; a < 360; a += 5) {
-      const double level = std::cos(e * kDegree);
-      const Vec3 d(level * std::cos(a * kDegree), level * std::sin(a * kDegree),
-                   std::sin(e * kDegree));
+      const double level = std::cos(e * kRadPerDegree);
+      const Vec3 d(level * std::cos(a * kRadPerDegree), level * std::sin(a * kRadPerDegree),
+                   std::sin(e * kRadPerDegree));
       most = std::max(most, std::abs(map.radius(d)));
     }
   }
@@ -137,7 +137,7 @@ class SphereBench {
   NodePoint touch(const Vec3& from_side, const Vec3& normal) {
     const double touching = kSphere_mm + node_probe(file_).radius.coefficient[0];
     return grinder_.prober().touch(pose_at(from_side * (touching + kAway_mm)),
-                                   pose_at(from_side * (touching - kPast_mm)), normal, kFeeds);
+                                   pose_at(from_side * (touching - kBeyond_mm)), normal, kFeeds);
   }
 
   [[nodiscard]] Vec3 in_tool(const NodePoint& centre) const {

@@ -104,6 +104,17 @@ GrinderErrors read_errors(const TomlSection& top) {
   return errors;
 }
 
+const std::map<std::string, GrinderErrors (*)()>& named_errors() {
+  static const std::map<std::string, GrinderErrors (*)()> kNamed{
+      {"none", [] { return GrinderErrors{}; }},
+      {"p8", p8},
+      {"p8-variation", p8_with_variation},
+      {"table2", table_2},
+      {"short-arm", short_arm},
+      {"a-slope", a_slope}};
+  return kNamed;
+}
+
 }  // namespace
 
 bool GrinderErrors::waves() const {
@@ -116,16 +127,11 @@ GrinderErrors parse_grinder_errors(const std::string& text, const std::string& n
   });
 }
 
+bool is_named(const std::string& errors) { return named_errors().count(errors) > 0; }
+
 GrinderErrors grinder_errors(const std::string& name_or_file) {
-  static const std::map<std::string, GrinderErrors (*)()> kNamed{
-      {"none", [] { return GrinderErrors{}; }},
-      {"p8", p8},
-      {"p8-variation", p8_with_variation},
-      {"table2", table_2},
-      {"short-arm", short_arm},
-      {"a-slope", a_slope}};
-  const auto named = kNamed.find(name_or_file);
-  if (named != kNamed.end()) return named->second();
+  const auto named = named_errors().find(name_or_file);
+  if (named != named_errors().end()) return named->second();
   return parse_grinder_errors(text_of_file(name_or_file), name_or_file);
 }
 

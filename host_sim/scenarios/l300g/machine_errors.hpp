@@ -32,6 +32,8 @@ struct GrinderErrors {
 // The errors that have a name.
 inline constexpr const char* kNamedErrors = "none, p8, p8-variation, table2, short-arm, a-slope";
 
+[[nodiscard]] bool is_named(const std::string& errors);
+
 // By name, or from a TOML file (README). Throws UserError.
 [[nodiscard]] GrinderErrors grinder_errors(const std::string& name_or_file);
 [[nodiscard]] GrinderErrors parse_grinder_errors(const std::string& text, const std::string& name);

@@ -1,21 +1,23 @@
 #include "host_sim/scenarios/l300g/report.hpp"
 
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "comp/units.hpp"
 #include "host_sim/scenarios/l300g/figures.hpp"
 #include "host_sim/scenarios/l300g/gear_charts.hpp"
+#include "host_sim/scenarios/report/before_after.hpp"
+#include "host_sim/scenarios/report/error_functions.hpp"
+#include "host_sim/scenarios/report/provenance.hpp"
 #include "host_sim/scenarios/report_parts.hpp"
-#include "host_sim/version.hpp"
 
 namespace volcomp::sim {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kDegPerRad = 180.0 / kPi;
 constexpr double kCoverage = 2.0;  // of the bands
 
 // --- probe
@@ -77,53 +79,25 @@ json sensitivities(const L300gResult& r) {
 
 // --- identification
 
-json function_chart(const L300gResult& r, std::size_t a, bool angles) {
-  const IdentifiedAxis& axis = r.identification.axis[a];
-  const bool rotary = r.machine.axes[a].rotary;
-  const double scale = angles ? kUradPerRad : kUmPerMm;
-  std::vector<double> x;
-  for (const double q : axis.nodes)
-    x.push_back(rotary ? kDegPerRad * q : q);
-  json series = json::array();
-  for (Eigen::Index c = angles ? 3 : 0; c < (angles ? 6 : 3); ++c) {
-    const double half = kCoverage * scale * r.identification.spread(c);
-    std::vector<double> y;
-    std::vector<double> low;
-    std::vector<double> high;
-    for (const ErrorMotion& e : axis.motion) {
-      y.push_back(scale * e(c));
-      low.push_back(y.back() - half);
-      high.push_back(y.back() + half);
-    }
-    json one = series_of(kChannels[static_cast<std::size_t>(c)], x, y);
-    one["band"] = {{"lo", low}, {"hi", high}};
-    series.push_back(one);
-  }
-  return {{"type", "lines"},
-          {"id", fmt::format("function-{}-{}", axis.letter, angles ? "angles" : "lengths")},
-          {"title", fmt::format("{}: {}", axis.letter, angles ? "angles" : "displacements")},
-          {"x", axis_label("position", rotary ? "deg" : "mm")},
-          {"y", axis_label("error", angles ? "µrad" : "µm")},
-          {"series", series}};
-}
-
 json error_functions(const L300gResult& r) {
-  json charts = json::array();
+  std::vector<ErrorCurves> axes;
   for (std::size_t a = 0; a < r.identification.axis.size(); ++a) {
-    charts.push_back(function_chart(r, a, false));
-    charts.push_back(function_chart(r, a, true));
+    const IdentifiedAxis& identified = r.identification.axis[a];
+    ErrorCurves curves{
+        identified.letter, r.machine.axes[a].rotary, identified.nodes, identified.motion, {}};
+    ErrorMotion half;
+    for (Eigen::Index c = 0; c < half.size(); ++c)
+      half(c) = kCoverage * r.identification.spread(c);
+    curves.half_width.assign(curves.at.size(), half);
+    axes.push_back(curves);
   }
-  return {
-      {"type", "group"},
-      {"id", "functions"},
-      {"title", "The 24 identified error functions"},
-      {"charts", charts},
-      {"note",
-       fmt::format("Motion of the body itself, in its moving frame. Largest difference from the "
-                   "simulated truth {:.1e} mm or rad. Bands: ±{:g} standard uncertainties that "
-                   "{:g} µm of each target would leave; condition of the targets {:.2f}.",
-                   r.identification.max_error(), kCoverage, kUmPerMm * kTracker_mm,
-                   r.identification.condition)}};
+  return error_functions_group(
+      fmt::format("The {} identified error functions", kChannels.size() * axes.size()), axes,
+      fmt::format("Motion of the body itself, in its moving frame. Largest difference from the "
+                  "simulated truth {:.1e} mm or rad. Bands: ±{:g} standard uncertainties that "
+                  "{:g} µm of each target would leave; condition of the targets {:.2f}.",
+                  r.identification.max_error(), kCoverage, kUmPerMm * kTracker_mm,
+                  r.identification.condition));
 }
 
 json printed_table(const L300gResult& r) {
@@ -164,7 +138,7 @@ json feed_chart(const L300gResult& r) {
   };
   return {{"type", "lines"},
           {"id", "feeds"},
-          {"title", "The same place at five feeds"},
+          {"title", fmt::format("The same place at {} feeds", r.feeds.feed_mm_min.size())},
           {"x", axis_label("feed", "mm/min")},
           {"y", axis_label("normal to the flank, from the mean", "nm")},
           {"series",
@@ -175,35 +149,76 @@ json feed_chart(const L300gResult& r) {
                                r.feeds.raw_spread_nm(), r.feeds.corrected_spread_nm())}};
 }
 
-json provenance(const L300gResult& r, const std::string& command, const std::string& transport) {
+// --- the document
+
+json before_after(const L300gResult& r) {
+  std::vector<BeforeAfter> lines;
+  const auto grade = [](const std::optional<int>& g) {
+    return grade_text(g, GearStandard::iso1328_1995);
+  };
+  const auto traces = [&](const char* what, auto member) {
+    for (std::size_t side = 0; side < kSides.size(); ++side) {
+      const FlankTrace& before = (r.before.*member)[side];
+      const FlankTrace& after = (r.after.*member)[side];
+      lines.push_back({fmt::format("{}, {} flank", what, kSideNames[side]), before.figures.total,
+                       after.figures.total, (r.truth.*member)[side].figures.total,
+                       grade(before.grade_1995), grade(after.grade_1995)});
+    }
+  };
+  traces("profile F_α", &GearInspection::profile);
+  traces("lead F_β", &GearInspection::lead);
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    const PitchRound& before = r.before.pitch[side];
+    const PitchRound& after = r.after.pitch[side];
+    const PitchRound& truth = r.truth.pitch[side];
+    lines.push_back({fmt::format("pitch F_p, {} flanks", kSideNames[side]), before.figures.total,
+                     after.figures.total, truth.figures.total, grade(before.grade_1995),
+                     grade(after.grade_1995)});
+    lines.push_back({fmt::format("pitch f_pt, {} flanks", kSideNames[side]), before.figures.single,
+                     after.figures.single, truth.figures.single, "", ""});
+  }
+  return before_after_table(
+      lines,
+      "Deviations of the master gear as the machine finds them, with zero tables and with those of "
+      "the identified error functions. Grades by ISO 1328-1:1995; that of a pitch is the worse of "
+      "F_p and f_pt.");
+}
+
+Origins origins(const L300gResult& r) {
   const L300gOptions& o = r.options;
-  return json::array(
-      {{"data", "simulated: no machine and no gear was measured"},
-       {"command", command},
-       {"version", kVersion},
-       {"machine file", o.machine.filename().string()},
-       {"errors of the machine", o.errors},
-       {"path", o.path == PathStyle::fixed_a ? "A stands still, B touches" : "generating"},
-       {"origin", o.origin == Origin::nominal ? "machine file" : "fit of the mandrel"},
-       {"tables", kTableKinds.at(static_cast<std::size_t>(o.tables))},
-       {"seed", std::to_string(o.seed)},
-       {"transport", transport}});
+  Origins origins;
+  origins.settings = {
+      {"errors of the machine", o.errors},
+      {"path", o.path == PathStyle::fixed_a ? "A stands still, B touches" : "generating"},
+      {"origin", o.origin == Origin::nominal ? "machine file" : "fit of the mandrel"},
+      {"tables", kTableKinds.at(static_cast<std::size_t>(o.tables))},
+      {"seed", fmt::format("{} (phases of waves, noise of the lobing check)", o.seed)}};
+  origins.inputs = r.inputs;
+  origins.instruments = {
+      fmt::format("laser tracker for the error functions: {:g} µm of each target assumed for the "
+                  "bands, none added",
+                  kUmPerMm * kTracker_mm),
+      "touch probe of the machine: delays and radius of the machine file, corrected by the node"};
+  origins.chosen = {"amounts and signs of the errors, such that they add up"};
+  origins.untouched = {"deviations and grades of the gear"};
+  return origins;
 }
 
 }  // namespace
 
-json l300g_document(const L300gResult& r, const std::string& command,
-                    const std::string& transport) {
-  const Verdict verdict = l300g_verdict(r);
-  return {{"title", "L300G: gear inspection before and after compensation"},
-          {"subtitle",
-           "Simulated gear grinder after Yang et al.; every touch through drives, bus and node"},
-          {"verdict", {{"ok", verdict.ok}, {"text", verdict.text}}},
-          {"provenance", provenance(r, command, transport)},
-          {"sections",
-           {profile_charts(r), lead_charts(r), gear_table(r), pitch_charts(r),
-            residual_chart(r.calibration), sensitivities(r), error_functions(r), printed_table(r),
-            feed_chart(r)}}};
+json l300g_document(const L300gResult& r, const RunContext& run) {
+  ReportParts parts;
+  parts.title = "L300G: gear inspection before and after compensation";
+  parts.subtitle =
+      "Simulated gear grinder after Yang et al.; every touch through drives, bus and node";
+  parts.verdict = l300g_verdict(r);
+  parts.before_after = before_after(r);
+  parts.plots = {profile_charts(r), lead_charts(r), pitch_charts(r), error_functions(r)};
+  parts.details = {gear_table(r), residual_chart(r.calibration), sensitivities(r), printed_table(r),
+                   feed_chart(r)};
+  parts.ticks = run.ticks;
+  parts.provenance = provenance(run, origins(r));
+  return report_document(std::move(parts));
 }
 
 }  // namespace volcomp::sim

@@ -83,6 +83,9 @@ L300gResult run_l300g(const L300gOptions& options, const Progress& progress) {
   L300gResult result;
   result.options = options;
   result.machine = read_machine_file(options.machine);
+  result.inputs = {hashed_file("machine file", options.machine)};
+  if (!is_named(options.errors))
+    result.inputs.push_back(hashed_file("errors of the machine", options.errors));
   result.gear = master_gear();
   const GrinderHall hall{
       result.machine,

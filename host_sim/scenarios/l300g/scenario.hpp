@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "host_sim/data/hashed_input.hpp"
 #include "host_sim/scenarios/l300g/checks.hpp"
 #include "host_sim/scenarios/l300g/inspection.hpp"
 #include "host_sim/scenarios/l300g/lobing_check.hpp"
@@ -35,6 +36,7 @@ struct L300gOptions {
 struct L300gResult {
   L300gOptions options;
   MachineFile machine;
+  std::vector<HashedInput> inputs;
   InvoluteGear gear;
   MandrelCalibration calibration;  // uncompensated: what the machine knows of its probe at first
   MandrelEffect longer_arm;        // per kLongerArm_mm

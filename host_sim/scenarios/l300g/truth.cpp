@@ -11,10 +11,6 @@
 namespace volcomp::sim {
 namespace {
 
-bool all_round(const AxisFile& axis) {
-  return axis.rotary && std::abs(axis.hi - axis.lo - 2.0 * kPi) < 1e-9;
-}
-
 // What repeats with every turn cannot rise for ever. 4/3 sin q − 1/6 sin 2q rises like q where it
 // begins: 0.13 % less at 25°, where the flank of a tooth ends.
 void let_rise_and_return(ErrorFunction& f, double slope) {
@@ -31,7 +27,7 @@ TrueAxis true_axis(const AxisFile& file, const AxisErrors& errors, double sign, 
     ErrorFunction& f = axis.channel[c];
     f.constant = sign * errors.constant[c];
     const bool sloping = std::abs(errors.slope[c]) > 0.0;
-    if (sloping && all_round(file)) {
+    if (sloping && file.full_turn()) {
       if (errors.waves())
         throw UserError(fmt::format("axis {}: a slope and a wave at once", file.letter));
       let_rise_and_return(f, sign * errors.slope[c]);

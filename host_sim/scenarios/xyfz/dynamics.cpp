@@ -9,9 +9,8 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr double kLineFeed_mm_s = 10000.0 / 60.0;
-constexpr double kCircleFeed_mm_s = 1000.0 / 60.0;
-constexpr double kCircleRadius_mm = 100.0;
+constexpr double kLineFeed_mm_s = kLineFeed_m_min * 1000.0 / 60.0;
+constexpr double kCircleFeed_mm_s = kCircleFeed_m_min * 1000.0 / 60.0;
 constexpr std::size_t kKeepEvery = 8;  // of the ticks, for the pictures
 
 Travels travels_of(const Vec3& direction) {

@@ -1,9 +1,13 @@
 #pragma once
-// Behaviour in motion: a straight line at 10 m/min, a circle, and the accuracy of the tick itself.
+// Behaviour in motion: a straight line, a circle, and the accuracy of the tick itself.
 
 #include "host_sim/scenarios/xyfz/scenario.hpp"
 
 namespace volcomp::sim {
+
+inline constexpr double kLineFeed_m_min = 10.0;
+inline constexpr double kCircleFeed_m_min = 1.0;
+inline constexpr double kCircleRadius_mm = 100.0;
 
 // With and without the compensation of `closed`, noise-free.
 [[nodiscard]] Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,

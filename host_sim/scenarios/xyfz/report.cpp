@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/scenarios/report/before_after.hpp"
+#include "host_sim/scenarios/report/provenance.hpp"
 #include "host_sim/scenarios/report_parts.hpp"
+#include "host_sim/scenarios/xyfz/charts.hpp"
+#include "host_sim/scenarios/xyfz/dynamics.hpp"
+#include "host_sim/scenarios/xyfz/truth.hpp"
 #include "host_sim/version.hpp"
 
 namespace volcomp::sim {
@@ -10,44 +15,38 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 4> kModeTitles{
-    "uncompensated", "naive model", "Abbe model as in the paper", "Abbe model, squareness closed"};
-
 json tuned_text(const XyfzResult& r) {
-  return {fmt::format("angle scale {:.4f} so that the naive residual on PNP is 16.37 µm",
-                      r.tuning.angle_scale),
-          fmt::format("scale error of X {:.3e} so that PNP reads 41.15 µm uncompensated",
-                      r.tuning.scale_error)};
-}
-
-json diagonals_group(const XyfzResult& r, bool faces) {
-  json charts = json::array();
-  const auto& names = faces ? r.mode[0].face : r.mode[0].body;
-  for (std::size_t d = 0; d < names.size(); ++d) {
-    json series = json::array();
-    for (std::size_t m = 0; m < r.mode.size(); ++m) {
-      const MeasuredDiagonal& diagonal = faces ? r.mode[m].face[d] : r.mode[m].body[d];
-      series.push_back(series_of(kModeNames[m], diagonal.distance_mm, diagonal.mean_um));
-    }
-    charts.push_back({{"type", "lines"},
-                      {"id", fmt::format("{}-{}", faces ? "face" : "body", names[d].name)},
-                      {"title", names[d].name},
-                      {"x", axis_label("distance", "mm")},
-                      {"y", axis_label("deviation", "µm")},
-                      {"series", series}});
-  }
-  return {{"type", "group"},
-          {"id", faces ? "faces" : "diagonals"},
-          {"title", faces ? "Face diagonals" : "Body diagonals, all modes"},
-          {"shared_y", true},
-          {"charts", charts},
-          {"note",
-           "Mean of both directions, noise-free, relative to the first point (ISO 230-6). The "
-           "machine moved with "
-           "the offsets applied; nothing was subtracted afterwards."}};
+  return {fmt::format("angle scale {:.4f} so that the naive residual on PNP is {} µm",
+                      r.tuning.angle_scale, kPaperNaive_um),
+          fmt::format("scale error of X {:.3e} so that PNP reads {} µm uncompensated",
+                      r.tuning.scale_error, kPaperRaw_um)};
 }
 
 json before_after(const XyfzResult& r) {
+  std::vector<BeforeAfter> lines;
+  const ModeResult& before = r.mode.front();
+  const ModeResult& after = r.mode.back();
+  for (std::size_t d = 0; d < before.body.size(); ++d)
+    lines.push_back({fmt::format("body diagonal {}, largest deviation", before.body[d].name),
+                     before.body[d].max_abs_um, after.body[d].max_abs_um});
+  lines.push_back(
+      {"face diagonals, largest deviation", before.faces_max_um(), after.faces_max_um()});
+  lines.push_back({"volume, largest deviation", before.volume.max_um, after.volume.max_um});
+  for (std::size_t a = 0; a < 3; ++a)
+    lines.push_back({fmt::format("positioning of {}, A", r.machine.axes[a].letter),
+                     kUmPerMm * r.positioning_check[a].figures.A,
+                     kUmPerMm * r.positioning_check[a + 3].figures.A});
+  return before_after_table(
+      lines,
+      fmt::format("Diagonals and volume noise-free: each diagonal at {} points in both directions, "
+                  "the volume at {} random points after aligning the workpiece frame. Positioning "
+                  "after ISO 230-2 with {} bidirectional runs of an interferometer. The machine "
+                  "moved with the offsets applied; nothing was subtracted afterwards.",
+                  kDiagonalPoints, r.options.volume_points, r.options.runs),
+      kPnp);
+}
+
+json models_table(const XyfzResult& r) {
   json rows = json::array();
   for (std::size_t m = 0; m < r.mode.size(); ++m) {
     json row = {kModeTitles[m]};
@@ -68,8 +67,8 @@ json before_after(const XyfzResult& r) {
   columns.push_back({{"title", "on knots"}, {"unit", "%"}, {"digits", 2}});
   return {
       {"type", "table"},
-      {"id", "before-after"},
-      {"title", "Before and after"},
+      {"id", "models"},
+      {"title", "The models beside each other"},
       {"columns", columns},
       {"rows", rows},
       {"highlight_row", 3},
@@ -79,137 +78,7 @@ json before_after(const XyfzResult& r) {
            "volume at {} random points after aligning the workpiece frame. Rate: reduction of the "
            "PNP "
            "maximum; a single diagonal certifies nothing, look at all of them.",
-           37, r.options.volume_points)}};
-}
-
-json draws_sections(const XyfzResult& r) {
-  json sections = json::array();
-  if (r.draws.empty()) return sections;
-  json rows = json::array();
-  json series = json::array();
-  for (std::size_t m = 0; m < 3; ++m) {
-    std::vector<double> rates;
-    for (const DrawResult& d : r.draws)
-      rates.push_back(d.rate(m));
-    rows.push_back({kModeTitles[m + 1], r.draw_quantile(m, 0.5), r.draw_quantile(m, 0.05),
-                    r.draw_quantile(m, 0.0)});
-    series.push_back({{"name", kModeNames[m + 1]}, {"values", rates}});
-  }
-  sections.push_back(
-      {{"type", "histogram"},
-       {"id", "draws"},
-       {"title", fmt::format("{} noisy campaigns", r.draws.size())},
-       {"x", axis_label("reduction of the PNP maximum", "%")},
-       {"series", series},
-       {"limit", kPaperRate},
-       {"note",
-        fmt::format(
-            "Every campaign draws its own instrument errors, arms, temperature and readings. "
-            "Line: the paper's 87.07 %. Reached by the closed model in {:.0f} % of them.",
-            100.0 * r.draws_reaching(kPaperRate))}});
-  sections.push_back({{"type", "table"},
-                      {"id", "draw-quantiles"},
-                      {"title", "Rate over the noisy campaigns"},
-                      {"columns",
-                       {{{"title", "model"}},
-                        {{"title", "median"}, {"unit", "%"}, {"digits", 1}},
-                        {{"title", "5 % quantile"}, {"unit", "%"}, {"digits", 1}},
-                        {{"title", "worst"}, {"unit", "%"}, {"digits", 1}}}},
-                      {"rows", rows}});
-  return sections;
-}
-
-json dynamics_sections(const XyfzResult& r) {
-  const Dynamics& d = r.dynamics;
-  json sections = json::array();
-  sections.push_back(
-      {{"type", "lines"},
-       {"id", "line"},
-       {"title", "Straight line at 10 m/min along PNP"},
-       {"x", axis_label("path", "mm")},
-       {"y", axis_label("distance from the chord", "µm")},
-       {"series",
-        {series_of("uncompensated", d.line_deviation_raw_um.x, d.line_deviation_raw_um.y),
-         series_of("abbe_closed", d.line_deviation_um.x, d.line_deviation_um.y)}}});
-  sections.push_back(
-      {{"type", "lines"},
-       {"id", "line-offset"},
-       {"title", "Applied minus wanted offset on that line"},
-       {"x", axis_label("path", "mm")},
-       {"y", axis_label("largest of the three axes", "nm")},
-       {"series", {series_of("abbe_closed", d.line_offset_error_nm.x, d.line_offset_error_nm.y)}},
-       {"note",
-        fmt::format("Worst {:.2f} nm over every tick. 1 nm is the bound of the arithmetic, not of "
-                    "the machine.",
-                    d.line_worst_nm)}});
-  sections.push_back(
-      {{"type", "lines"},
-       {"id", "circle"},
-       {"title", "Circle in XY, radius 100 mm, 1 m/min"},
-       {"x", axis_label("angle", "deg")},
-       {"y", axis_label("radial deviation", "µm")},
-       {"series",
-        {series_of("uncompensated", d.circle_raw_um.x, d.circle_raw_um.y),
-         series_of("abbe_closed", d.circle_um.x, d.circle_um.y)}},
-       {"note",
-        "Best-fit circle removed. Spikes at the quadrants: reversal, which the direction-dependent "
-        "tables correct after the hysteresis of the direction."}});
-  return sections;
-}
-
-json positioning_table(const XyfzResult& r) {
-  json rows = json::array();
-  for (std::size_t a = 0; a < r.positioning.size(); ++a) {
-    const Iso230Figures& f = r.positioning[a];
-    rows.push_back({std::string(1, r.machine.axes[a].letter), kUmPerMm * f.A, kUmPerMm * f.R,
-                    kUmPerMm * f.E, kUmPerMm * f.B, kUmPerMm * f.M});
-  }
-  json columns = json::array();
-  columns.push_back({{"title", "axis"}});
-  for (const char* name : {"A", "R", "E", "B", "M"})
-    columns.push_back({{"title", name}, {"unit", "µm"}, {"digits", 2}});
-  return {{"type", "table"},
-          {"id", "positioning"},
-          {"title", "Positioning after ISO 230-2, uncompensated, at the sensed points"},
-          {"columns", columns},
-          {"rows", rows},
-          {"note", r.draws.empty() ? "Noise-free campaign."
-                                   : "First noisy campaign, five bidirectional runs."}};
-}
-
-json error_functions(const XyfzResult& r) {
-  json charts = json::array();
-  for (std::size_t a = 0; a < r.example->built.size(); ++a) {
-    const BuiltTable& b = *r.example->built[a];
-    for (const bool angles : {false, true}) {
-      json series = json::array();
-      for (std::size_t c = angles ? 3U : 0U; c < (angles ? 6U : 3U); ++c) {
-        std::vector<double> x;
-        std::vector<double> y;
-        for (std::size_t i = 0; i < b.table.knots; ++i) {
-          x.push_back(b.table.knot(i));
-          y.push_back((angles ? 1e6 : kUmPerMm) *
-                      b.table.at_knot(i, Travel::unknown)(static_cast<Eigen::Index>(c)));
-        }
-        series.push_back(series_of(kChannels[c], x, y));
-      }
-      const char letter = r.machine.axes[a].letter;
-      charts.push_back(
-          {{"type", "lines"},
-           {"id", fmt::format("table-{}-{}", letter, angles ? "angles" : "lengths")},
-           {"title", fmt::format("{}: {}", letter, angles ? "angles" : "displacements")},
-           {"x", axis_label("position", "mm")},
-           {"y", axis_label("error", angles ? "µrad" : "µm")},
-           {"series", series}});
-    }
-  }
-  return {
-      {"type", "group"},
-      {"id", "tables"},
-      {"title", "Error tables at the reading heads"},
-      {"charts", charts},
-      {"note",
-       "Mean of both directions after removing straightness slopes, transferring and re-zeroing."}};
+           kDiagonalPoints, r.options.volume_points)}};
 }
 
 json lever_table(const XyfzResult& r) {
@@ -245,32 +114,45 @@ json limits_table(const XyfzResult& r) {
            {{{"title", "quantity"}}, {{"title", "value"}, {"digits", 3}}, {{"title", "unit"}}}},
           {"rows",
            {{"tick against the same model in double, after rounding", r.tick_max_error_nm, "nm"},
-            {"applied against wanted offset at 10 m/min", r.dynamics.line_worst_nm, "nm"},
+            {fmt::format("applied against wanted offset at {:g} m/min", kLineFeed_m_min),
+             r.dynamics.line_worst_nm, "nm"},
             {"first-order run-time model against the exact chain", r.mode[3].model_bound_nm, "nm"},
             {"not representable by one-dimensional tables, X", r.per_axis.max_um.x(), "µm"},
             {"not representable by one-dimensional tables, Y", r.per_axis.max_um.y(), "µm"},
             {"not representable by one-dimensional tables, Z", r.per_axis.max_um.z(), "µm"}}}};
 }
 
-json provenance(const XyfzResult& r, const std::string& command) {
-  json p = json::array();
-  p.push_back(
-      {"data", "simulated: no machine was measured; the paper's own curves are not available"});
-  p.push_back({"command", command});
-  p.push_back({"version", kVersion});
-  p.push_back(
-      {"machine file", fmt::format("{}, CRC-32 {:08X}", r.options.machine.filename().string(),
-                                   r.machine_file_crc)});
-  p.push_back({"noise seed", std::to_string(r.options.seed)});
-  p.push_back(
-      {"machine seed", fmt::format("{} (phases of the error functions)", r.options.machine_seed)});
+std::vector<std::string> instruments(const NoiseClasses& n, std::size_t runs) {
+  constexpr double kMicro = 1e6;
+  return {
+      fmt::format("laser of six degrees of freedom, {} bidirectional runs: repeatability {:g} µm "
+                  "and {:g} µrad, scale {:g} µm/m, roll {:g} µrad, levers known to {:g} mm",
+                  runs, kUmPerMm * n.repeatability_mm, kMicro * n.repeatability_rad,
+                  kMicro * n.scale, kMicro * n.roll_rad, n.arm_mm),
+      fmt::format("ball bar for squareness: {:g} µrad", kMicro * n.ball_bar_rad),
+      fmt::format("interferometer along diagonals: scale {:g} µm/m; {:g} K between measuring "
+                  "and checking",
+                  kMicro * n.interferometer, n.temperature_K)};
+}
+
+Origins origins(const XyfzResult& r) {
+  Origins o;
+  o.data = "simulated: no machine was measured; the paper's own curves are not available";
+  o.settings = {
+      {"noise seed", std::to_string(r.options.seed)},
+      {"machine seed", fmt::format("{} (phases of the error functions)", r.options.machine_seed)},
+      {"noisy campaigns", std::to_string(r.options.draws)}};
+  o.inputs = r.inputs;
+  o.instruments = instruments({}, r.options.runs);
   for (const auto& text : tuned_text(r))
-    p.push_back({"tuned", text});
-  p.push_back(
-      {"not tuned", "the residuals of the two Abbe models, the other diagonals, faces and volume"});
-  for (const std::string& warning : r.warnings)
-    p.push_back({"warning", warning});
-  return p;
+    o.tuned.push_back(text);
+  o.chosen = {
+      "amplitudes of the error functions by class; squareness so that a perfect ball bar "
+      "reads the values of the machine file"};
+  o.untouched = {
+      "the residuals of the two Abbe models, the other diagonals, faces, volume and positioning"};
+  o.warnings = r.warnings;
+  return o;
 }
 
 }  // namespace
@@ -285,9 +167,9 @@ Verdict xyfz_verdict(const XyfzResult& r) {
     const double reached = r.draws_reaching(kPaperRate);
     v.ok = v.ok && reached >= 0.95;
     v.text += fmt::format(
-        " With realistic instruments {:.1f} % (median of {}), the paper's 87.07 % reached in "
+        " With realistic instruments {:.1f} % (median of {}), the paper's {} % reached in "
         "{:.0f} %.",
-        r.draw_quantile(2, 0.5), r.draws.size(), 100.0 * reached);
+        r.draw_quantile(2, 0.5), r.draws.size(), kPaperRate, 100.0 * reached);
   }
   return v;
 }
@@ -322,27 +204,28 @@ json xyfz_figures(const XyfzResult& r) {
   return j;
 }
 
-json xyfz_document(const XyfzResult& r, const std::string& command) {
-  const Verdict verdict = xyfz_verdict(r);
-  json sections = json::array();
-  sections.push_back(before_after(r));
-  sections.push_back(diagonals_group(r, false));
+json xyfz_document(const XyfzResult& r, const RunContext& run) {
+  ReportParts parts;
+  parts.title = "XYFZ machine: volumetric compensation";
+  parts.subtitle =
+      "Simulated three-axis machine after Zhao et al. 2020, measured, tabled, compensated, "
+      "measured again";
+  parts.verdict = xyfz_verdict(r);
+  parts.before_after = before_after(r);
+  parts.plots = {diagonal_charts(r, false), volume_chart(r), positioning_charts(r),
+                 error_function_charts(r)};
+  parts.details = {models_table(r), diagonal_charts(r, true)};
   for (const json& s : draws_sections(r))
-    sections.push_back(s);
+    parts.details.push_back(s);
   for (const json& s : dynamics_sections(r))
-    sections.push_back(s);
-  sections.push_back(diagonals_group(r, true));
-  sections.push_back(positioning_table(r));
-  sections.push_back(lever_table(r));
-  sections.push_back(error_functions(r));
-  sections.push_back(limits_table(r));
-  return {{"title", "XYFZ machine: volumetric compensation"},
-          {"subtitle",
-           "Simulated three-axis machine after Zhao et al. 2020, measured, tabled, compensated, "
-           "measured again"},
-          {"verdict", {{"ok", verdict.ok}, {"text", verdict.text}}},
-          {"provenance", provenance(r, command)},
-          {"sections", sections}};
+    parts.details.push_back(s);
+  parts.details.push_back(positioning_table(r.positioning_check,
+                                            "At mid travel of the other axes, by interferometer."));
+  parts.details.push_back(lever_table(r));
+  parts.details.push_back(limits_table(r));
+  parts.ticks = run.ticks;
+  parts.provenance = provenance(run, origins(r));
+  return report_document(std::move(parts));
 }
 
 std::string xyfz_summary(const XyfzResult& r) {
@@ -357,8 +240,9 @@ std::string xyfz_summary(const XyfzResult& r) {
     text += m == 0 ? fmt::format("{:>10}\n", "-") : fmt::format("{:8.2f} %\n", r.rate(m));
   }
   text += fmt::format(
-      "\ntick against double {:.2f} nm, line at 10 m/min {:.2f} nm, first-order model {:.1f} nm\n",
-      r.tick_max_error_nm, r.dynamics.line_worst_nm, r.mode[3].model_bound_nm);
+      "\ntick against double {:.2f} nm, line at {:g} m/min {:.2f} nm, first-order model {:.1f} "
+      "nm\n",
+      r.tick_max_error_nm, kLineFeed_m_min, r.dynamics.line_worst_nm, r.mode[3].model_bound_nm);
   const Verdict verdict = xyfz_verdict(r);
   return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }

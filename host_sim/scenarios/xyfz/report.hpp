@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host_sim/scenarios/report/document.hpp"
 #include "host_sim/scenarios/xyfz/scenario.hpp"
 
 namespace volcomp::sim {
@@ -10,7 +11,7 @@ namespace volcomp::sim {
 [[nodiscard]] nlohmann::json xyfz_figures(const XyfzResult& result);
 
 // The same run as a report document (host_sim/report/README.md).
-[[nodiscard]] nlohmann::json xyfz_document(const XyfzResult& result, const std::string& command);
+[[nodiscard]] nlohmann::json xyfz_document(const XyfzResult& result, const RunContext& run);
 
 // The before/after table for a terminal.
 [[nodiscard]] std::string xyfz_summary(const XyfzResult& result);

@@ -1,17 +1,16 @@
 #include "host_sim/scenarios/xyfz/scenario.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "comp/tables/crc32.hpp"
 #include "comp/tables/per_axis.hpp"
 #include "host_sim/data/temporary_folder.hpp"
 #include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/dynamics.hpp"
+#include "host_sim/scenarios/xyfz/positions.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -67,6 +66,15 @@ double measure_pnp(const TrueMachine& truth, const Bench& bench,
       .max_abs_um;
 }
 
+// The files behind the tables that the report shows, while they are there.
+void note_inputs(const Campaign& campaign, const Commissioned& tables, XyfzResult& result) {
+  result.inputs = {hashed_file("machine file", result.options.machine)};
+  for (const RunsFile& runs : campaign.runs)
+    result.inputs.push_back(hashed_file(fmt::format("runs of {}", runs.letter), runs.name));
+  result.inputs.push_back(
+      hashed_bytes("table image made of them", "tables.vct", make_image(tables.tables)));
+}
+
 std::uint64_t draw_seed(std::uint64_t seed, std::size_t draw) { return seed * 1'000'003U + draw; }
 
 DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
@@ -93,6 +101,7 @@ DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
     for (const auto& built : tables->built)
       result.positioning.push_back(built->positioning);
     result.warnings = tables->warnings;
+    note_inputs(campaign, *tables, result);
     result.example = std::move(tables);
   }
   return out;
@@ -112,11 +121,23 @@ PerAxisRemainder per_axis_remainder(const Commissioned& closed) {
   return {tables.residual_max * kUmPerMm, tables.residual_rms * kUmPerMm};
 }
 
-std::uint32_t file_crc(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  const std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(stream)),
-                                        std::istreambuf_iterator<char>());
-  return crc32({bytes.data(), bytes.size()});
+// Where a customer looks, before and after.
+void look_closer(const Bench& bench, const Commissioned& closed, XyfzResult& result) {
+  const NoiseClasses classes;
+  Random random(bench.options.seed);
+  const InterferometerSetup setup{0.0, classes.repeatability_mm,
+                                  static_cast<int>(bench.options.runs)};
+  result.volume_points = volume_grid(bench.box);
+  for (const bool after : {false, true}) {
+    const auto cell =
+        bench.options.make_cell(bench.truth, bench.machine.correction,
+                                after ? make_image(closed.tables) : std::vector<std::uint8_t>{});
+    cell->place(bench.box.lo);
+    result.volume_error.at(after ? 1 : 0) = measure_errors(*cell, result.volume_points);
+    for (Positioning& axis :
+         measure_positioning(*cell, bench.machine, after ? "after" : "before", setup, random))
+      result.positioning_check.push_back(std::move(axis));
+  }
 }
 
 // Modes verified without noise; returns the closed model for what follows.
@@ -137,6 +158,7 @@ std::unique_ptr<Commissioned> run_noise_free(const Bench& bench, const Progress&
     result.mode[m + 1].model_bound_nm = tables->model_bound_nm;
     closed = std::move(tables);
   }
+  note_inputs(campaign, *closed, result);
   return closed;
 }
 
@@ -182,7 +204,6 @@ XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress) {
   XyfzResult result;
   result.options = options;
   result.machine = read_machine_file(options.machine);
-  result.machine_file_crc = file_crc(options.machine);
   progress(0.0, "tuning the simulated machine");
   result.tuning = tune_xyfz(result.machine, options.machine_seed);
 
@@ -193,6 +214,7 @@ XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress) {
   std::unique_ptr<Commissioned> closed = run_noise_free(bench, progress, result);
   progress(0.2, "line and circle");
   result.dynamics = run_dynamics(bench.truth, bench.machine, *closed, options.make_cell);
+  look_closer(bench, *closed, result);
   result.tick_max_error_nm = measure_tick_error_nm(*closed, options.tick_points, options.seed);
   result.per_axis = per_axis_remainder(*closed);
   Random lever_noise(options.seed);

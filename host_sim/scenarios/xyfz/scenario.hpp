@@ -8,7 +8,9 @@
 
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/controller/integrated_axes.hpp"
+#include "host_sim/data/hashed_input.hpp"
 #include "host_sim/scenarios/progress.hpp"
+#include "host_sim/scenarios/report/positioning.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/truth.hpp"
 #include "host_sim/scenarios/xyfz/verification.hpp"
@@ -89,7 +91,10 @@ struct XyfzResult {
   std::vector<std::string> warnings;
   std::unique_ptr<Commissioned>
       example;  // abbe_closed of the first noisy campaign (noise-free without draws)
-  std::uint32_t machine_file_crc = 0;
+  std::vector<Positioning> positioning_check;     // of the axes before, then after
+  std::vector<Vec3> volume_points;                // mm, a grid
+  std::array<std::vector<Vec3>, 2> volume_error;  // there, before and after, mm
+  std::vector<HashedInput> inputs;
 
   [[nodiscard]] double rate(
       std::size_t mode) const;  // PNP, noise-free, between the knots, per cent

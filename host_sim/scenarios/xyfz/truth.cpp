@@ -11,45 +11,25 @@
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/instruments/ball_bar.hpp"
+#include "host_sim/scenarios/drawn_errors.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 
 namespace volcomp::sim {
 namespace {
-
-constexpr double kOwnAxis_mm = 3e-3;
-constexpr double kStraightness_mm = 2.5e-3;
-constexpr double kRoll_rad = 12e-6;
-constexpr double kPitchYaw_rad = 20e-6;
-constexpr double kRipple_mm = 0.15e-3;
-
-ErrorFunction draw_function(double amplitude, bool with_slope, Random& random) {
-  ErrorFunction f;
-  f.linear = with_slope ? amplitude * random.uniform(-1.0, 1.0) : 0.0;
-  constexpr std::array<double, 3> kWeight{1.0, 0.5, 0.25};
-  for (std::size_t k = 0; k < 3; ++k) {
-    f.amplitude[k] = amplitude * kWeight[k];
-    f.phase[k] = random.uniform(0.0, 2.0 * kPi);
-  }
-  return f;
-}
 
 TrueAxis draw_axis(const AxisFile& file, std::size_t own, const XyfzTuning& tuning,
                    Random& random) {
   TrueAxis axis;
   axis.lo = file.lo;
   axis.hi = file.hi;
-  for (std::size_t c = 0; c < 3; ++c) {
-    axis.channel[c] = draw_function(c == own ? kOwnAxis_mm : kStraightness_mm, c == own, random);
+  for (std::size_t c = 0; c < 6; ++c) {
+    const bool angle = c >= 3;
+    const double amplitude = usual_amplitude(c, own) * (angle ? tuning.angle_scale : 1.0);
+    const double rise = angle || c == own ? amplitude * random.uniform(-1.0, 1.0) : 0.0;
+    axis.channel[c] = waves_on_line(rise, amplitude, random);
   }
-  for (std::size_t c = 3; c < 6; ++c) {
-    const double amplitude = c == own + 3 ? kRoll_rad : kPitchYaw_rad;
-    axis.channel[c] = draw_function(amplitude * tuning.angle_scale, true, random);
-  }
-  axis.channel[own].ripple = kRipple_mm;
-  axis.channel[own].ripple_phase = random.uniform(0.0, 2.0 * kPi);
-  axis.reversal[own] = random.uniform(0.5e-3, 1.0e-3);
-  for (std::size_t c = 3; c < 6; ++c)
-    axis.reversal[c] = random.uniform(-1.5e-6, 1.5e-6);
+  draw_ripple(axis.channel[own], random);
+  draw_reversal(own, axis, random);
   return axis;
 }
 

@@ -2,12 +2,14 @@
 // Measuring again with the compensation running: the machine really moves, nothing is subtracted
 // off line.
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "comp/evaluation/diagonals.hpp"
 #include "host_sim/controller/motion_cell.hpp"
 #include "host_sim/instruments/noise.hpp"
+#include "host_sim/verification/volume.hpp"
 
 namespace volcomp::sim {
 
@@ -29,16 +31,28 @@ struct InterferometerSetup {
   int runs = 1;
 };
 
+// Readings of one run up and one down, mm, by point. `reading_error` of the instrument, mm, at a
+// distance from the beginning in mm.
+struct DiagonalPass {
+  std::vector<double> up;
+  std::vector<double> down;
+};
+[[nodiscard]] DiagonalPass pass_along(MotionCell& cell, const Diagonal& diagonal,
+                                      std::size_t points,
+                                      const std::function<double(double)>& reading_error);
+
+// Both directions of a line of that length, its points evenly spaced.
+[[nodiscard]] MeasuredDiagonal mean_of_directions(const std::string& name, double length_mm,
+                                                  const DiagonalPass& pass);
+
 [[nodiscard]] MeasuredDiagonal measure_diagonal(MotionCell& cell, const Diagonal& diagonal,
                                                 std::size_t points,
                                                 const InterferometerSetup& setup, Random& random);
 
-// Error vectors at random places of the box, after the workpiece frame has been aligned to them by
-// a best-fit rigid motion (what every workpiece set-up does); µm.
-struct VolumeFigures {
-  double max_um = 0.0;
-  double rms_um = 0.0;
-};
+// Error vectors at random places of the box.
+[[nodiscard]] std::vector<VolumePoint> visit_volume(MotionCell& cell, const DiagonalBox& box,
+                                                    int points, std::uint64_t seed);
+// The same as figures, aligned.
 [[nodiscard]] VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box, int points,
                                            std::uint64_t seed);
 

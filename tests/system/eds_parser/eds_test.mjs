@@ -27,7 +27,7 @@ const name_of_mapping = (mapping) => {
 
 test('device information', () => {
   assert.equal(eds.deviceInfo.ProductName, 'volcomp compensation');
-  assert.equal(eds.deviceInfo.NrOfRXPDO, '26');
+  assert.equal(eds.deviceInfo.NrOfRXPDO, '27');
   assert.equal(eds.deviceInfo.NrOfTXPDO, '9');
   assert.equal(eds.deviceInfo.Granularity, '8');
 });
@@ -43,6 +43,7 @@ test('types, access and defaults', () => {
   const expected = [
     // index, sub, type, access, default
     [0x1005, null, DataType.UNSIGNED32, 'rw', 0x80],
+    [0x1012, null, DataType.UNSIGNED32, 'ro', 0x80000100],
     [0x1017, null, DataType.UNSIGNED16, 'rw', 100],
     [0x1019, null, DataType.UNSIGNED8, 'rw', 240],
     [0x2011, 1, DataType.INTEGER32, 'rww', 0],
@@ -54,6 +55,8 @@ test('types, access and defaults', () => {
     [0x2303, 1, DataType.REAL64, 'rw', 1],
     [0x2303, 2, DataType.REAL64, 'rw', 0],
     [0x2600, 0xb, DataType.UNSIGNED8, 'ro', 0],
+    [0x2700, 1, DataType.INTEGER16, 'rww', -32768],
+    [0x2702, 2, DataType.UNSIGNED16, 'rw', 60],
   ];
   for (const [index, sub, type, access, value] of expected) {
     const object = sub === null ? eds.getEntry(index) : eds.getEntry(index)[sub];

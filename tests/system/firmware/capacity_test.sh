@@ -32,7 +32,7 @@ expect 0 'active: CRC-32' "$volcomp" download "$work/tables-$room.vct" "${link[@
 come_back
 active=$("$volcomp" diagnose "${link[@]}" | grep 'CRC-32')
 holds 'the node names its tables' test -n "$active"
-expect 1 'The table has more knots than this build can hold.' "$volcomp" download "$work/tables-128.vct" "${link[@]}"
+expect 1 'The table has too many knots for this build.' "$volcomp" download "$work/tables-128.vct" "${link[@]}"
 expect 0 'last refusal:' "$volcomp" diagnose "${link[@]}"
 expect 0 "$active" "$volcomp" diagnose "${link[@]}"
 expect 0 'active: CRC-32' "$volcomp" download "$work/tables-$room.vct" "${link[@]}"

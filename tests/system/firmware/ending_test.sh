@@ -9,10 +9,10 @@ run=("$volcomp" run xyfz --draws 0 --volume-points 10 --cycle-hz 50 --firmware m
 
 # start_run: in the background until the machine moves; its process in $process, that of QEMU in $qemu.
 start_run() {
-  rm -f "$work/run.log"
   "${run[@]}" --firmware-image "$(image_of m7)" --log "$work/run.log" > "$work/run.txt" 2>&1 &
   process=$!
-  wait_for 'the machine moves' lines_are_more_than 20000 "$work/run.log"
+  # The log takes its place at the end.
+  wait_for 'the machine moves' lines_are_more_than 20000 "$work/run.log.$process.tmp"
   qemu=$(pgrep -P "$process" qemu-system-arm)
 }
 
@@ -26,7 +26,7 @@ ends_with() {
     failed=1
   fi
   holds 'QEMU is gone' test ! -e "/proc/$qemu"
-  holds 'no file stays behind' test -z "$(ls "$TMPDIR")"
+  holds 'no file stays behind' test -z "$(ls "$TMPDIR")$(find "$work" -name 'run.log*')"
 }
 
 # --- QEMU is killed in the middle of the run

@@ -63,5 +63,11 @@ tools_run() {
   "$1/bin/volcomp" machine check "$1/share/volcomp/machines/xyfz.toml" | grep -q good || fail 'volcomp machine check'
   "$1/bin/volcomp" run xyfz --draws 0 | grep -q PASS || fail 'volcomp run xyfz'
   "$1/bin/volcomp-node" --help | grep -q store || fail 'volcomp-node --help'
+  local name=share/man/man1/volcomp
+  grep -q '^\.TH VOLCOMP 1' "$1/$name.1" || fail "$name.1 is no manual page"
+  grep -q '^\.TH VOLCOMP-NODE 1' "$1/$name-node.1" || fail "$name-node.1 is no manual page"
+  for name in bash-completion/completions/volcomp zsh/vendor-completions/_volcomp fish/vendor_completions.d/volcomp.fish; do
+    grep -q build-tables "$1/share/$name" || fail "$name completes nothing"
+  done
   printf 'tools: they run\n'
 }

@@ -63,6 +63,12 @@ says 'a node without tables says so' 'nothing was sent' "$volcomp" diagnose --ca
 says 'tables are accepted' 'active' "$volcomp" download "$work/tables.vct" --can vcan0 --store
 "$volcomp" upload "$work/back.vct" --can vcan0 > /dev/null || fail 'the tables cannot be read back'
 expect 'tables come back byte for byte' cmp "$work/tables.vct" "$work/back.vct"
+"$volcomp" upload - --can vcan0 2> /dev/null > "$work/back.vct" || fail 'the tables cannot be read back into a pipe'
+expect 'tables come back byte for byte through a pipe' cmp "$work/tables.vct" "$work/back.vct"
+# shellcheck disable=SC2016  # expanded by the shell below
+says 'tables from a pipe are accepted, told in JSON' "\"crc32\": \"$(crc32_of "$work/tables.vct")\"" \
+  bash -c '"$1" download - --can vcan0 --json - < "$2"' download "$volcomp" "$work/tables.vct"
+says 'monitor hears the node' 'node (id 32): pre-operational' "$volcomp" monitor --can vcan0 --rate-hz 0.3 --once
 
 cp "$work/tables.vct" "$work/damaged.vct"
 printf '\377' | dd of="$work/damaged.vct" bs=1 seek=3000 conv=notrunc status=none

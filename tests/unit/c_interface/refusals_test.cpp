@@ -4,12 +4,11 @@
 #include <set>
 #include <string>
 
+#include "tests/not_numbers.hpp"
 #include "tests/unit/c_interface/support.hpp"
 
 namespace volcomp::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The reason by its name, with the field where there is one.
 std::string text(const volcomp_status& s) {
@@ -41,7 +40,28 @@ TEST(CInterfaceRefuses, NullPointers) {
   EXPECT_EQ(text(volcomp_start_from(c.get(), nullptr)), "null_pointer offset");
   EXPECT_EQ(text(volcomp_activate(nullptr)), "null_pointer compensator");
   EXPECT_EQ(text(volcomp_scrub(nullptr)), "null_pointer compensator");
-  EXPECT_EQ(text(volcomp_correct_touch(c.get(), nullptr, nullptr, nullptr)), "null_pointer touch");
+  volcomp_touch touch{};
+  volcomp_feature feature{};
+  volcomp_point point{};
+  EXPECT_EQ(text(volcomp_correct_touch(c.get(), nullptr, &feature, &point)), "null_pointer touch");
+  EXPECT_EQ(text(volcomp_correct_touch(c.get(), &touch, nullptr, &point)), "null_pointer feature");
+  EXPECT_EQ(text(volcomp_correct_touch(c.get(), &touch, &feature, nullptr)), "null_pointer out");
+}
+
+TEST(CInterfaceRefuses, EveryCallWithoutACompensator) {
+  volcomp_settings settings;
+  volcomp_default_settings(&settings);
+  volcomp_probe_settings probe;
+  volcomp_default_probe_settings(&probe);
+  const std::array<std::int32_t, VOLCOMP_AXES> held{};
+  volcomp_touch touch{};
+  volcomp_feature feature{};
+  volcomp_point point{};
+  const std::string expected = "null_pointer compensator";
+  EXPECT_EQ(text(volcomp_configure(nullptr, &settings)), expected);
+  EXPECT_EQ(text(volcomp_configure_probe(nullptr, &probe)), expected);
+  EXPECT_EQ(text(volcomp_start_from(nullptr, held.data())), expected);
+  EXPECT_EQ(text(volcomp_correct_touch(nullptr, &touch, &feature, &point)), expected);
 }
 
 TEST(CInterfaceRefuses, SettingsOutOfRangeByName) {
@@ -98,8 +118,11 @@ TEST(CInterfaceRefuses, ImagesAndKeepsTheTablesInUse) {
   other = tables;
   other.machine.body[1].joint.offset[0] += 1.0;
   EXPECT_EQ(text(c.stage(encode(other))), "machine_mismatch");
-  const std::array<double, 3> tool{0.0, kNan, 0.0};
-  EXPECT_EQ(text(c.stage(good, tool.data())), "not_finite tool");
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::array<double, 3> tool{};
+    tool.at(i) = kNan;
+    EXPECT_EQ(text(c.stage(good, tool.data())), "not_finite tool") << i;
+  }
 
   // Nothing of all this can be activated.
   EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
@@ -115,6 +138,38 @@ TEST(CInterfaceRefuses, ImagesAndKeepsTheTablesInUse) {
   EXPECT_EQ(m.image_crc, d.active_crc);
 }
 
+// Before anything was active, another machine may still come, but only with tables that can be
+// used: the offsets that the drives hold are not forgotten for others.
+TEST(CInterfaceRefuses, AnotherMachineThatCannotBeUsed) {
+  constexpr std::uint32_t kOurs = 7;
+  MachineTables tables = random_l300g(4);
+  tables.provenance.machine_id = kOurs;
+  const Bytes good = encode(tables);
+  const std::array<std::int32_t, VOLCOMP_AXES> held{5000, 0, 0, 0, 0};
+  const auto first_offset = [&](bool disturbed) {
+    CInstance c;
+    volcomp_settings s;
+    volcomp_default_settings(&s);
+    s.machine_id = kOurs;
+    EXPECT_EQ(volcomp_configure(c.get(), &s).reason, VOLCOMP_OK);
+    EXPECT_EQ(c.stage(good).reason, VOLCOMP_OK);
+    EXPECT_EQ(volcomp_start_from(c.get(), held.data()).reason, VOLCOMP_OK);
+    if (disturbed) {
+      Random random(1);
+      MachineTables other = xyfz_tables(1e3, 1e-5, random);
+      other.provenance.machine_id = kOurs + 1;
+      EXPECT_EQ(text(c.stage(encode(other))), "machine_mismatch");
+      other.provenance.machine_id = kOurs;
+      other.axis[0].value[0][3][0] = 1e9F;
+      EXPECT_EQ(text(c.stage(encode(other))), "bound_exceeded");
+      EXPECT_EQ(c.stage(good).reason, VOLCOMP_OK);
+    }
+    EXPECT_EQ(volcomp_activate(c.get()).reason, VOLCOMP_OK);
+    return c.tick({}).offset[0];
+  };
+  EXPECT_EQ(first_offset(true), first_offset(false));
+}
+
 // A good image that was staged does not survive a bad one: what would be activated is unclear.
 TEST(CInterfaceRefuses, ActivationAfterABadImage) {
   const Bytes good = encode(random_l300g(4));
@@ -122,6 +177,36 @@ TEST(CInterfaceRefuses, ActivationAfterABadImage) {
   ASSERT_EQ(c.stage(good).reason, VOLCOMP_OK);
   EXPECT_EQ(text(c.stage({1, 2, 3})), "bad_magic");
   EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
+}
+
+// Nobody has decided on the machine yet: the same tables may be given twice, others too.
+TEST(CInterfaceStart, TablesMayBeGivenTwiceBeforeTheyAreActivated) {
+  const Bytes image = encode(random_l300g(13));
+  CInstance c;
+  ASSERT_EQ(c.stage(image).reason, VOLCOMP_OK);
+  ASSERT_EQ(c.stage(image).reason, VOLCOMP_OK);
+  EXPECT_EQ(text(volcomp_activate(c.get())), "ok");
+  EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
+}
+
+// Axes that a compensator of five has no room for.
+TEST(CInterfaceRefuses, AMachineOfSixAxes) {
+  MachineTables six = random_l300g(14);
+  const std::size_t first = six.machine.body_count;
+  std::uint8_t axes = 0;
+  for (std::size_t k = 0; k < first; ++k)
+    axes = static_cast<std::uint8_t>(axes + (six.machine.body[k].joint.moves() ? 1 : 0));
+  for (; axes < 6; ++axes) {
+    six.axis[axes] = six.axis[0];
+    Body& body = six.machine.body[six.machine.body_count];
+    body.lower = six.machine.tool_body;
+    body.joint = {JointKind::prismatic, Axis::z, 1, Branch::tool, axes, 'W'};
+    six.machine.tool_body = ++six.machine.body_count;
+  }
+  CInstance c;
+  EXPECT_EQ(text(c.stage(encode(six))), "too_many_axes");
+  EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
+  EXPECT_EQ(volcomp_direction(c.get(), VOLCOMP_AXES), VOLCOMP_UNKNOWN);
 }
 
 // Before the first activation the machine is open; afterwards changes wait for the tick.
@@ -162,11 +247,15 @@ TEST(CInterfaceRefuses, SettingsOfTheProbeByName) {
   EXPECT_EQ(with([](Settings& x) { x.latch_delay_s[4] = -0.06; }), "bad_setting latch delay");
   EXPECT_EQ(with([](Settings& x) { x.radius[7] = kNan; }), "not_finite radius");
   EXPECT_EQ(with([](Settings& x) { x.radius[0] = -1.0; }), "bad_setting radius");
+  EXPECT_EQ(with([](Settings& x) { x.radius[3] = 2.1e7; }), "bad_setting radius");
   EXPECT_EQ(with([](Settings& x) { x.rotation[0] = kNan; }), "not_finite rotation");
   EXPECT_EQ(with([](Settings& x) { x.rotation[0] = -1.0; }), "not_a_rotation rotation");
   EXPECT_EQ(with([](Settings& x) { x.translation[2] = kNan; }), "not_finite translation");
   EXPECT_EQ(with([](Settings& x) { x.translation[2] = 1e14; }), "bad_setting translation");
-  EXPECT_EQ(with([](Settings& x) { x.uncertainty.position[1] = kNan; }), "not_finite uncertainty");
+  const std::string nowhere = "not_finite uncertainty";
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.normal = kNan; }), nowhere);
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.position[1] = kNan; }), nowhere);
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.latch_delay_s[4] = kNan; }), nowhere);
   EXPECT_EQ(with([](Settings& x) { x.uncertainty.correlation = 1.1; }), "bad_setting correlation");
 }
 
@@ -189,6 +278,8 @@ TEST(CInterfaceRefuses, TouchesByName) {
   EXPECT_EQ(correct(), "bad_setting velocity");
   touch.axis[1].velocity = 0.0;
   touch.axis[3].direction = 3;
+  EXPECT_EQ(correct(), "bad_setting direction");
+  touch.axis[3].direction = -1;
   EXPECT_EQ(correct(), "bad_setting direction");
   touch.axis[3].direction = VOLCOMP_UNKNOWN;
   feature.normal[0] = 0.5;
@@ -267,7 +358,11 @@ TEST(CInterfaceText, EveryNumberHasAName) {
   EXPECT_STREQ(volcomp_status_words(1U << VOLCOMP_STATUS_BITS), "unknown");
   EXPECT_STREQ(volcomp_verdict_code(VOLCOMP_RETRACTING), "retracting");
   EXPECT_STREQ(volcomp_verdict_code(VOLCOMP_NO_MACHINE), "no_machine");
-  EXPECT_STREQ(volcomp_verdict_sentence(15), "unknown");
+  EXPECT_STRNE(volcomp_verdict_sentence(VOLCOMP_NO_MACHINE), "unknown");
+  for (const int verdict : {-1, 15}) {
+    EXPECT_STREQ(volcomp_verdict_code(verdict), "unknown");
+    EXPECT_STREQ(volcomp_verdict_sentence(verdict), "unknown");
+  }
 }
 
 }  // namespace

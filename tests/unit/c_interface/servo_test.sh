@@ -13,16 +13,24 @@ failed=0
 grep -q 'fingerprint' "$work/wanted" || { echo 'FAILED: there is nothing to compare with'; failed=1; }
 diff "$work/wanted" "$work/got" || { echo 'FAILED: the loop in C puts out something else'; failed=1; }
 
-# refused TEXT FILE: exit 2 and one line with this text.
-refused() {
-  local output status
-  output=$("$servo_c" "$2" 2>&1)
+# says LINE COMMAND…: exit 2 and nothing but this line.
+says() {
+  local line=$1 output status
+  shift
+  output=$("$@" 2>&1)
   status=$?
-  if [ "$status" -ne 2 ] || [ "$output" != "volcomp-servo-c: $2: $1" ]; then
-    printf 'FAILED: wanted exit 2 and "%s", got exit %s:\n%s\n' "$1" "$status" "$output"
+  if [ "$status" -ne 2 ] || [ "$output" != "$line" ]; then
+    printf 'FAILED: wanted exit 2 and "%s", got exit %s:\n%s\n' "$line" "$status" "$output"
     failed=1
   fi
 }
+# refused TEXT FILE: by both, with this text.
+refused() {
+  says "volcomp-servo-c: $2: $1" "$servo_c" "$2"
+  says "volcomp-servo: $2: $1" "$servo" "$2"
+}
+says 'usage: volcomp-servo-c TABLE_IMAGE' "$servo_c"
+says 'usage: volcomp-servo TABLE_IMAGE' "$servo" one two
 head -c 1000 "$image" >"$work/short"
 refused 'The image is shorter or longer than its header says.' "$work/short"
 { head -c 5000 "$image"; printf '~'; tail -c +5002 "$image"; } >"$work/damaged"

@@ -57,6 +57,22 @@ TEST_F(EmergencyMessages, ErrorMayComeBack) {
   EXPECT_THAT(sent(), SizeIs(3));
 }
 
+// More errors than are kept at a time: the first stay, the others are not reported until there is
+// room again.
+TEST_F(EmergencyMessages, ErrorsBeyondTheRoomForThemAreNotReported) {
+  constexpr std::uint8_t kRoom = 64;
+  for (std::uint8_t source = 0; source <= kRoom; ++source) {
+    emergency.raise(ErrorCode::rpdo_timeout, source);
+    sent();
+  }
+  EXPECT_TRUE(emergency.active(ErrorCode::rpdo_timeout, kRoom - 1));
+  EXPECT_FALSE(emergency.active(ErrorCode::rpdo_timeout, kRoom));
+  emergency.clear(ErrorCode::rpdo_timeout, 0);
+  sent();
+  emergency.raise(ErrorCode::rpdo_timeout, kRoom);
+  EXPECT_THAT(sent(), SizeIs(1));
+}
+
 // Bits 0 generic, 4 communication, 7 manufacturer-specific (CiA 301, section 7.5.2.2).
 TEST_F(EmergencyMessages, RegisterShowsTheKindsThatArePresent) {
   EXPECT_EQ(value_of({0x1001, 0}), 0U);

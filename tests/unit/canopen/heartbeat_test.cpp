@@ -115,6 +115,26 @@ TEST_F(HeartbeatConsumption, NodesBeyond127AreRefused) {
   EXPECT_EQ(write({0x1016, 1}, 0x0080'0064, 4), AbortCode::value_too_high);
 }
 
+// CiA 301, 7.5.2.17: of others.
+TEST_F(HeartbeatConsumption, ADeviceDoesNotWatchItself) {
+  EXPECT_EQ(write({0x1016, 1}, (std::uint32_t{kNode} << 16U) + 100U, 4), AbortCode::invalid_value);
+}
+
+TEST(HeartbeatConsumer, KnowsNothingOfNodesThatAreNotWatched) {
+  CommunicationObjects values;
+  values.consumer_heartbeat[0] = 0x0003'0032;
+  values.consumer_heartbeat[1] = 0x0004'0000;  // no time: not watched
+  HeartbeatConsumer consumer(values);
+  HeartbeatEvent event{};
+  EXPECT_TRUE(consumer.heard(3, NmtState::boot_up, 0, event));
+  for (const std::uint8_t node : std::array<std::uint8_t, 3>{0, 4, 9}) {
+    EXPECT_FALSE(consumer.heard(node, NmtState::boot_up, 0, event)) << +node;
+    EXPECT_FALSE(consumer.alive(node)) << +node;
+    EXPECT_EQ(consumer.state(node), NmtState::boot_up) << +node;
+  }
+  EXPECT_TRUE(consumer.alive(3));
+}
+
 TEST_F(HeartbeatConsumption, NewEntryIsWatchedFromItsFirstHeartbeat) {
   heartbeat_of_3();
   ASSERT_EQ(write({0x1016, 2}, 0x0003'0032, 4), AbortCode::none);

@@ -55,6 +55,19 @@ TEST_F(PdoMapping, EntriesChangeOnlyWithCountZero) {
   expect_done({0x1600, 1}, kControl, 4);
 }
 
+// Asked directly, without the lookup that a transfer makes before.
+TEST_F(PdoMapping, TheTableItselfRefusesWhatIsNotThere) {
+  const ObjectDictionary nothing({}, nullptr);
+  PdoTable table({rpdos.data(), rpdos.size()}, {tpdos.data(), tpdos.size()}, 0, nothing);
+  PdoTable::Value value;
+  EXPECT_EQ(table.read({0x2000, 0}, value), AbortCode::no_object);
+  EXPECT_EQ(table.write({0x2000, 0}, 0), AbortCode::no_object);
+  EXPECT_EQ(table.write({0x1400, 3}, 0), AbortCode::no_subindex) << "no inhibit time";
+  EXPECT_EQ(table.write({0x1400, 5}, 0), AbortCode::no_subindex) << "no event timer";
+  EXPECT_EQ(table.write({0x1800, 4}, 0), AbortCode::no_subindex);
+  EXPECT_EQ(table.write({0x1600, 9}, 0), AbortCode::no_subindex);
+}
+
 TEST_F(PdoMapping, ObjectsThatDoNotExistAreRefused) {
   EXPECT_EQ(write({0x1600, 1}, 0x5FFF'0010, 4), AbortCode::no_object);
   EXPECT_EQ(static_cast<std::uint32_t>(AbortCode::no_object), 0x0602'0000U);

@@ -8,8 +8,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr ObjectId kObject{0x2110, 0x01};
-
 class SdoServerAborts : public ::testing::Test {
  protected:
   void SetUp() override { objects.add(kObject, 20, pattern(20)); }

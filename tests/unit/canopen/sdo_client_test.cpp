@@ -9,8 +9,6 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using State = SdoClient::State;
 
-constexpr ObjectId kObject{0x2110, 0x01};
-
 class SdoClientFrames : public ::testing::Test {
  protected:
   void download(const Bytes& bytes) {
@@ -268,6 +266,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"UploadTooShort", true, kNever, {kTenBytesUp, {0x01}}, AbortCode::too_short},
         Fault{"UploadTooLong", true, kNever, {kTenBytesUp, {0x00}, {0x11}}, AbortCode::too_long},
         Fault{"BlockSize", false, 5, {{0xA4, 0x10, 0x21, 0x01, 0}}, AbortCode::block_size},
+        Fault{"BlockTooLarge", false, 5, {{0xA4, 0x10, 0x21, 0x01, 128}}, AbortCode::block_size},
         Fault{"NextBlockSize", false, 5, {kBlocksDown, {0xA2, 1, 128}}, AbortCode::block_size},
         Fault{"ConfirmsUnsent", false, 5, {kBlocksDown, {0xA2, 4, 127}}, AbortCode::block_sequence},
         Fault{"NoConfirmation", false, 5, {kBlocksDown, {0xA1}}, AbortCode::unknown_command},
@@ -280,6 +279,11 @@ INSTANTIATE_TEST_SUITE_P(
               true,
               5,
               {kTenBytesInBlocks, {0x01}, {0x82}, {0xC0}},
+              AbortCode::unknown_command},
+        Fault{"EndOfSomethingElse",
+              true,
+              5,
+              {kTenBytesInBlocks, {0x01}, {0x82}, {0x41}},
               AbortCode::unknown_command},
         Fault{"Checksum",
               true,

@@ -7,8 +7,6 @@
 namespace volcomp::canopen::test {
 namespace {
 
-constexpr ObjectId kObject{0x2110, 0x01};
-
 // Loses block segments and nothing else. Which frames are segments follows from the conversation:
 // all between the confirmation that opens a block and the one that closes it. A block that follows
 // one whose end was lost arrives undisturbed: two silences running are a dead line.

@@ -5,7 +5,6 @@
 namespace volcomp::canopen::test {
 namespace {
 
-constexpr ObjectId kObject{0x2110, 0x01};
 constexpr std::size_t kTableImage = 31'000;
 
 class SdoRoundTrip : public ::testing::TestWithParam<std::size_t> {

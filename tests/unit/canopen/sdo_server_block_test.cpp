@@ -9,8 +9,6 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr ObjectId kObject{0x2110, 0x01};
-
 // "123456789" has the CRC 31C3h: two segments, five bytes of padding.
 constexpr SdoData kFirst{0x01, '1', '2', '3', '4', '5', '6', '7'};
 constexpr SdoData kSecond{0x82, '8', '9'};

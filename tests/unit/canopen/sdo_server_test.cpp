@@ -8,7 +8,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr ObjectId kObject{0x2110, 0x03};
+constexpr ObjectId kServed{0x2110, 0x03};
 
 class SdoServerFrames : public ::testing::Test {
  protected:
@@ -17,7 +17,7 @@ class SdoServerFrames : public ::testing::Test {
 };
 
 TEST_F(SdoServerFrames, ExpeditedUploadOfOneToFourBytes) {
-  FakeObjects::Object& object = objects.add(kObject, 4);
+  FakeObjects::Object& object = objects.add(kServed, 4);
   const SdoData request{0x40, 0x10, 0x21, 0x03};
   object.value = {0x11};
   EXPECT_THAT(ask(server, request), ElementsAre(SdoData{0x4F, 0x10, 0x21, 0x03, 0x11}));
@@ -31,7 +31,7 @@ TEST_F(SdoServerFrames, ExpeditedUploadOfOneToFourBytes) {
 }
 
 TEST_F(SdoServerFrames, ExpeditedDownloadOfOneToFourBytes) {
-  const FakeObjects::Object& object = objects.add(kObject, 4);
+  const FakeObjects::Object& object = objects.add(kServed, 4);
   const SdoData confirmation{0x60, 0x10, 0x21, 0x03};
   EXPECT_THAT(ask(server, {0x2F, 0x10, 0x21, 0x03, 0x11}), ElementsAre(confirmation));
   EXPECT_EQ(object.value, Bytes({0x11}));
@@ -45,7 +45,7 @@ TEST_F(SdoServerFrames, ExpeditedDownloadOfOneToFourBytes) {
 }
 
 TEST_F(SdoServerFrames, ExpeditedDownloadWithoutSizeFillsTheObject) {
-  const FakeObjects::Object& object = objects.add(kObject, 2);
+  const FakeObjects::Object& object = objects.add(kServed, 2);
   EXPECT_THAT(ask(server, {0x22, 0x10, 0x21, 0x03, 0x11, 0x22, 0x33, 0x44}),
               ElementsAre(SdoData{0x60, 0x10, 0x21, 0x03}));
   EXPECT_EQ(object.value, Bytes({0x11, 0x22}));
@@ -53,7 +53,7 @@ TEST_F(SdoServerFrames, ExpeditedDownloadWithoutSizeFillsTheObject) {
 }
 
 TEST_F(SdoServerFrames, SegmentedUploadTogglesAndEndsWithTheLastBit) {
-  objects.add(kObject, 16, bytes_of("compensation 123"));
+  objects.add(kServed, 16, bytes_of("compensation 123"));
   EXPECT_THAT(ask(server, {0x40, 0x10, 0x21, 0x03}),
               ElementsAre(SdoData{0x41, 0x10, 0x21, 0x03, 16, 0, 0, 0}));
   EXPECT_THAT(ask(server, {0x60}), ElementsAre(SdoData{0x00, 'c', 'o', 'm', 'p', 'e', 'n', 's'}));
@@ -62,20 +62,20 @@ TEST_F(SdoServerFrames, SegmentedUploadTogglesAndEndsWithTheLastBit) {
 }
 
 TEST_F(SdoServerFrames, SegmentedUploadOfFullSegments) {
-  objects.add(kObject, 7, bytes_of("1234567"));
+  objects.add(kServed, 7, bytes_of("1234567"));
   EXPECT_THAT(ask(server, {0x40, 0x10, 0x21, 0x03}),
               ElementsAre(SdoData{0x41, 0x10, 0x21, 0x03, 7}));
   EXPECT_THAT(ask(server, {0x60}), ElementsAre(SdoData{0x01, '1', '2', '3', '4', '5', '6', '7'}));
 }
 
 TEST_F(SdoServerFrames, EmptyObjectIsOneEmptySegment) {
-  objects.add(kObject, 7);
+  objects.add(kServed, 7);
   EXPECT_THAT(ask(server, {0x40, 0x10, 0x21, 0x03}), ElementsAre(SdoData{0x41, 0x10, 0x21, 0x03}));
   EXPECT_THAT(ask(server, {0x60}), ElementsAre(SdoData{0x0F}));
 }
 
 TEST_F(SdoServerFrames, SegmentedDownloadTogglesAndEndsWithTheLastBit) {
-  const FakeObjects::Object& object = objects.add(kObject, 16);
+  const FakeObjects::Object& object = objects.add(kServed, 16);
   EXPECT_THAT(ask(server, {0x21, 0x10, 0x21, 0x03, 16}),
               ElementsAre(SdoData{0x60, 0x10, 0x21, 0x03}));
   EXPECT_EQ(objects.announced(), 16U);
@@ -88,7 +88,7 @@ TEST_F(SdoServerFrames, SegmentedDownloadTogglesAndEndsWithTheLastBit) {
 }
 
 TEST_F(SdoServerFrames, SegmentedDownloadWithoutSize) {
-  const FakeObjects::Object& object = objects.add(kObject, 16);
+  const FakeObjects::Object& object = objects.add(kServed, 16);
   EXPECT_THAT(ask(server, {0x20, 0x10, 0x21, 0x03}), ElementsAre(SdoData{0x60, 0x10, 0x21, 0x03}));
   EXPECT_EQ(objects.announced(), 0U);
   EXPECT_THAT(ask(server, {0x05, 'v', 'o', 'l', 'c', 'p'}), ElementsAre(SdoData{0x20}));
@@ -96,7 +96,7 @@ TEST_F(SdoServerFrames, SegmentedDownloadWithoutSize) {
 }
 
 TEST_F(SdoServerFrames, DownloadOfNothing) {
-  const FakeObjects::Object& object = objects.add(kObject, 16, bytes_of("old"));
+  const FakeObjects::Object& object = objects.add(kServed, 16, bytes_of("old"));
   EXPECT_THAT(ask(server, {0x21, 0x10, 0x21, 0x03}), ElementsAre(SdoData{0x60, 0x10, 0x21, 0x03}));
   EXPECT_THAT(ask(server, {0x0F}), ElementsAre(SdoData{0x20}));
   EXPECT_TRUE(object.value.empty());
@@ -104,7 +104,7 @@ TEST_F(SdoServerFrames, DownloadOfNothing) {
 }
 
 TEST_F(SdoServerFrames, ClientAbortEndsTheTransferSilently) {
-  objects.add(kObject, 16);
+  objects.add(kServed, 16);
   ask(server, {0x21, 0x10, 0x21, 0x03, 16});
   EXPECT_THAT(ask(server, {0x80, 0x10, 0x21, 0x03, 0, 0, 0, 0x08}), IsEmpty());
   EXPECT_EQ(objects.abandoned(), 1);
@@ -112,7 +112,7 @@ TEST_F(SdoServerFrames, ClientAbortEndsTheTransferSilently) {
 }
 
 TEST_F(SdoServerFrames, ResetDropsTransferAndResponseSilently) {
-  objects.add(kObject, 16);
+  objects.add(kServed, 16);
   server.request({0x21, 0x10, 0x21, 0x03, 16}, 0);
   server.reset();
   EXPECT_EQ(objects.abandoned(), 1);

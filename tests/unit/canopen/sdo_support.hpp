@@ -15,6 +15,9 @@
 
 namespace volcomp::canopen::test {
 
+// A domain, as table images are.
+constexpr ObjectId kObject{0x2110, 0x01};
+
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes bytes_of(const std::string& text);

@@ -32,12 +32,12 @@ TEST(LowerBodyArray, AcceptsEveryTree) {
 }
 
 TEST(LowerBodyArray, RefusesAParentThatIsNotLowerAndNamesTheFirstSuchBody) {
-  struct Example {
+  struct Refused {
     std::vector<std::uint8_t> lower;
     int body;
   };
-  for (const Example& e : {Example{{1}, 1}, Example{{0, 2}, 2}, Example{{0, 1, 4, 3}, 3},
-                           Example{{0, 1, 2, 255, 9}, 4}}) {
+  for (const Refused& e : {Refused{{1}, 1}, Refused{{0, 2}, 2}, Refused{{0, 1, 4, 3}, 3},
+                           Refused{{0, 1, 2, 255, 9}, 4}}) {
     const Status status = check(e.lower);
     EXPECT_EQ(status.reason, Reason::parent_not_lower);
     EXPECT_EQ(status.where.body, e.body);

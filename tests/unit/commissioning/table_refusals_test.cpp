@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/not_numbers.hpp"
 #include "tests/unit/commissioning/campaign.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 std::unique_ptr<Campaign> good() {

@@ -14,7 +14,7 @@ using hal::frame_crc;
 using hal::nominal_frame_bits;
 using hal::worst_case_frame_bits;
 
-constexpr int kFrames = 20'000;
+constexpr int kMeasured = 20'000;
 
 std::string binary(unsigned value, unsigned digits) {
   std::string text;
@@ -81,7 +81,7 @@ TEST(FrameBits, ReferenceDivisionHasTheCatalogueCheckValue) {
 TEST(FrameBits, CrcIsTheRemainderOfTheReferenceDivision) {
   Random random;
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kMeasured; ++i) {
     const hal::CanFrame f = random_frame(random);
     ASSERT_EQ(binary(frame_crc(f), 15), remainder15(until_crc(f))) << until_crc(f);
   }
@@ -90,7 +90,7 @@ TEST(FrameBits, CrcIsTheRemainderOfTheReferenceDivision) {
 TEST(FrameBits, ExactLengthIsThatOfTheStuffedString) {
   Random random(1);
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kMeasured; ++i) {
     const hal::CanFrame f = random_frame(random);
     const std::string bits = until_crc(f);
     ASSERT_EQ(exact_frame_bits(f), stuffed(bits + remainder15(bits)).size() + 13) << bits;

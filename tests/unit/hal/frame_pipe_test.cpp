@@ -14,7 +14,7 @@ using hal::pipe_record;
 using hal::PipeBytes;
 using Kind = hal::PipeRecord::Kind;
 
-constexpr int kFrames = 20'000;
+constexpr int kPiped = 20'000;
 
 TEST(FramePipe, FrameLiesInTheRecordAsDescribed) {
   const PipeBytes expected{0x81, 0x05, 0, 0, 3, 0, 0, 0, 0xAA, 0xBB, 0xCC, 0, 0, 0, 0, 0};
@@ -31,10 +31,21 @@ TEST(FramePipe, QuitIsAllOnesAndNothingElse) {
   EXPECT_EQ(pipe_quit(), expected);
 }
 
+// What all these comparisons rest on.
+TEST(CanFrame, IsToldApartByIdentifierSizeAndDataWithinItsSize) {
+  const hal::CanFrame one = frame(0x123, {1, 2});
+  EXPECT_NE(one, frame(0x124, {1, 2}));
+  EXPECT_NE(one, frame(0x123, {1, 2, 0}));
+  EXPECT_NE(one, frame(0x123, {1, 3}));
+  hal::CanFrame same = one;
+  same.data[2] = 7;
+  EXPECT_EQ(one, same);
+}
+
 TEST(FramePipe, EveryFrameComesBack) {
   Random random;
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kPiped; ++i) {
     const hal::CanFrame sent = random_frame(random);
     const hal::PipeRecord read = pipe_record(pipe_frame(sent));
     ASSERT_EQ(read.kind, Kind::frame);
@@ -47,7 +58,7 @@ TEST(FramePipe, RandomBytesAreReadOnlyWhenTheyCouldHaveBeenWritten) {
   Random random;
   SCOPED_TRACE(random.trace());
   int good = 0;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kPiped; ++i) {
     PipeBytes bytes = random.chance(0.8) ? pipe_frame(random_frame(random)) : pipe_end_of_turn(7);
     if (random.chance(0.7)) {
       bytes.at(static_cast<std::size_t>(random.integer(0, 15))) =
@@ -59,8 +70,8 @@ TEST(FramePipe, RandomBytesAreReadOnlyWhenTheyCouldHaveBeenWritten) {
     ASSERT_EQ(read.kind == Kind::frame ? pipe_frame(read.frame) : pipe_end_of_turn(read.sender_us),
               bytes);
   }
-  EXPECT_GT(good, kFrames / 4);
-  EXPECT_LT(good, kFrames);
+  EXPECT_GT(good, kPiped / 4);
+  EXPECT_LT(good, kPiped);
 }
 
 struct Damage {

@@ -160,6 +160,16 @@ TEST(LoopbackBus, DisconnectedPortNeitherSendsNorReceivesAndForgets) {
   EXPECT_EQ(received_ids(a), (Ids{}));
 }
 
+TEST(LoopbackBus, ConnectingTwiceForgetsNothing) {
+  LoopbackBus bus;
+  auto& a = bus.attach("a");
+  auto& b = bus.attach("b");
+  ASSERT_TRUE(a.send(frame(1)));
+  send_all(bus);
+  b.connect(true);
+  EXPECT_EQ(received_ids(b), (Ids{1}));
+}
+
 TEST(LoopbackBus, ReferencesStayValidWhenPortsAreAdded) {
   LoopbackBus bus;
   auto& first = bus.attach("first");

@@ -14,7 +14,7 @@ using hal::LoopbackBus;
 using Fate = LoopbackBus::Fate;
 using Ids = std::vector<unsigned>;
 
-constexpr std::uint64_t kEmptyFrameNs = 47'000;  // 47 bits at 1 Mbit/s
+constexpr std::uint64_t kShortestFrameNs = 47'000;  // 47 bits at 1 Mbit/s
 constexpr std::uint64_t kLater = 1'000'000'000;
 
 class LoopbackFaults : public ::testing::Test {
@@ -57,14 +57,14 @@ TEST_F(LoopbackFaults, ReceivedTwiceByOneReceiverOnly) {
 }
 
 TEST_F(LoopbackFaults, DelayedFrameIsOvertaken) {
-  at_b(1, delayed(2 * kEmptyFrameNs + 1));
+  at_b(1, delayed(2 * kShortestFrameNs + 1));
   send_and_run({1, 2, 3, 4});
   EXPECT_EQ(received_ids(a_), (Ids{1, 2, 3, 4}));
   EXPECT_EQ(received_ids(b_), (Ids{2, 3, 1, 4}));
 }
 
 TEST_F(LoopbackFaults, DelayedFrameComesBeforeTheOneThatEndsAtThatMoment) {
-  at_b(1, delayed(kEmptyFrameNs));
+  at_b(1, delayed(kShortestFrameNs));
   send_and_run({1, 2});
   EXPECT_EQ(received_ids(b_), (Ids{1, 2}));
 }
@@ -74,16 +74,16 @@ TEST_F(LoopbackFaults, IdleBusStopsAtTheMomentOfTheDelayedFrame) {
   ASSERT_TRUE(sender_.send(frame(1)));
   ASSERT_TRUE(bus_.step(kLater));
   EXPECT_EQ(b_.waiting(), 0U);
-  EXPECT_FALSE(bus_.step(kEmptyFrameNs + 123'455));  // not due yet
+  EXPECT_FALSE(bus_.step(kShortestFrameNs + 123'455));  // not due yet
   EXPECT_TRUE(bus_.step(kLater));
-  EXPECT_EQ(bus_.now_ns(), kEmptyFrameNs + 123'456);
+  EXPECT_EQ(bus_.now_ns(), kShortestFrameNs + 123'456);
   EXPECT_EQ(b_.waiting(), 1U);
   EXPECT_FALSE(bus_.step(kLater));
-  EXPECT_EQ(bus_.busy_ns(), kEmptyFrameNs);
+  EXPECT_EQ(bus_.busy_ns(), kShortestFrameNs);
 }
 
 TEST_F(LoopbackFaults, BothCopiesAreDelayed) {
-  at_b(1, twice(kEmptyFrameNs + 1));
+  at_b(1, twice(kShortestFrameNs + 1));
   send_and_run({1, 2, 3});
   EXPECT_EQ(received_ids(b_), (Ids{2, 1, 1, 3}));
 }
@@ -96,6 +96,28 @@ TEST_F(LoopbackFaults, DisconnectingDropsWhatIsOnItsWay) {
   b_.connect(true);
   EXPECT_FALSE(bus_.step(kLater));
   EXPECT_EQ(b_.waiting(), 0U);
+}
+
+TEST_F(LoopbackFaults, DisconnectingDropsNothingOfTheOthers) {
+  bus_.set_fault_hook([](const auto&...) { return delayed(500'000); });
+  ASSERT_TRUE(sender_.send(frame(1)));
+  ASSERT_TRUE(bus_.step(kLater));
+  b_.connect(false);
+  while (bus_.step(kLater)) {
+  }
+  EXPECT_EQ(received_ids(a_), (Ids{1}));
+  EXPECT_EQ(b_.counters().received, 0U);
+}
+
+// The hook may pull the plug itself.
+TEST_F(LoopbackFaults, WhoIsUnpluggedByTheFaultHearsNothing) {
+  bus_.set_fault_hook([this](const auto&, const auto&, const auto& receiver) {
+    if (&receiver == &b_) b_.connect(false);
+    return twice();
+  });
+  send_and_run({1});
+  EXPECT_EQ(received_ids(a_), (Ids{1, 1}));
+  EXPECT_TRUE(received_ids(b_).empty());
 }
 
 TEST_F(LoopbackFaults, FullBusRefusesNewFramesAndSendsQueuedOnes) {
@@ -143,7 +165,7 @@ TEST_F(LoopbackFaults, RandomFatesArriveInTheOrderOfTheirTimes) {
   bus_.set_fault_hook([&](const CanFrame& f, const auto&, const LoopbackBus::Port& to) {
     const auto frame_times = static_cast<std::uint64_t>(random.integer(0, 4));
     const Fate fate{random.chance(0.2), random.chance(0.2),
-                    random.chance(0.5) ? frame_times * kEmptyFrameNs : 0U};
+                    random.chance(0.5) ? frame_times * kShortestFrameNs : 0U};
     for (int copy = fate.twice ? 0 : 1; copy < 2 && !fate.lost; ++copy)
       expected[&to].emplace(bus_.now_ns() + fate.delay_ns, f.id);
     return fate;
@@ -152,7 +174,7 @@ TEST_F(LoopbackFaults, RandomFatesArriveInTheOrderOfTheirTimes) {
   for (unsigned i = 0; i < 4000; ++i) {
     ASSERT_TRUE(sender_.send(frame(static_cast<std::uint16_t>(i % 2048))));
     bus_.step(bus_.now_ns() + 1);
-    if (random.chance(0.2)) bus_.step(bus_.now_ns() + kEmptyFrameNs);
+    if (random.chance(0.2)) bus_.step(bus_.now_ns() + kShortestFrameNs);
     for (auto* port : {&a_, &b_}) {
       const Ids ids = received_ids(*port);
       received[port].insert(received[port].end(), ids.begin(), ids.end());

@@ -115,6 +115,7 @@ TEST(MemoryBlocks, APowerFailureTearsTheUnitUnderWorkOnly) {
     Bytes one(1);
     EXPECT_EQ(blocks.read(0, one), BlockRead::failed);
     EXPECT_FALSE(blocks.erase(0));
+    EXPECT_FALSE(program(blocks, 96, wanted));
     blocks.power_on();
     Bytes before(32);
     Bytes after(32);

@@ -118,6 +118,21 @@ TEST_F(Sja1000, WithoutAChipItDoesNotStart) {
   EXPECT_FALSE(driver.start(Nothing{0xFF}, kSettings));
   EXPECT_EQ(driver.state(), CanBusState::stopped);
   EXPECT_FALSE(driver.send(frame(1)));
+  driver.supervise(Can::kBusOffPause_us);
+  EXPECT_EQ(driver.state(), CanBusState::stopped);
+}
+
+// Its mode and clock divider answer as they should; there are no filters behind them.
+TEST_F(Sja1000, WithoutFiltersItDoesNotStart) {
+  struct NoFilters {
+    [[nodiscard]] std::uint8_t read(std::uint8_t address) const {
+      return address == 31 ? 0xC7 : 0x01;
+    }
+    void write(std::uint8_t /*address*/, std::uint8_t /*value*/) const {}
+  };
+  hal::Sja1000<NoFilters, Lock> driver;
+  EXPECT_FALSE(driver.start(NoFilters{}, kSettings));
+  EXPECT_EQ(driver.state(), CanBusState::stopped);
 }
 
 TEST_F(Sja1000, FrameStandsInTheTransmitBufferAsTheDataSheetSays) {
@@ -245,6 +260,41 @@ TEST_F(Sja1000, FrameOnTheWireIsNeitherStoppedNorDoubled) {
   serve();
   EXPECT_EQ(bus_takes_all(), (Ids{0x301}));
   EXPECT_EQ(can.counters().taken_back, 0U);
+}
+
+TEST_F(Sja1000, TheFrameOnTheWireIsAskedBackOnce) {
+  ASSERT_TRUE(can.send(frame(0x300)));
+  ASSERT_TRUE(chip.begin_transmission());
+  ASSERT_TRUE(can.send(frame(0x200)));
+  ASSERT_TRUE(can.send(frame(0x100)));
+  EXPECT_EQ(chip.finish_transmission().id, 0x300U);
+  serve();
+  EXPECT_EQ(bus_takes_all(), (Ids{0x100, 0x200}));
+  EXPECT_EQ(can.counters().sent, 3U);
+}
+
+// The interrupt of the first is served when the second is in the chip already.
+TEST_F(Sja1000, ALateInterruptStopsNothing) {
+  ASSERT_TRUE(can.send(frame(0x300)));
+  ASSERT_TRUE(chip.begin_transmission());
+  EXPECT_EQ(chip.finish_transmission().id, 0x300U);
+  ASSERT_TRUE(can.send(frame(0x200)));
+  serve();
+  EXPECT_EQ(bus_takes_all(), (Ids{0x200}));
+  EXPECT_EQ(can.counters().taken_back, 0U);
+}
+
+// One place is kept for the frame that was in the chip, and one only.
+TEST(SendQueue, HoldsOneMoreThatComesBack) {
+  hal::SendQueue<2> queue;
+  EXPECT_TRUE(queue.push(frame(2)));
+  EXPECT_TRUE(queue.push(frame(3)));
+  EXPECT_FALSE(queue.push(frame(1)));
+  queue.put_back(frame(1));
+  queue.put_back(frame(0));
+  EXPECT_EQ(queue.size(), 3U);
+  for (const unsigned id : {1U, 2U, 3U})
+    EXPECT_EQ(queue.pop().id, id);
 }
 
 TEST_F(Sja1000, FullQueueTakesNothing) {

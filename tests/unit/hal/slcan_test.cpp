@@ -12,7 +12,7 @@ using hal::SlcanLine;
 using hal::SlcanRequest;
 using Event = SlcanLine::Event;
 
-constexpr int kFrames = 20'000;
+constexpr int kLines = 20'000;
 
 std::string text(const hal::SlcanText& t) { return {t.data(), t.size()}; }
 
@@ -52,10 +52,21 @@ TEST(Slcan, LongestFrameFillsTheText) {
   EXPECT_EQ(line.size(), hal::SlcanText::kCapacity);
 }
 
+// A size that no frame has is the caller's mistake: it costs nobody's memory.
+TEST(Slcan, NoMoreThanTheBytesThereAreIsWritten) {
+  hal::CanFrame impossible = frame(0x7FF, {1, 2, 3, 4, 5, 6, 7, 8});
+  impossible.size = 15;
+  EXPECT_EQ(text(hal::slcan_frame(impossible)), "t7FFF0102030405060708\r");
+  hal::SlcanText full;
+  for (std::size_t i = 0; i < hal::SlcanText::kCapacity + 5; ++i)
+    full.add('x');
+  EXPECT_EQ(text(full), std::string(hal::SlcanText::kCapacity, 'x'));
+}
+
 TEST(Slcan, EveryFrameComesBack) {
   Random random;
   SCOPED_TRACE(random.trace());
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     const hal::CanFrame sent = random_frame(random);
     std::string line = text(hal::slcan_frame(sent));
     ASSERT_EQ(line.back(), '\r');
@@ -96,7 +107,7 @@ TEST(Slcan, DamagedLinesNeverBecomeSomethingElseThanTheySay) {
   Random random;
   SCOPED_TRACE(random.trace());
   int refused = 0;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     std::string line = text(hal::slcan_frame(random_frame(random)));
     line.pop_back();
     line.at(
@@ -164,7 +175,7 @@ TEST(SlcanDevice, OpensAndClosesAndTellsWhenThereIsNothingToDo) {
 TEST(SlcanDevice, BitRateOnlyWhileClosedAndOnlyThoseOfTheManual) {
   Adapter a;
   EXPECT_EQ(a.say("S0\rS8\r"), "\r\r");
-  EXPECT_EQ(a.say("S9\rS\rS88\rSx\r"), "\a\a\a\a");
+  EXPECT_EQ(a.say("S9\rS\rS88\rSx\rS/\r"), "\a\a\a\a\a");
   a.say("O\r");
   EXPECT_EQ(a.say("S8\r"), "\a");
 }
@@ -237,7 +248,7 @@ TEST(SlcanDevice, SurvivesRandomBytes) {
   Random random;
   SCOPED_TRACE(random.trace());
   Adapter a;
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kLines; ++i) {
     std::string noise;
     for (std::int64_t n = random.integer(0, 40); n > 0; --n)
       noise += static_cast<char>(random.integer(0, 255));

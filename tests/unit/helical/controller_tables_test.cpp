@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <vector>
 
 #include "comp/geometry/xyfz.hpp"
@@ -15,7 +16,9 @@
 namespace volcomp::test {
 namespace {
 
+using sim::write_cec;
 using sim::write_enc_comp;
+using sim::write_linuxcnc;
 using sim::write_ssfk;
 
 constexpr double kRounding_mm = 0.5001e-6;
@@ -26,6 +29,11 @@ std::vector<double> random_offsets(Random& random, std::size_t n, double most) {
   for (std::size_t k = 0; k < n; ++k)
     t.push_back(random.uniform(-most, most));
   return t;
+}
+
+sim::LinuxcncComp read_linuxcnc(const std::string& text, int type = 1) {
+  std::istringstream stream(text);
+  return sim::read_linuxcnc(stream, "x.comp", type);
 }
 
 // What a reader says about a file.
@@ -108,7 +116,7 @@ TEST(Linuxcnc, BothTypesMeanTheSame) {
     const sim::LinuxcncComp table{type, nominal, up, down};
     std::string text;
     ASSERT_TRUE(write_linuxcnc(table, text).ok());
-    const sim::LinuxcncComp back = sim::read_linuxcnc(text, type);
+    const sim::LinuxcncComp back = read_linuxcnc(text, type);
     for (std::size_t k = 0; k < nominal.size(); ++k) {
       EXPECT_NEAR(offset_at(back, back.nominal[k], 1), up[k], 2.0 * kRounding_mm);
       EXPECT_NEAR(offset_at(back, back.nominal[k], -1), down[k], 2.0 * kRounding_mm);
@@ -164,6 +172,41 @@ TEST(ControllerTableRefusal, BeforeAnythingIsWritten) {
   EXPECT_EQ(text, "before");
 }
 
+// Nothing overflows, and no two positions become one.
+TEST(ControllerTableRefusal, OfNumbersThatTheFormatDoesNotHold) {
+  std::string text = "before";
+  const auto refused = [](const Status& s, Reason reason, const char* field) {
+    EXPECT_EQ(s.reason, reason);
+    EXPECT_EQ(s.where.index, 1);
+    EXPECT_STREQ(s.where.field, field);
+  };
+  const std::vector<double> none{0, 0};
+  for (const double huge : {3e32, -3e32}) {
+    refused(write_linuxcnc({1, {0, 1}, {0, huge}, none}, text), Reason::bad_setting, "offset");
+    refused(write_ssfk({1, "X", {0, 1}, none, {0, huge}, false}, text), Reason::bad_setting,
+            "offset");
+    refused(write_enc_comp({"Z1", {0, huge}, 0, 1, false, false}, text), Reason::bad_setting,
+            "offset");
+    refused(write_cec({0, "Z1", "C1", {0, huge}, 0, 1, 0, false, true, 1}, text),
+            Reason::bad_setting, "offset");
+    EXPECT_STREQ(write_enc_comp({"Z1", none, huge, 1, false, false}, text).where.field, "min");
+    EXPECT_STREQ(write_cec({0, "Z1", "C1", none, huge, 1, 0, false, true, 1}, text).where.field,
+                 "min");
+  }
+  refused(write_linuxcnc({1, {0, 3e32}, none, none}, text), Reason::bad_setting, "position");
+  // 2^31 - 1 times 0.1 µm.
+  refused(write_ssfk({1, "X", {0, 214748.4}, none, none, false}, text), Reason::bad_setting,
+          "position");
+  refused(write_ssfk({1, "X", {0, 1}, {0, 214748.4}, none, false}, text), Reason::bad_setting,
+          "offset");
+  refused(write_linuxcnc({1, {0, 1e-7}, none, none}, text), Reason::positions_duplicate, nullptr);
+  refused(write_ssfk({1, "X", {0, 1e-5}, none, none, false}, text), Reason::positions_duplicate,
+          nullptr);
+  EXPECT_EQ(text, "before");
+  EXPECT_TRUE(write_ssfk({1, "X", {0, 214748.3}, {0, -214748.3}, none, false}, text).ok());
+  EXPECT_NE(text.find("kw.ssfk.table[1].pos 2147483000\n"), std::string::npos);
+}
+
 TEST(ControllerTableFile, ComplaintsNameTheLine) {
   std::string text;
   ASSERT_TRUE(write_enc_comp({"Z1", {0.01, 0.02, 0.03}, 0, 1, false, false}, text).ok());
@@ -180,14 +223,19 @@ TEST(ControllerTableFile, ComplaintsNameTheLine) {
   EXPECT_EQ(changed("M17", "M30"), "line 10: expected $NAME[index]=value");
   EXPECT_EQ(changed("CHANDATA(1)", "CHANDATA(2)"), "line 2: expected CHANDATA(1)");
   EXPECT_NE(changed("MAX[0,Z1]=2", "MAX[0,Z1]=3"), "");
-  EXPECT_EQ(complaint([] { (void)sim::read_linuxcnc("0 0 0\n1 2\n", 1); }),
-            "line 2: expected: nominal forward reverse");
-  EXPECT_EQ(complaint([] { (void)sim::read_linuxcnc("0 0 0\n0 0 0\n", 1); }),
-            "line 2: nominal positions must ascend");
-  EXPECT_EQ(complaint([] { (void)sim::read_linuxcnc("0 0 0\n\n1 0 0\n", 1); }),
-            "line 3: LinuxCNC reads nothing after an empty line");
-  EXPECT_EQ(complaint([] { (void)sim::read_linuxcnc("0 \xFF\x01 0\n", 1); }),
-            "line 1: '?\?' is not a number");
+  const auto linuxcnc = [](const std::string& file, int type = 1) {
+    return complaint([&] { (void)read_linuxcnc(file, type); });
+  };
+  EXPECT_EQ(linuxcnc("0 0 0\n1 2\n"), "x.comp:2: expected: nominal forward reverse");
+  EXPECT_EQ(linuxcnc("0 0 0\n0 0 0\n"), "x.comp:2: nominal positions must ascend");
+  EXPECT_EQ(linuxcnc("0 0 0\n\n1 0 0\n"), "x.comp:3: LinuxCNC reads nothing after an empty line");
+  EXPECT_EQ(linuxcnc("0 \xFF\x01 0\n"), "x.comp:1: \"?\?\" is not a number");
+  EXPECT_EQ(linuxcnc("0 +-1 0\n"), "x.comp:1: \"+-1\" is not a number");
+  EXPECT_EQ(linuxcnc("0 0 nan\n"), "x.comp:1: a number must be finite");
+  EXPECT_EQ(linuxcnc("1.7e308 -1.7e308 0\n", 0), "x.comp:1: a number must be finite");
+  EXPECT_EQ(linuxcnc("0 0 0\n"), "x.comp: 1 entries; 2 to 256 are allowed");
+  EXPECT_EQ(linuxcnc(std::string("\xFF\xFE") + "0"),
+            "x.comp:1: the file is UTF-16; it must be saved as UTF-8 or ASCII");
   EXPECT_EQ(
       complaint([] { (void)sim::read_ssfk("kopf.log_achs_nr 1\nkopf.log_achs_nr 1\n", false); }),
       "line 2: kopf.log_achs_nr is there twice");
@@ -202,7 +250,15 @@ TEST(ControllerTableFile, CarriageReturnsDoNotMatter) {
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2))
     text.insert(at, 1, '\r');
   EXPECT_DOUBLE_EQ(sim::read_enc_comp(text, false).offset.at(1), 0.02);
-  EXPECT_EQ(sim::read_linuxcnc("0 0 0\r\n1 2 3\r\n", 1).reverse.at(1), 3.0);
+  EXPECT_EQ(read_linuxcnc("0 0 0\r\n1 2 3\r\n").reverse.at(1), 3.0);
+}
+
+// What sscanf("%lf") takes, and what an editor puts in front of a file.
+TEST(ControllerTableFile, SignsAndMarksOfEditorsAreRead) {
+  const sim::LinuxcncComp table = read_linuxcnc("\xEF\xBB\xBF-1 +0.5 -.5\n+2 +1e-3 1.\n");
+  EXPECT_EQ(table.nominal, (std::vector<double>{-1.0, 2.0}));
+  EXPECT_EQ(table.forward, (std::vector<double>{0.5, 1e-3}));
+  EXPECT_EQ(table.reverse, (std::vector<double>{-0.5, 1.0}));
 }
 
 // Nine tables of the XYFZ machine: what they miss is what they say.

@@ -11,7 +11,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr double kFeed = 13.4;  // mm/s
+constexpr double kFeed_mm_s = 13.4;  // mm/s
 constexpr double kFlankPerX = 0.3246;
 
 HelixMonitorSettings paper_settings() {
@@ -42,9 +42,9 @@ class Stroke {
   template <class Errors>
   Status pass(std::uint16_t slot, Direction direction, const Errors& errors) {
     const double sign = direction == Direction::forward ? 1.0 : -1.0;
-    for (int k = 0; k * 1e-3 * kFeed < 47.0; ++k) {
+    for (int k = 0; k * 1e-3 * kFeed_mm_s < 47.0; ++k) {
       const double t = 1e-3 * k;
-      const double z = sign * (t * kFeed - 23.5);
+      const double z = sign * (t * kFeed_mm_s - 23.5);
       HelixFrame frame = frame_at(z, errors(t, z), sign);
       frame.slot = slot;
       frame.stroke = direction;
@@ -59,7 +59,7 @@ class Stroke {
   HelixFrame frame_at(double z, const StrokeErrors& e, double sign) {
     HelixFrame frame;
     frame.sequence = ++sequence_;
-    const double early = z - sign * kFeed * age_z_ns * 1e-9;
+    const double early = z - sign * kFeed_mm_s * age_z_ns * 1e-9;
     frame.x = {to_nm(44.0), to_nm(44.0 + e.x), 0, true};
     frame.z = {to_nm(z), to_nm(early + e.z), age_z_ns, true};
     const double c = -z * settings_.turn_per_mm;
@@ -256,6 +256,36 @@ TEST(HelixMonitorRefusal, SlotsAndDirectionsThatDoNotExist) {
   EXPECT_EQ(stroke.monitor->collect().reason, Reason::too_few_points) << "no pass waits";
 }
 
+// A stroke beside the nodes leaves no mean that a table could be made of.
+TEST(HelixMonitorRefusal, PassBesideTheNodes) {
+  HelixMonitorSettings far = paper_settings();
+  far.z0_nm = to_nm(500.0);
+  Stroke stroke(far);
+  EXPECT_EQ(stroke.pass(0, Direction::forward, kPerfect).reason, Reason::too_few_points);
+  EXPECT_GT(stroke.monitor->outside(), 3000U);
+  EXPECT_EQ(stroke.monitor->totals().passes(Direction::forward), 0U);
+  std::vector<NodeSums> sums(far.nodes);
+  stroke.monitor->totals().stroke_sums(Direction::forward, sums);
+  for (const NodeSums& node : sums)
+    EXPECT_EQ(node.n, 0U);
+}
+
+TEST(RunningStatistics, CountsWhatIsNoMeasurementAndLeavesItOut) {
+  RunningStatistics signal;
+  EXPECT_TRUE(signal.add(1.0));
+  for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e301})
+    EXPECT_FALSE(signal.add(bad));
+  EXPECT_TRUE(signal.add(3.0));
+  RunningStatistics empty;
+  EXPECT_FALSE(empty.add(std::nan("")));
+  signal.merge(empty);
+  EXPECT_EQ(signal.count(), 2U);
+  EXPECT_EQ(signal.bad(), 5U);
+  EXPECT_NEAR(signal.mean(), 2.0, 1e-15);
+  EXPECT_NEAR(signal.variance(), 1.0, 1e-15);
+  EXPECT_NEAR(RunningStatistics().variance(), 0.0, 0.0);
+}
+
 TEST(HelixMonitor, APassNobodyCollectsIsLostAndCounted) {
   Stroke stroke;
   HelixFrame frame = stroke.frame_at(0.0, {}, 1.0);
@@ -281,10 +311,76 @@ TEST(HelixMonitorRefusal, SettingsNameTheirField) {
   EXPECT_EQ(refused([](auto& s) { s.nodes = kStrokeNodes + 1; }).reason, Reason::too_many_knots);
   EXPECT_EQ(refused([](auto& s) { s.nodes = 1; }).reason, Reason::too_few_knots);
   EXPECT_EQ(refused([](auto& s) { s.turn_per_mm = std::nan(""); }).reason, Reason::not_finite);
-  EXPECT_STREQ(refused([](auto& s) { s.flank_per_rad = 0.0; }).where.field, "flank_per_rad");
-  EXPECT_STREQ(refused([](auto& s) { s.time_line_hz[1] = 500.0; }).where.field, "time_line_hz");
+  EXPECT_EQ(refused([](auto& s) { s.flank_per_x = std::nan(""); }).reason, Reason::not_finite);
+  const auto bad = [&](const auto& change) {
+    const Status s = refused(change);
+    return s.reason == Reason::bad_setting ? s.where.field : code(s.reason);
+  };
+  EXPECT_STREQ(bad([](auto& s) { s.flank_per_rad = 0.0; }), "flank_per_rad");
+  EXPECT_STREQ(bad([](auto& s) { s.tick_ns = 0; }), "tick_ns");
+  EXPECT_STREQ(bad([](auto& s) { s.most_skew_ns = -1; }), "most_skew_ns");
+  EXPECT_STREQ(bad([](auto& s) { s.node_pitch_nm = 0; }), "node_pitch_nm");
+  EXPECT_STREQ(bad([](auto& s) { s.time_line_hz[1] = 500.0; }), "time_line_hz");
+  EXPECT_STREQ(bad([](auto& s) { s.time_line_hz[0] = -1.0; }), "time_line_hz");
+  for (const double mm : {-1.0, 1e-4, 1e6, std::nan("")})
+    EXPECT_STREQ(bad([mm](auto& s) { s.order_wavelength_mm[2] = mm; }), "order_wavelength_mm");
   EXPECT_EQ(refused([](auto& s) { s.node_pitch_nm = 100'000'000; }).reason,
             Reason::travel_too_long);
+}
+
+// A pass is one stroke in one slot: another slot, or the wheel turning round in the face, begins
+// the next.
+TEST(HelixMonitor, AnotherSlotOrDirectionEndsAPass) {
+  Stroke stroke;
+  const auto ticks = [&](std::uint16_t slot, Direction direction) {
+    for (int k = 0; k < 20; ++k) {
+      HelixFrame frame = stroke.frame_at(0.0, {}, 1.0);
+      frame.slot = slot;
+      frame.stroke = direction;
+      frame.in_face = true;
+      stroke.monitor->tick(frame);
+    }
+  };
+  HelixFrame known = stroke.frame_at(0.0, {}, 1.0);
+  stroke.monitor->tick(known);
+  ticks(0, Direction::forward);
+  EXPECT_FALSE(stroke.monitor->pass_waits());
+  ticks(1, Direction::forward);
+  EXPECT_TRUE(stroke.monitor->pass_waits());
+  EXPECT_TRUE(stroke.monitor->collect().ok());
+  ticks(1, Direction::backward);
+  EXPECT_TRUE(stroke.monitor->collect().ok());
+  EXPECT_EQ(stroke.monitor->totals().passes(Direction::forward), 2U);
+}
+
+// Ages that differ by more than the limit, either axis, either way; errors beyond 1 mm, either way.
+TEST(HelixMonitor, UsesNoFrameWhoseAxesAreFarApart) {
+  Stroke stroke;
+  const auto use_of = [&](const auto& change) {
+    for (int k = 0; k < 2; ++k) {
+      HelixFrame good = stroke.frame_at(0.0, {}, 1.0);
+      stroke.monitor->tick(good);
+    }
+    HelixFrame frame = stroke.frame_at(0.0, {}, 1.0);
+    change(frame);
+    return stroke.monitor->tick(frame);
+  };
+  EXPECT_EQ(use_of([](HelixFrame&) {}), FrameUse::used);
+  EXPECT_EQ(use_of([](HelixFrame& f) { f.x.age_ns = 2'000'001; }), FrameUse::skewed);
+  EXPECT_EQ(use_of([](HelixFrame& f) { f.c.age_ns = 2'000'001; }), FrameUse::skewed);
+  EXPECT_EQ(use_of([](HelixFrame& f) { f.x.actual -= 1'000'001; }), FrameUse::implausible);
+  EXPECT_EQ(use_of([](HelixFrame& f) { f.x.actual -= 1'000'000; }), FrameUse::used);
+}
+
+// Two samples that were taken at one instant tell no speed: nothing is carried on.
+TEST(HelixMonitor, SamplesOfOneInstantAreTakenAsTheyAre) {
+  Stroke stroke;
+  HelixFrame first = stroke.frame_at(0.0, {}, 1.0);
+  stroke.monitor->tick(first);
+  HelixFrame second = stroke.frame_at(0.0, {0.01, 0.0, 0.0}, 1.0);
+  second.x.age_ns = 1'000'000;  // a whole tick old: as old as the one before
+  ASSERT_EQ(stroke.monitor->tick(second), FrameUse::used);
+  EXPECT_NEAR(stroke.monitor->signals().e_x_nm, 10'000.0, 1.0);
 }
 
 // Positions at the ends of the integers must do no harm (the sanitizer build looks on).

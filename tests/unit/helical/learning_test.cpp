@@ -10,7 +10,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr std::size_t kNodes = 33;
+constexpr std::size_t kFewNodes = 33;
 
 LearningRules open_rules(double weight) {
   LearningRules rules;
@@ -45,7 +45,7 @@ double rms(const std::vector<double>& e) {
 // A repeatable disturbance that a table can only cancel: e = d + t.
 class Plant {
  public:
-  explicit Plant(Random& random) : d_(kNodes) {
+  explicit Plant(Random& random) : d_(kFewNodes) {
     for (double& v : d_)
       v = random.uniform(-0.01, 0.01);
   }
@@ -53,7 +53,7 @@ class Plant {
   template <std::size_t N>
   [[nodiscard]] std::vector<double> error(const OffsetLearner<N>& learner) const {
     std::vector<double> e = d_;
-    for (std::size_t j = 0; j < kNodes; ++j)
+    for (std::size_t j = 0; j < kFewNodes; ++j)
       e[j] += learner.table()[j];
     return e;
   }
@@ -74,9 +74,9 @@ LearnerStep learn(OffsetLearner<N>& learner, const Plant& plant) {
   return learn(learner, plant, rms(plant.error(learner)));
 }
 
-OffsetLearner<kNodes> started(const LearningRules& rules) {
-  OffsetLearner<kNodes> learner;
-  EXPECT_TRUE(learner.start(rules, kNodes).ok());
+OffsetLearner<kFewNodes> started(const LearningRules& rules) {
+  OffsetLearner<kFewNodes> learner;
+  EXPECT_TRUE(learner.start(rules, kFewNodes).ok());
   return learner;
 }
 
@@ -87,7 +87,7 @@ TEST(Learning, ConvergesForEveryWeightBelowTwo) {
       LearningRules rules = open_rules(weight);
       rules.periodic = periodic;
       const Plant plant(random);
-      OffsetLearner<kNodes> learner = started(rules);
+      OffsetLearner<kFewNodes> learner = started(rules);
       double before = rms(plant.error(learner));
       const double first = before;
       for (int k = 0; k < 60; ++k) {
@@ -106,7 +106,7 @@ TEST(Learning, ConvergesForEveryWeightBelowTwo) {
 TEST(Learning, UnsmoothedErrorFallsByOneMinusWeight) {
   Random random;
   const Plant plant(random);
-  OffsetLearner<kNodes> learner = started(unsmoothed(0.5));
+  OffsetLearner<kFewNodes> learner = started(unsmoothed(0.5));
   const double first = rms(plant.error(learner));
   for (int k = 0; k < 6; ++k)
     learn(learner, plant);
@@ -118,7 +118,7 @@ TEST(Learning, UnsmoothedErrorFallsByOneMinusWeight) {
 TEST(LearningGuard, StopsAWeightThatDiverges) {
   Random random;
   const Plant plant(random);
-  OffsetLearner<kNodes> learner = started(unsmoothed(2.1));
+  OffsetLearner<kFewNodes> learner = started(unsmoothed(2.1));
   const double first = rms(plant.error(learner));
   double worst = first;
   int roll_backs = 0;
@@ -138,7 +138,7 @@ TEST(LearningGuard, StopsAWeightThatDiverges) {
 TEST(LearningGuard, RestoresTheBestTableAfterWhatIsNotANumber) {
   Random random;
   const Plant plant(random);
-  OffsetLearner<kNodes> learner = started(unsmoothed(0.5));
+  OffsetLearner<kFewNodes> learner = started(unsmoothed(0.5));
   learn(learner, plant);
   const double half = rms(plant.error(learner));
   learn(learner, plant, half);
@@ -152,10 +152,10 @@ TEST(LearningGuard, RestoresTheBestTableAfterWhatIsNotANumber) {
 TEST(OffsetLearner, WithoutDataKeepsItsTable) {
   Random random;
   const Plant plant(random);
-  OffsetLearner<kNodes> learner = started(unsmoothed(0.5));
+  OffsetLearner<kFewNodes> learner = started(unsmoothed(0.5));
   learn(learner, plant);
   const double half = rms(plant.error(learner));
-  const std::vector<NodeSums> none(kNodes);
+  const std::vector<NodeSums> none(kFewNodes);
   const LearnerStep step = learner.step(rms_of_means(learner.rules(), none), none);
   EXPECT_EQ(step.action, GuardAction::keep);
   EXPECT_EQ(step.report.result, LearningResult::nodata);
@@ -249,10 +249,18 @@ TEST(LearningRulesRefusal, NamesTheField) {
   rules = open_rules(1.0);
   rules.taps = {0.5, 0.5, 0.5};
   EXPECT_EQ(field(rules), "taps");
+  rules.taps = {0.5, std::nan(""), 0.5};
+  EXPECT_EQ(field(rules), "taps");
+  rules.taps = {-0.5, 2.0, -0.5};
+  EXPECT_EQ(field(rules), "taps");
+  rules = open_rules(1.0);
+  rules.tap_count = kMostTaps + 2;
+  EXPECT_EQ(field(rules), "tap_count");
   rules = open_rules(1.0);
   rules.most_slope = 0.0;
   EXPECT_EQ(field(rules), "most_slope");
   OffsetLearner<4> learner;
+  EXPECT_EQ(learner.start(open_rules(0.0), 4).reason, Reason::bad_setting);
   EXPECT_EQ(learner.start(open_rules(1.0), 5).reason, Reason::too_many_knots);
   EXPECT_EQ(learner.start(open_rules(1.0), 0).reason, Reason::too_few_knots);
 }

@@ -11,13 +11,13 @@
 namespace volcomp::test {
 namespace {
 
-constexpr std::int32_t kFeed = 13'400'000;  // nm/s
+constexpr std::int32_t kFeed_nm_s = 13'400'000;  // nm/s
 constexpr double kUnit = 2.0 * kPi / 4294967296.0;
 
 class Offsets {
  public:
   Offsets() {
-    state.feed_nm_per_s = kFeed;
+    state.feed_nm_per_s = kFeed_nm_s;
     state.fresh = state.homed = true;
     state.stroke = Direction::forward;
     StrokeOffsetSettings settings;
@@ -26,7 +26,7 @@ class Offsets {
   }
 
   [[nodiscard]] StrokeTableSource source() const {
-    return {forward, backward, slot, 0, 250'000, kFeed};
+    return {forward, backward, slot, 0, 250'000, kFeed_nm_s};
   }
 
   void activate() {
@@ -109,18 +109,18 @@ TEST(StrokeOffsets, AnotherFeedOrNoReferenceMeansNone) {
   Offsets o;
   o.activate();
   for (const double feed : {0.981, 1.0, 1.019}) {
-    o.state.feed_nm_per_s = static_cast<std::int32_t>(feed * kFeed);
+    o.state.feed_nm_per_s = static_cast<std::int32_t>(feed * kFeed_nm_s);
     EXPECT_NEAR(o.at(0.0), 1e-5, kUnit) << feed;
     EXPECT_TRUE(o.unit->feed_status().ok());
   }
   for (const double feed : {0.979, 1.021, 0.0}) {
-    o.state.feed_nm_per_s = static_cast<std::int32_t>(feed * kFeed);
+    o.state.feed_nm_per_s = static_cast<std::int32_t>(feed * kFeed_nm_s);
     EXPECT_EQ(o.at(0.0), 0.0) << feed;
     const Status status = o.unit->feed_status();
     EXPECT_EQ(status.reason, Reason::feed_mismatch);
     EXPECT_NEAR(status.where.value, 13.4, 1e-9) << "what the table is for";
   }
-  o.state.feed_nm_per_s = kFeed;
+  o.state.feed_nm_per_s = kFeed_nm_s;
   o.state.homed = false;
   EXPECT_EQ(o.at(0.0), 0.0);
   EXPECT_EQ(o.unit->status(), kNotHomed);
@@ -158,6 +158,27 @@ TEST(StrokeOffsets, StandsAtTheEndOfItsTableAndSaysSo) {
   EXPECT_NEAR(kUnit * o.unit->tick(o.state), 1e-5 + 0.0, 4e-6);
 }
 
+TEST(StrokeOffsets, WithoutASlotTableEverySlotIsLikeTheOthers) {
+  Offsets o;
+  o.slot.clear();
+  o.activate();
+  EXPECT_NEAR(o.at(0.5, 7), 4e-5, kUnit);
+  EXPECT_EQ(o.unit->status(), kValid);
+}
+
+TEST(StrokeOffsets, FeedsAreComparedForTablesInForceOnly) {
+  Offsets o;
+  EXPECT_TRUE(o.unit->feed_status().ok());
+  o.activate();
+  o.state.feed_nm_per_s = 2 * kFeed_nm_s;
+  o.at(0.0);
+  EXPECT_EQ(o.unit->feed_status().reason, Reason::feed_mismatch);
+  EXPECT_NEAR(o.unit->feed_status().where.value, 13.4, 1e-9);
+  o.unit->deactivate();
+  o.at(0.0);
+  EXPECT_TRUE(o.unit->feed_status().ok());
+}
+
 TEST(StrokeOffsetsRefusal, KeepsTheActiveTables) {
   Offsets o;
   o.activate();
@@ -187,10 +208,18 @@ TEST(StrokeOffsetsRefusal, KeepsTheActiveTables) {
   EXPECT_EQ(o.unit->activate().reason, Reason::not_staged);
   EXPECT_NEAR(o.at(0.0), 1e-5, kUnit);
   std::vector<double> many(kStrokeNodes + 1, 0.0);
-  EXPECT_EQ(o.unit->stage({many, many, {}, 0, 250'000, kFeed}).reason, Reason::too_many_knots);
-  StrokeOffsetSettings settings;
-  settings.rate = 0;
-  EXPECT_STREQ(o.unit->configure(settings).where.field, "rate");
+  EXPECT_EQ(o.unit->stage({many, many, {}, 0, 250'000, kFeed_nm_s}).reason, Reason::too_many_knots);
+  const std::vector<double> teeth(kGearSlots + 1, 0.0);
+  const Status slots = o.unit->stage({o.forward, o.backward, teeth, 0, 250'000, kFeed_nm_s});
+  EXPECT_EQ(slots.reason, Reason::too_many_knots);
+  EXPECT_STREQ(slots.where.field, "slot");
+  const auto bad = [&](std::int32_t rate, std::uint32_t stale_ticks) {
+    return o.unit->configure({rate, stale_ticks}).where.field;
+  };
+  EXPECT_STREQ(bad(0, 20), "rate");
+  EXPECT_STREQ(bad(INT32_MAX, 20), "rate");
+  EXPECT_STREQ(bad(1000, 0), "stale_ticks");
+  EXPECT_NEAR(o.at(0.0), 1e-5, kUnit) << "settings that are refused forget no tables";
 }
 
 }  // namespace

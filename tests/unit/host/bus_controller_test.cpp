@@ -3,35 +3,34 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "comp/status.hpp"
 #include "host_sim/controller/bus_axes.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "tests/complaint.hpp"
 
 namespace volcomp::sim {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr double kShortTime_s = 2.0;
 
 BusSettings xyfz() { return bus_settings(read_machine_file(bundled_machine("xyfz")), 500.0); }
 
-std::string refusal(const BusSettings& settings, const std::vector<std::uint8_t>& image = {}) {
+std::string refusal(const BusSettings& settings, const std::vector<std::uint8_t>& image = {},
+                    double seconds = kShortTime_s) {
   BusAxes axes(settings, image);
-  try {
-    axes.bring_up(kShortTime_s);
-  } catch (const UserError& e) {
-    return e.what();
-  }
-  return "";
+  return complaint_of([&] { return axes.bring_up(seconds), 0; });
 }
 
-TEST(BusController, BringsUpAMachineWithoutTables) { EXPECT_EQ(refusal(xyfz()), ""); }
+TEST(BusController, BringsUpAMachineWithoutTables) { EXPECT_EQ(refusal(xyfz()), "accepted"); }
 
 // The drives count nanometres (60A8h); a machine file that says 2 nm per unit would correct twice
 // as much as it should.
 TEST(BusController, RefusesADriveWithOtherUnits) {
   BusSettings settings = xyfz();
   settings.axes[1].scale_numerator = 2;
+  settings.axes[1].counts_otherwise = DriveScale{1, 1};
   const std::string text = refusal(settings);
   EXPECT_THAT(text, HasSubstr("axis Y"));
   EXPECT_THAT(text, HasSubstr("other units"));
@@ -42,14 +41,47 @@ TEST(BusController, ComparesTheFeedOfARotaryDrive) {
   BusSettings settings = xyfz();
   settings.axes[2].rotary = true;
   settings.axes[2].scale_numerator = 512;
-  EXPECT_EQ(refusal(settings), "");
+  EXPECT_EQ(refusal(settings), "accepted");
   settings.axes[2].scale_numerator = 1024;
+  settings.axes[2].counts_otherwise = DriveScale{512, 1};
   EXPECT_THAT(refusal(settings), HasSubstr("units per turn"));
 }
 
+// Drives that count as the file says are taken as they are: micrometres, and no power of ten.
+TEST(BusController, TakesDrivesThatCountAsTheFileSays) {
+  for (const auto& [numerator, denominator] :
+       {std::pair{1000U, 1U}, std::pair{78125U, 65536U}, std::pair{10U, 1U}}) {
+    BusSettings settings = xyfz();
+    settings.axes[0].scale_numerator = numerator;
+    settings.axes[0].scale_denominator = denominator;
+    EXPECT_EQ(refusal(settings), "accepted") << numerator;
+    settings.axes[0].counts_otherwise = DriveScale{1, 1};
+    EXPECT_THAT(refusal(settings), HasSubstr("other units")) << numerator;
+  }
+}
+
+// However often it is tried again meanwhile, and in the words of the node.
 TEST(BusController, SaysWhyTheNodeRefusedTheTables) {
-  EXPECT_THAT(refusal(xyfz(), std::vector<std::uint8_t>(100, 0x55)),
-              HasSubstr("activation of the tables (2111h:00)"));
+  const std::vector<std::uint8_t> image(100, 0x55);
+  const auto why = AllOf(HasSubstr("activation of the tables (2111h:00)"),
+                         HasSubstr(sentence(Reason::bad_magic)));
+  for (const double seconds : {1.9, 2.0, 2.05, 2.1, 2.15, 2.2})
+    EXPECT_THAT(refusal(xyfz(), image, seconds), why) << seconds;
+}
+
+// A node that runs goes on with what it has; the machine stands until it has what it was given.
+TEST(BusController, SaysWhyARunningNodeRefusedTheTables) {
+  BusAxes axes(xyfz(), {});
+  axes.bring_up(kShortTime_s);
+  axes.controller().load_tables(std::vector<std::uint8_t>(100, 0x55));
+  const std::vector<std::int32_t> stand{0, 0, 0};
+  const auto cycles = static_cast<int>(kShortTime_s / axes.period_s());
+  for (int i = 0; i < cycles; ++i)
+    axes.run_cycle(stand);
+  for (int i = 0; i < cycles; ++i) {
+    axes.run_cycle(stand);
+    ASSERT_THAT(axes.controller().trouble(), HasSubstr(sentence(Reason::bad_magic)));
+  }
 }
 
 TEST(BusController, SaysWhoIsSilent) {

@@ -74,6 +74,27 @@ TEST(NodeClient, SaysWhenNobodyAnswers) {
   EXPECT_FALSE(bench.client.await_heartbeat(1'000'000));
 }
 
+// Who has just answered has the right number.
+TEST(NodeClient, SaysWhenANodeStopsAnswering) {
+  ServiceBench bench;
+  EXPECT_EQ(bench.client.read_value<std::uint8_t>({0x1001, 0}, "errors"), 0);
+  bench.send({0x000, 2, {2, ServiceBench::kNodeId}});  // STOPPED: no SDO
+  EXPECT_THAT(text_of<UserError>([&] {
+                bench.write({0x2200, 1}, {1, 0, 0, 0});
+              }),
+              HasSubstr("the node has stopped answering"));
+}
+
+// Said by this side, not by the node.
+TEST(NodeClient, AnAnswerThatIsTooLongIsNoRefusal) {
+  ServiceBench bench;
+  EXPECT_THAT(text_of<UserError>([&] {
+                static_cast<void>(bench.client.read_value<std::uint32_t>({0x1008, 0}, "name"));
+              }),
+              HasSubstr("1008h:00"));
+  EXPECT_EQ(bench.client.read_text({0x1008, 0}, 24, "name"), "volcomp compensation");
+}
+
 TEST(NodeClient, HearsTheHeartbeat) {
   ServiceBench bench;
   bench.pass_us(10'000);
@@ -210,6 +231,8 @@ TEST(Diagnosis, ErrorsOfTheStoreSayWhatWentWrong) {
 TEST(Diagnosis, EveryErrorCodeHasItsOwnSentence) {
   const std::vector<ErrorCode> codes{ErrorCode::none,
                                      ErrorCode::store_failed,
+                                     ErrorCode::unexpected_reset,
+                                     ErrorCode::background_overdue,
                                      ErrorCode::parameters_lost,
                                      ErrorCode::can_overrun,
                                      ErrorCode::heartbeat,
@@ -224,7 +247,9 @@ TEST(Diagnosis, EveryErrorCodeHasItsOwnSentence) {
                                      ErrorCode::table_refused,
                                      ErrorCode::table_damaged,
                                      ErrorCode::foreign_sync,
-                                     ErrorCode::offset_not_confirmed};
+                                     ErrorCode::offset_not_confirmed,
+                                     ErrorCode::touch_rejected,
+                                     ErrorCode::point_lost};
   std::set<std::string> sentences;
   for (const ErrorCode code : codes)
     sentences.insert(canopen::sentence(code));

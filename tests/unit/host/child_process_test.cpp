@@ -12,7 +12,7 @@
 #include "host_sim/boards/emulated_node.hpp"
 #include "host_sim/data/interruption.hpp"
 #include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "tests/complaint.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -83,14 +83,35 @@ TEST(Interruption, IsNoticedByWhoLooks) {
   }
 }
 
+TEST(Interruption, OneInsideAnotherDoesNotForget) {
+  const Interruption outer;
+  ASSERT_EQ(std::raise(SIGTERM), 0);
+  { const Interruption inner; }
+  EXPECT_TRUE(outer.asked());
+}
+
+TEST(Interruption, TheSecondSignalEndsWhoDoesNotLook) {
+  const auto stuck = [] {
+    const Interruption interruption;
+    static_cast<void>(std::raise(SIGINT));
+    static_cast<void>(std::raise(SIGINT));
+  };
+  EXPECT_EXIT(stuck(), testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Interruption, NobodyHangsUpWhatNohupStarted) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  {
+    const Interruption interruption;
+    ASSERT_EQ(std::raise(SIGHUP), 0);
+    EXPECT_FALSE(interruption.asked());
+  }
+  static_cast<void>(std::signal(SIGHUP, before));
+}
+
 TEST(EmulatedNode, WhatIsMissingIsNamed) {
-  const auto complaint = [](const std::string& board, const std::string& image) -> std::string {
-    try {
-      const EmulatedNode node(emulated_board(board), image);
-    } catch (const UserError& e) {
-      return e.what();
-    }
-    return "(nothing was thrown)";
+  const auto complaint = [](const std::string& board, const std::string& image) {
+    return complaint_of([&] { const EmulatedNode node(emulated_board(board), image); });
   };
   EXPECT_THAT(complaint("m3", ""), HasSubstr("m3: there is no firmware"));
   EXPECT_EQ(complaint("m7", "/no/such.elf"), "/no/such.elf: no such file");

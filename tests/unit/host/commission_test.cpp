@@ -1,14 +1,18 @@
 // From run files to tables: a known error put in must come out, and wrong combinations of files are
 // refused.
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "comp/tables/image.hpp"
 #include "host_sim/commissioning/commission.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/machine/campaign.hpp"
+#include "host_sim/scenarios/machine/truth.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/truth.hpp"
+#include "tests/complaint.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -20,12 +24,7 @@ class Commissioning : public testing::Test {
   Campaign campaign = perfect_campaign(truth, file);
 
   std::string refusal(const std::vector<RunsFile>& runs) const {
-    try {
-      static_cast<void>(commission(file, runs, {}));
-    } catch (const UserError& e) {
-      return e.what();
-    }
-    return "accepted";
+    return complaint_of([&] { return commission(file, runs, {}); });
   }
 };
 
@@ -83,6 +82,121 @@ TEST_F(Commissioning, WarningsAreSaidWithTheFile) {
   const auto tables = commission(file, runs, {});
   EXPECT_THAT(tables->warnings,
               testing::ElementsAre(testing::HasSubstr("runs_Z.csv: one_direction")));
+}
+
+// Half the numbers of a wrong unit would pass as a short travel.
+TEST_F(Commissioning, TargetsMustBeThoseOfTheTravel) {
+  const auto scaled = [&](double factor) {
+    auto runs = campaign.runs;
+    for (double& q : runs[0].positions)
+      q *= factor;
+    return runs;
+  };
+  EXPECT_EQ(refusal(scaled(1.0)), "accepted");
+  EXPECT_THAT(refusal(scaled(8.0)),
+              testing::HasSubstr("travels from -500 to 0 mm [unit_suspected]"));
+  EXPECT_THAT(refusal(scaled(1e-3)),
+              testing::HasSubstr("runs_X.csv: targets of X from -0.5 to 0,"));
+  const auto half = commission(file, scaled(0.5), tables_only(ModelKind::abbe_closed));
+  EXPECT_THAT(half->warnings,
+              testing::Contains(testing::HasSubstr("beyond them the value of the end is used")));
+}
+
+TEST_F(Commissioning, AxesThatCannotCorrectAreRefused) {
+  MachineDescription d = file.chain.description();
+  d.body[2].joint.axis = d.body[1].joint.axis;
+  ASSERT_TRUE(MachineChain::build(d, file.chain).ok());
+  EXPECT_THAT(refusal(campaign.runs), testing::HasSubstr("[no_authority]"));
+}
+
+TEST_F(Commissioning, WhatNoNodeTakesIsRefused) {
+  file.axes[1].at_reference(0) = 100.0;
+  EXPECT_THAT(refusal(campaign.runs), testing::HasSubstr("bound"));
+}
+
+// Machines with the same axes in other places have no naive model.
+TEST_F(Commissioning, TheNaiveModelIsOfItsMachineOnly) {
+  const auto complaint = [&] {
+    return complaint_of(
+        [&] { return commission(file, campaign.runs, tables_only(ModelKind::naive)); });
+  };
+  EXPECT_EQ(complaint(), "accepted");
+  MachineDescription d = file.chain.description();
+  d.body[1].joint.sign = static_cast<std::int8_t>(-d.body[1].joint.sign);
+  ASSERT_TRUE(MachineChain::build(d, file.chain).ok());
+  EXPECT_THAT(complaint(), testing::HasSubstr("the naive model is that of a machine with"));
+}
+
+// A machine whose C turns once round, measured perfectly, but for what drifts while C turns.
+class FullTurn : public testing::Test {
+ protected:
+  static constexpr std::size_t kC = 4;
+
+  std::unique_ptr<Commissioned> commission_with(const ErrorMotion& drift) {
+    Campaign drifting = campaign;
+    for (RunValues& run : drifting.runs[kC].up)
+      add(drift, run);
+    for (RunValues& run : drifting.runs[kC].down) {
+      std::reverse(run.begin(), run.end());
+      add(drift, run);
+      std::reverse(run.begin(), run.end());
+    }
+    return commission(campaign.machine, drifting.runs, tables_only(ModelKind::abbe_closed));
+  }
+
+  MachineFile file = read_machine_file(bundled_machine("trunnion"));
+  Random random{1};
+  Campaign campaign = measure_any_machine(draw_machine(file, 1), file, no_noise(), 1, random);
+
+ private:
+  static void add(const ErrorMotion& drift, RunValues& run) {
+    for (std::size_t t = 0; t < run.size(); ++t)
+      run[t] += static_cast<double>(t) / static_cast<double>(run.size() - 1) * drift;
+  }
+};
+
+// But for a constant of each direction: a reversal looks the same.
+TEST_F(FullTurn, DriftThatGrowsEvenlyIsNoError) {
+  ErrorMotion drift;
+  drift << 3e-3, -2e-3, 1e-3, 4e-6, -5e-6, 30e-6;
+  const auto still = commission_with(ErrorMotion::Zero());
+  const auto drifted = commission_with(drift);
+  ASSERT_TRUE(drifted->gaps[kC]);
+  EXPECT_FALSE(drifted->gaps[0]) << "a slide does not turn";
+  EXPECT_NEAR(still->gaps[kC]->mm, 0.0, 1e-12);
+  EXPECT_NEAR(drifted->gaps[kC]->mm, 3e-3, 1e-12);
+  EXPECT_NEAR(drifted->gaps[kC]->rad, 30e-6, 1e-12);
+  const auto shape = [&](const Commissioned& tables, std::size_t i, Travel travel) {
+    const ErrorTable& table = *tables.refined[kC];
+    return ErrorMotion(table.at_knot(i, travel) - table.at_knot(0, travel));
+  };
+  for (std::size_t i = 0; i < still->refined[kC]->knots; ++i) {
+    for (const Travel travel : {Travel::forward, Travel::backward}) {
+      const ErrorMotion difference = shape(*drifted, i, travel) - shape(*still, i, travel);
+      EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-12) << i;
+    }
+  }
+}
+
+TEST_F(FullTurn, ATargetLeftOutIsSaid) {
+  RunsFile& runs = campaign.runs[kC];
+  runs.positions.pop_back();
+  runs.up[0].pop_back();
+  runs.down[0].pop_back();
+  const auto tables = commission_with(ErrorMotion::Zero());
+  EXPECT_FALSE(tables->gaps[kC]);
+  EXPECT_THAT(tables->warnings, testing::ElementsAre(testing::HasSubstr(
+                                    "runs_C.csv: C turns once round, but its targets do not")));
+}
+
+TEST_F(FullTurn, EndsFartherApartThanDriftExplainsAreRefused) {
+  const auto complaint = [&](Eigen::Index channel, double drift) {
+    return complaint_of([&] { commission_with(drift * ErrorMotion::Unit(channel)); });
+  };
+  EXPECT_EQ(complaint(2, 4.9e-3), "accepted");
+  EXPECT_THAT(complaint(2, 5.1e-3), testing::HasSubstr("runs_C.csv: the ends of the turn of C"));
+  EXPECT_EQ(complaint(5, 49e-6), "accepted");
+  EXPECT_THAT(complaint(5, 51e-6), testing::HasSubstr("[not_periodic]"));
 }
 
 }  // namespace

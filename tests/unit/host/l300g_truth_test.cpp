@@ -7,6 +7,7 @@
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/l300g/printed_procedure.hpp"
 #include "host_sim/scenarios/l300g/truth.hpp"
+#include "tests/complaint.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -65,12 +66,7 @@ TEST(L300gTruth, AFileSaysTheSameAsAName) {
 
 TEST(L300gTruth, ABadFileIsRefusedWithItsLine) {
   const auto refusal = [](const std::string& text) {
-    try {
-      static_cast<void>(parse_grinder_errors(text, "errors.toml"));
-    } catch (const UserError& e) {
-      return std::string(e.what());
-    }
-    return std::string();
+    return complaint_of([&] { return parse_grinder_errors(text, "errors.toml"); });
   };
   EXPECT_NE(refusal("arm_mm = 0.1\n").find("missing mandatory field 'convention'"),
             std::string::npos);

@@ -14,6 +14,7 @@
 #include "host_sim/links/paced_link.hpp"
 #include "host_sim/links/pipe_link.hpp"
 #include "host_sim/links/slcan_link.hpp"
+#include "tests/complaint.hpp"
 #include "tests/unit/host/linux_node.hpp"
 
 namespace volcomp::sim {
@@ -21,18 +22,8 @@ namespace {
 
 using testing::HasSubstr;
 
-template <class Call>
-std::string complaint(Call&& call) {
-  try {
-    call();
-  } catch (const UserError& e) {
-    return e.what();
-  }
-  return "(nothing was thrown)";
-}
-
 std::string refusal_of(const std::string& name) {
-  return complaint([&] { static_cast<void>(open_frame_link(name)); });
+  return complaint_of([&] { return open_frame_link(name); });
 }
 
 // Heartbeat and product code (1018h:02), as any other tool would get them.
@@ -109,7 +100,7 @@ TEST(PipeLink, NodeThatIsGoneIsNamed) {
   PipeLink link(folder.path());
   link.wait(0);
   node.reset();
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(complaint_of([&] {
               link.wait(0);
               link.wait(0);
             }),
@@ -123,7 +114,7 @@ TEST(PipeLink, WatchKnowsBetterWhyTheNodeIsGone) {
     if (gone) throw UserError("pulled the plug");
   });
   node.reset();
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(complaint_of([&] {
               link.wait(0);
               link.wait(0);
             }),
@@ -153,7 +144,7 @@ TEST(PipeLink, NonsenseFromTheNodeIsRefused) {
   const std::string nonsense(hal::kPipeRecordBytes, 'x');
   ASSERT_EQ(::write(from_node.number(), nonsense.data(), nonsense.size()),
             static_cast<ssize_t>(nonsense.size()));
-  EXPECT_THAT(complaint([&] { link.wait(0); }), HasSubstr("no record of a frame pipe"));
+  EXPECT_THAT(complaint_of([&] { link.wait(0); }), HasSubstr("no record of a frame pipe"));
 }
 
 // A turn that comes in two pieces, torn in the middle of a record.
@@ -282,7 +273,7 @@ TEST(SlcanLink, LineThatIsHungUpIsNamed) {
   SlcanLink link(name);
   node.reset();
   hal::CanFrame frame;
-  EXPECT_EQ(complaint([&] {
+  EXPECT_EQ(complaint_of([&] {
               for (int i = 0; i < 1000; ++i)
                 static_cast<void>(link.receive(frame));
             }),

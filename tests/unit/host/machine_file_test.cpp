@@ -6,8 +6,8 @@
 #include "comp/geometry/l300g.hpp"
 #include "comp/realtime/instances.hpp"
 #include "comp/units.hpp"
-#include "host_sim/data/user_error.hpp"
 #include "host_sim/machine/machine_file.hpp"
+#include "tests/unit/host/changed_machine.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -69,7 +69,7 @@ correction = { axes = ["X", "Z"] }
 )";
 
 TEST(MachineFile, DescribesARotaryMachine) {
-  const MachineFile file = parse_machine(kRotary, "table.toml");
+  const MachineFile file = parse_machine(kRotary, "m.toml");
   EXPECT_TRUE(file.chain.has_rotary());
   EXPECT_EQ(file.chain.axis_count(), 3U);
   EXPECT_EQ(file.chain.axis(2).letter, 'C');
@@ -80,22 +80,59 @@ TEST(MachineFile, DescribesARotaryMachine) {
   EXPECT_FALSE(file.squareness.has_value());
 }
 
-std::string refusal_of(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  text.replace(at, from.size(), to);
-  try {
-    static_cast<void>(parse_machine(text, "table.toml"));
-  } catch (const UserError& e) {
-    return e.what();
+TEST(MachineFile, ATurnAsPeopleWriteItIsATurn) {
+  for (const char* turn : {"6.283185307179586", "6.2832", "6.28318"}) {
+    const MachineFile file = parse_machine(changed(kRotary, "6.283185307179586", turn), "m.toml");
+    EXPECT_TRUE(file.axes[2].full_turn()) << turn;
   }
-  return "accepted";
+  EXPECT_FALSE(
+      parse_machine(changed(kRotary, "6.283185307179586", "6.25"), "m.toml").axes[2].full_turn());
+}
+
+constexpr const char* kThermal = R"([thermal]
+reference_C = 21.5
+expires_days = 90
+[thermal.Z]
+per_K = 11.7e-6
+fixed_mm = 300
+input = 2
+)";
+
+TEST(MachineFile, AxesThatGrow) {
+  const MachineFile plain = parse_machine(kRotary, "m.toml");
+  EXPECT_EQ(plain.thermal.reference_C, 20.0);
+  EXPECT_EQ(plain.thermal.expires_days, 0.0);
+  EXPECT_EQ(plain.thermal.expansion[1].input, kNoTemperature);
+  const MachineFile file = parse_machine(std::string(kRotary) + kThermal, "m.toml");
+  EXPECT_EQ(file.thermal.reference_C, 21.5);
+  EXPECT_EQ(file.thermal.expires_days, 90.0);
+  EXPECT_EQ(file.thermal.expansion[0].input, kNoTemperature);
+  EXPECT_EQ(file.thermal.expansion[1].per_K, 11.7e-6F);
+  EXPECT_EQ(file.thermal.expansion[1].fixed_mm, 300.0F);
+  EXPECT_EQ(file.thermal.expansion[1].input, 2);
+}
+
+TEST(MachineFile, RefusalsOfGrowthNameLineAndField) {
+  using testing::HasSubstr;
+  const std::string text = std::string(kRotary) + kThermal;
+  EXPECT_THAT(refusal_of(text, "reference_C = 21.5", "reference_C = 81"),
+              HasSubstr("'reference_C' must be from -20 to 80"));
+  EXPECT_THAT(refusal_of(text, "expires_days = 90", "expires_days = -1"),
+              HasSubstr("'expires_days' must be from 0"));
+  EXPECT_THAT(refusal_of(text, "11.7e-6", "11.7"), HasSubstr("'per_K' must be from"));
+  EXPECT_THAT(refusal_of(text, "fixed_mm = 300", "fixed_mm = 5001"),
+              HasSubstr("'fixed_mm' must be from -5000 to 5000"));
+  EXPECT_THAT(refusal_of(text, "input = 2", "input = 4"), HasSubstr("input"));
+  EXPECT_THAT(refusal_of(text, "input = 2", ""), HasSubstr("input"));
+  EXPECT_THAT(refusal_of(text, "fixed_mm = 300", ""), HasSubstr("fixed_mm"));
+  EXPECT_THAT(refusal_of(text, "[thermal.Z]", "[thermal.C]"), HasSubstr("bad_thermal"));
+  EXPECT_THAT(refusal_of(text, "[thermal.Z]", "[thermal.Y]"), HasSubstr("'Y'"));
 }
 
 TEST(MachineFile, RefusalsNameLineAndField) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal_of(kRotary, "sign = -1", "sign = 0"),
-              HasSubstr("table.toml:10: 'sign' must be 1 or -1"));
+              HasSubstr("m.toml:10: 'sign' must be 1 or -1"));
   EXPECT_THAT(refusal_of(kRotary, "turns_about", "moves_along"), HasSubstr("turns_about"));
   EXPECT_THAT(refusal_of(kRotary, "axis = \"C\"", "axis = \"Q\""),
               HasSubstr("must be one of X Y Z A B C"));
@@ -111,20 +148,49 @@ TEST(MachineFile, RefusalsNameLineAndField) {
               HasSubstr("there is no axis Y"));
   EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]", "axes = []"),
               HasSubstr("one to 3 correcting axes"));
+  EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]", "axes = [\"X\"], orienting = [\"X\"]"),
+              HasSubstr("X does not turn: it cannot orient the tool"));
+  EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]", "axes = [\"C\"], orienting = [\"C\"]"),
+              HasSubstr("C takes another offset already"));
+  EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]",
+                         "axes = [\"X\"], orienting = [\"C\", \"C\", \"C\"]"),
+              HasSubstr("one to 2 orienting axes"));
   EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = -7"), HasSubstr("'id' must be a whole number"));
+  EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = 0"), HasSubstr("'id' must be a whole number"));
+  EXPECT_THAT(refusal_of(kRotary, "6.283185307179586", "6.2834"), HasSubstr("[travel_too_long]"));
   EXPECT_THAT(refusal_of(kRotary, "kappa = 0 }", "kappa = 2 }"), HasSubstr("from -1 to 1"));
   EXPECT_THAT(refusal_of(kRotary, "on = \"X\"", "on = \"Z\""), HasSubstr("no earlier [[body]]"));
+  EXPECT_THAT(refusal_of(kRotary, "name = \"bed\"", "name = \"bed\", on = \"bed\""),
+              HasSubstr("m.toml:9: the first [[body]] is the bed"));
+  EXPECT_THAT(refusal_of(kRotary, "sign = 1 }", "sign = 1, constant_error = [0, 0, 0, 0, 0, 0] }"),
+              HasSubstr("'constant_error' is of bodies that do not move"));
+  EXPECT_THAT(refusal_of(kRotary, "name = \"bed\"",
+                         "name = \"bed\", constant_error = [1.1, 0, 0, 0, 0, 0]"),
+              HasSubstr("'constant_error' is in mm and rad, up to 1 and 0.005"));
   EXPECT_THAT(refusal_of(kRotary, "travel_rad = [0.0, 6.283185307179586], reference_rad",
                          "travel_mm = [0.0, 6.3], reference_mm"),
               HasSubstr("axis C is rotary here, but its [[axis]] table says 'travel_mm'"));
   EXPECT_THAT(refusal_of(kRotary, "moves_along = \"X\"", "moves_along = \"X\", zero_deg = 1.0"),
-              HasSubstr("table.toml:10: 'zero_deg' is for rotary joints"));
+              HasSubstr("m.toml:10: 'zero_deg' is for rotary joints"));
   EXPECT_THAT(refusal_of(kRotary, "axes = [\"X\", \"Z\"]", "axes = [\"X\"], limit_rad = 0.01"),
               HasSubstr("'limit_rad' must be from"));
   EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = 7\nprobe = { radius_mm = 0.0 }"),
               HasSubstr("'radius_mm' must be above 0"));
   EXPECT_THAT(refusal_of(kRotary, "kappa = 0 }", "kappa = 0, latch_delay_us = -1.0 }"),
               HasSubstr("'latch_delay_us' must be from 0 to 1000"));
+}
+
+// Of the last of them the TOML library reads beyond the end.
+TEST(MachineFile, WhatIsNotUtf8IsRefusedAtItsLine) {
+  using testing::HasSubstr;
+  for (const char* bytes :
+       {"\xE9", "\xC0\xAF", "\xE0\x80\xAF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2#", "\x80"})
+    EXPECT_THAT(refusal_of(kRotary, "id = 7", std::string("id = 7 # ") + bytes),
+                HasSubstr(": not UTF-8"));
+  EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = 7\n'\xF8ork '.irk #\xE2#"),
+              HasSubstr("m.toml:4: not UTF-8"));
+  EXPECT_EQ(refusal_of(kRotary, "id = 7", "id = 7 # \xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80"),
+            "accepted");
 }
 
 TEST(MachineFile, DeepBracketsAreRefusedBeforeTheyAreParsed) {

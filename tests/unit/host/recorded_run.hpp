@@ -8,12 +8,17 @@
 
 namespace volcomp::sim {
 
-// The machine starts, moves, and lives through what `incident` does to it.
+// The machine starts, moves, and lives through what `incident` does to it. `deadline_us`: of the
+// node, 0: 60 % of the cycle. `status_every_cycle`: of the node.
 template <class Incident>
-std::string record_run(const Incident& incident) {
+std::string record_run(const Incident& incident, std::uint32_t deadline_us = 0,
+                       bool status_every_cycle = false) {
   std::string log;
   const KnownMachine& machine = known_machine();
-  BusAxes axes(bus_settings(machine.file, 500.0), machine.image);
+  BusSettings settings = bus_settings(machine.file, 500.0);
+  settings.deadline_us = deadline_us;
+  settings.status_every_cycle = status_every_cycle;
+  BusAxes axes(settings, machine.image);
   record(axes.bus(), log);
   axes.stand_at({-250.0, -150.0, -200.0});
   axes.bring_up();
@@ -36,14 +41,19 @@ inline std::string record_drive_failure() {
   return record_run([](BusAxes& axes) { axes.power_drive(1, false); });
 }
 
-// Of the node, for 50 cycles.
+// Of the node, for 50 cycles. When the drives are started, they report in the middle of a cycle.
+// The simulated node has no timer, it sees its deadline with the next frame; the replayed one sees
+// it to the microsecond: none of those reports may fall between.
 inline std::string record_power_failure() {
-  return record_run([](BusAxes& axes) {
-    axes.power_node(false);
-    for (int i = 0; i < 50; ++i)
-      axes.run_cycle({-250'000'000, -150'000'000, -200'000'000});
-    axes.power_node(true);
-  });
+  constexpr std::uint32_t kLateDeadline_us = 1800;
+  return record_run(
+      [](BusAxes& axes) {
+        axes.power_node(false);
+        for (int i = 0; i < 50; ++i)
+          axes.run_cycle({-250'000'000, -150'000'000, -200'000'000});
+        axes.power_node(true);
+      },
+      kLateDeadline_us);
 }
 
 }  // namespace volcomp::sim

@@ -7,7 +7,7 @@
 
 #include "comp/units.hpp"
 #include "host_sim/data/runs_csv.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "tests/complaint.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -18,12 +18,7 @@ RunsFile parse(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    static_cast<void>(parse(text));
-  } catch (const UserError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return complaint_of([&] { return parse(text); });
 }
 
 constexpr const char* kHeader =
@@ -109,11 +104,12 @@ TEST(RunsCsv, TargetsHaveTheUnitOfTheirAxis) {
 TEST(RunsCsv, WhatIsNoTextOfRunsIsRefusedInOneSentence) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal(std::string("\xFF\xFEt\0a\0", 6)), HasSubstr("x.csv:1: the file is UTF-16"));
-  EXPECT_THAT(refusal("target [mm],run,direction,EXX [\xB5m]\n"), HasSubstr("unknown unit \"?m\""));
+  EXPECT_THAT(refusal("target [mm],run,direction,EXX [\xB5m]\n"),
+              HasSubstr("x.csv:1: the line is not UTF-8"));
   EXPECT_THAT(refusal(std::string(100000, 'x')), HasSubstr("x.csv:1: the line is longer"));
   EXPECT_THAT(refusal(std::string(100, '\0')), HasSubstr("x.csv:1: column \"????"));
   EXPECT_THAT(refusal(std::string(kHeader) + "# caf\xE9\n-10,1,\xFF,1,2,3,4,5,6\n"),
-              HasSubstr("x.csv:3: direction is \"?\""));
+              HasSubstr("x.csv:3: the line is not UTF-8"));
 }
 
 // A million lines are refused where they become too many, not when memory ends.

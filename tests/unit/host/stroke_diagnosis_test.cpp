@@ -70,7 +70,7 @@ TEST(StrokeDiagnosis, SaysWhichTableGotWorse) {
   d.table[1].action = GuardAction::roll_back;
   d.table[1].flank_rms_um = 4.5;
   d.table[1].weight = 0.25;
-  EXPECT_THAT(describe(d), HasSubstr("table backward: got worse (4.50 um), the best table again, "
+  EXPECT_THAT(describe(d), HasSubstr("table backward: got worse (4.50 µm), the best table again, "
                                      "weight 0.25"));
   d.table[0].result = LearningResult::nodata;
   EXPECT_THAT(describe(d), HasSubstr("table forward: nothing was seen, unchanged"));
@@ -81,7 +81,7 @@ TEST(StrokeDiagnosis, SaysWhatOneAxisAloneWouldDo) {
   StrokeDiagnosis d = grinding();
   d.learning = Reason::breaks_helix;
   d.prediction_um = {-38.9, 40.2, 1.3};
-  EXPECT_THAT(describe(d), HasSubstr("Z alone -38.9 um, C alone 40.2 um, together 1.3 um"));
+  EXPECT_THAT(describe(d), HasSubstr("Z alone -38.9 µm, C alone 40.2 µm, together 1.3 µm"));
   EXPECT_EQ(to_json(d).at("refusal"), "breaks_helix");
 }
 

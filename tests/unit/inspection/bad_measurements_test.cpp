@@ -13,12 +13,11 @@
 #include "comp/geometry/l300g.hpp"
 #include "comp/surfaces/involute_gear.hpp"
 #include "comp/units.hpp"
+#include "tests/not_numbers.hpp"
 #include "tests/unit/inspection/support.hpp"
 
 namespace volcomp::test {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // --- probe calibration
 

@@ -12,8 +12,6 @@
 namespace volcomp::test {
 namespace {
 
-using reference::FaceGear;
-
 const Vec3 kOutward = -Vec3::UnitY();  // side +1: the slot is at smaller y
 
 const SplinePatch& patch() {

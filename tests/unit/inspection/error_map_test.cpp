@@ -10,6 +10,7 @@
 #include "comp/evaluation/error_map.hpp"
 #include "comp/evaluation/face_gear_grade.hpp"
 #include "comp/evaluation/map_polynomial.hpp"
+#include "tests/not_numbers.hpp"
 #include "tests/reference/face_gear.hpp"
 #include "tests/reference/face_gear_tables.hpp"
 
@@ -19,7 +20,6 @@ namespace {
 using reference::PaperMaps;
 
 constexpr double kPrinted = 1e-9;  // the tables print tenths of a micron
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // --- statements of the paper about Tables 5 to 8
 

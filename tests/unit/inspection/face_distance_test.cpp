@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "comp/surfaces/face_relief.hpp"
+#include "tests/not_numbers.hpp"
 #include "tests/unit/inspection/face_support.hpp"
 #include "tests/unit/realtime/support.hpp"
 
@@ -177,7 +178,6 @@ Reason reason_at(const Vec3& q) {
 }
 
 TEST(FaceFootReason, NotFinite) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(reason_at({kNan, 1.0, 50.0}), Reason::not_finite);
   EXPECT_EQ(reason_at({170.0, -kInf, 50.0}), Reason::not_finite);

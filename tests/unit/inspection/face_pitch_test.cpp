@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include "comp/evaluation/pitch.hpp"
 #include "comp/units.hpp"
+#include "tests/not_numbers.hpp"
 #include "tests/reference/face_gear.hpp"
 
 namespace volcomp::test {
@@ -17,7 +18,6 @@ namespace {
 constexpr int kTeeth = 86;
 constexpr double kPitchRadius = 172.0;      // mm
 constexpr double kUm = 1e3 * kPitchRadius;  // rad to µm along the pitch circle
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The axis of the gear 5 µm beside that of its teeth.
 std::vector<double> eccentric_round(double um = 5.0) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "tests/not_numbers.hpp"
 #include "tests/unit/inspection/face_support.hpp"
 
 namespace volcomp::test {
@@ -90,7 +91,6 @@ TEST_F(FaceTouchTest, ARelievedTipIsAFlankDownToTheEdge) {
 }
 
 TEST_F(FaceTouchTest, UnusablePoints) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const FaceTouch touch = judge({kNan, 0.0, 50.0});
   EXPECT_EQ(touch.verdict, Reason::bad_point);
   EXPECT_EQ(touch.foot.reason, Reason::not_finite);

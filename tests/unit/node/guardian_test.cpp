@@ -226,8 +226,6 @@ class SlowStorage final : public Storage {
   StoreResult erase() override { return StoreResult::done; }
 };
 
-constexpr std::uint32_t kSave = 0x65766173;
-
 TEST(NodeGuardian, SavingMayTakeLongerThanABackgroundMayBeSilent) {
   SlowStorage storage;
   TaskBench bench(&storage);

@@ -9,7 +9,7 @@
 namespace volcomp::node {
 namespace {
 
-constexpr std::size_t kAxisHeader = 45;  // q0, pitch, knots, periodic, direction
+constexpr std::size_t kAxisHeader = 54;  // q0, pitch, knots, periodic, direction, expansion
 constexpr std::size_t kCrc = 4;
 
 }  // namespace

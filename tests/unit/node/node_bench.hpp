@@ -40,6 +40,10 @@ struct BenchDrive {
 };
 
 constexpr std::uint8_t kBenchId = 32;
+
+// What is written to 1010h and 1011h, in ASCII (CiA 301).
+constexpr std::uint32_t kSave = 0x65766173;
+constexpr std::uint32_t kLoad = 0x64616F6C;
 constexpr std::size_t kBenchDrives = 3;
 
 // The device of a bench, commissioned over SDO.

@@ -13,9 +13,6 @@ using canopen::AbortCode;
 using canopen::ErrorCode;
 using hal::Torn;
 
-constexpr std::uint32_t kSave = 0x65766173;  // "save"
-constexpr std::uint32_t kLoad = 0x64616F6C;  // "load"
-
 using Blocks = hal::MemoryBlocks<16384, 2>;
 
 // What a node starts with.

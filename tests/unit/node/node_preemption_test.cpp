@@ -156,8 +156,6 @@ class FixedStorage final : public Storage {
   Part image_;
 };
 
-constexpr std::uint32_t kSave = 0x65766173;
-
 TEST(NodePreemption, ResetInTheMiddleOfCorrections) {
   FixedStorage storage;
   PreemptedBench preempted(&storage);

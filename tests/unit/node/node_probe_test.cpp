@@ -207,12 +207,15 @@ TEST_F(NodeProbe, BadSettingsLeaveTheGoodOnes) {
     double value, good;
     Reason reason;
   };
-  for (const Bad& bad : {Bad{0x2302, 1, nan, 2e6, Reason::not_finite},
-                         Bad{0x2302, 1, -1.0, 2e6, Reason::bad_setting},
-                         Bad{0x2302, 1, 3e7, 2e6, Reason::bad_setting},
-                         Bad{0x2303, 1, 0.999, 1.0, Reason::not_a_rotation},
-                         Bad{0x2303, 12, HUGE_VAL, 0.0, Reason::not_finite},
-                         Bad{0x2304, 3, 1.5, 0.0, Reason::bad_setting}}) {
+  for (const Bad& bad :
+       {Bad{0x2302, 1, nan, 2e6, Reason::not_finite},
+        Bad{0x2302, 1, -1.0, 2e6, Reason::bad_setting},
+        Bad{0x2302, 1, 3e7, 2e6, Reason::bad_setting},
+        Bad{0x2303, 1, 0.999, 1.0, Reason::not_a_rotation},
+        Bad{0x2303, 12, HUGE_VAL, 0.0, Reason::not_finite},
+        Bad{0x2304, 2, nan, 0.0, Reason::not_finite}, Bad{0x2305, 1, nan, 0.0, Reason::not_finite},
+        Bad{0x2306, 3, nan, 0.0, Reason::not_finite},
+        Bad{0x2304, 3, 1.5, 0.0, Reason::bad_setting}}) {
     ASSERT_EQ(set_real(bad.index, bad.sub, bad.value), AbortCode::none);
     EXPECT_EQ(switch_on(), AbortCode::invalid_value);
     EXPECT_EQ(bench.number(0x2300, 5), static_cast<std::uint64_t>(bad.reason));

@@ -179,6 +179,32 @@ TEST(NodeMachineId, AnotherMachineIsTakenOnceTheNodeRests) {
   EXPECT_EQ(bench.number(0x2112, 7), image_crc({bytes.data(), bytes.size()}));
 }
 
+// Before the start another machine may still come, but only with tables that can be used.
+TEST(NodeMachineId, TablesOfAnotherMachineThatCannotBeUsedCostNothing) {
+  NodeBench bench;
+  bench.configure();
+  const MachineTables good = bench_tables();
+  bench.load(good);
+  const std::uint64_t crc = bench.number(0x2112, 7);
+  MachineTables other = good;
+  other.machine.body[1].joint.offset[0] += 1.0;
+  for (auto& column : other.axis[0].value) {
+    for (Channels& knot : column)
+      knot[0] = 1e9F;
+  }
+  ASSERT_EQ(bench.write({0x2110, 1}, image_of(other)), AbortCode::none);
+  EXPECT_EQ(bench.command(TableCommand::activate), AbortCode::general);
+  EXPECT_EQ(static_cast<Reason>(bench.number(0x2112, 2)), Reason::bound_exceeded);
+  EXPECT_EQ(bench.number(0x2112, 7), crc);
+
+  bench.nmt(NmtCommand::start);
+  bench.cycles(400);
+  EXPECT_EQ(bench.state(), NodeState::compensating);
+  NodeBench undisturbed;
+  undisturbed.bring_up(good);
+  EXPECT_EQ(bench.offsets(), undisturbed.offsets());
+}
+
 TEST(NodeMachineId, IsAskedAgainWhenTablesAreStaged) {
   NodeBench bench;
   bench.configure();
@@ -226,6 +252,54 @@ TEST(NodeCommands, SettingsOutsideTheirRangeAreRefused) {
   EXPECT_EQ(bench.set<std::int32_t>(0x2202, 1, 0), AbortCode::value_too_low);
   EXPECT_EQ(bench.set<std::uint8_t>(0x2200, 4, 8), AbortCode::value_too_high);
   EXPECT_EQ(bench.set<std::uint16_t>(0x2201, 1, 1), AbortCode::too_short);
+}
+
+// An offset that went out at any other time could be one the gate has not seen.
+TEST(NodeCommands, OffsetsAreSentByTheCycleAlone) {
+  NodeBench bench;
+  bench.configure();
+  for (std::uint16_t pdo = 0x1800; pdo < 0x1800 + kNodeAxes; ++pdo) {
+    EXPECT_EQ(bench.set<std::uint8_t>(pdo, 2, 1), AbortCode::invalid_value);
+    EXPECT_EQ(bench.set<std::uint8_t>(pdo, 2, 0), AbortCode::invalid_value);
+    EXPECT_EQ(bench.set<std::uint8_t>(pdo, 2, 255), AbortCode::none);
+    EXPECT_EQ(bench.set<std::uint16_t>(pdo, 5, 100), AbortCode::invalid_value);
+    EXPECT_EQ(bench.set<std::uint16_t>(pdo, 5, 0), AbortCode::none);
+  }
+  const auto status = static_cast<std::uint16_t>(0x1800 + kStatusPdo);
+  EXPECT_EQ(bench.set<std::uint8_t>(status, 2, 1), AbortCode::none);
+  EXPECT_EQ(bench.set<std::uint16_t>(status, 5, 100), AbortCode::none);
+}
+
+TEST(NodeCommands, ASlewLimitBelowAUnitOfTheDriveIsRefused) {
+  NodeBench bench;
+  bench.configure();
+  bench.load(bench_tables());
+  ASSERT_EQ(bench.set<std::uint32_t>(0x2030, 2, 1000), AbortCode::none);
+  ASSERT_EQ(bench.set<std::int32_t>(0x2202, 2, 999), AbortCode::none);
+  bench.nmt(NmtCommand::start);
+  bench.cycles(100);
+  EXPECT_EQ(static_cast<Reason>(bench.number(0x2112, 2)), Reason::bad_setting);
+  EXPECT_EQ(bench.number(0x2112, 4), 1U) << "the second axis";
+  EXPECT_EQ(bench.offsets()[1], 0);
+  bench.nmt(NmtCommand::enter_pre_operational);
+  ASSERT_EQ(bench.set<std::int32_t>(0x2202, 2, 1000), AbortCode::none);
+  bench.nmt(NmtCommand::start);
+  bench.cycles(100);
+  EXPECT_EQ(bench.state(), NodeState::compensating);
+}
+
+// Tables that were activated wait for the next tick: until then nothing else is taken.
+TEST(NodeCommands, NothingElseWhileAHandOverIsPending) {
+  NodeBench bench;
+  bench.bring_up();
+  const Bytes other = image_of(bench_tables(1));
+  ASSERT_EQ(bench.write({0x2110, 1}, other), AbortCode::none);
+  ASSERT_EQ(bench.command(TableCommand::activate), AbortCode::none);
+  EXPECT_EQ(bench.command(TableCommand::validate), AbortCode::device_state);
+  EXPECT_EQ(bench.write({0x2110, 1}, image_of(bench_tables())), AbortCode::device_state);
+  bench.cycle();
+  EXPECT_EQ(bench.command(TableCommand::validate), AbortCode::none);
+  EXPECT_EQ(bench.number(0x2112, 7), image_crc({other.data(), other.size()}));
 }
 
 // Downloaded while compensating: what is active stays what it is until the command.

@@ -11,9 +11,6 @@ namespace {
 using canopen::AbortCode;
 using canopen::ErrorCode;
 
-constexpr std::uint32_t kSave = 0x65766173;  // "save"
-constexpr std::uint32_t kLoad = 0x64616F6C;  // "load"
-
 // X is wrong by this much everywhere, Y and Z are right.
 MachineTables tables_of(std::int32_t error_nm) {
   MachineTables tables;

@@ -13,7 +13,6 @@ namespace {
 using canopen::AbortCode;
 
 constexpr double kWireStep = 2.0 * kPi / 2147483648.0;  // rad
-constexpr std::uint32_t kSave = 0x65766173;             // "save"
 
 using Errors = StrokeBench::Errors;
 

@@ -15,14 +15,14 @@ namespace {
 using Small = hal::MemoryBlocks<1024, 2>;
 using hal::Torn;
 
-const Record kOld = make_record(100, 300, 11);
-const Record kNew = make_record(90, 310, 12);
+const Record kFirst = make_record(100, 300, 11);
+const Record kSecond = make_record(90, 310, 12);
 
-// kOld in slot 0, then kNew in slot 1.
+// kFirst in slot 0, then kSecond in slot 1.
 Small with_both() {
   Small flash;
-  EXPECT_EQ(save(flash, kOld), StoreResult::done);
-  EXPECT_EQ(save(flash, kNew), StoreResult::done);
+  EXPECT_EQ(save(flash, kFirst), StoreResult::done);
+  EXPECT_EQ(save(flash, kSecond), StoreResult::done);
   return flash;
 }
 
@@ -66,9 +66,10 @@ TEST(RecordStore, ABlankDeviceHasNothingStored) {
 // The largest unit the layout allows, and that of flash programmed byte by byte.
 template <class Flash>
 class RecordStoreOf : public ::testing::Test {};
-using UnitSizes = ::testing::Types<hal::MemoryBlocks<32768, 2, 32>, hal::MemoryBlocks<32768, 2, 8>,
-                                   hal::MemoryBlocks<32768, 2, 1>>;
-TYPED_TEST_SUITE(RecordStoreOf, UnitSizes, );
+using UnitsOfLargeBlocks =
+    ::testing::Types<hal::MemoryBlocks<32768, 2, 32>, hal::MemoryBlocks<32768, 2, 8>,
+                     hal::MemoryBlocks<32768, 2, 1>>;
+TYPED_TEST_SUITE(RecordStoreOf, UnitsOfLargeBlocks, );
 
 TYPED_TEST(RecordStoreOf, ReturnsEverySizeUpToAFullSector) {
   const std::vector<std::pair<std::size_t, std::size_t>> sizes{
@@ -89,13 +90,13 @@ TYPED_TEST(RecordStoreOf, ReturnsEverySizeUpToAFullSector) {
 
 TEST(RecordStore, RefusesWhatDoesNotFitAndTouchesNothing) {
   Small flash;
-  ASSERT_EQ(save(flash, kOld), StoreResult::done);
+  ASSERT_EQ(save(flash, kFirst), StoreResult::done);
   const std::size_t operations = flash.operations();
   for (const auto& [parameters, image] : std::vector<std::pair<std::size_t, std::size_t>>{
            {0, 961}, {961, 0}, {1, 929}, {929, 1}, {5000, 0}, {0, 5000}})
     EXPECT_EQ(save(flash, make_record(parameters, image, 1)), StoreResult::too_large);
   EXPECT_EQ(flash.operations(), operations);
-  expect_loads(flash, StoreResult::loaded, kOld);
+  expect_loads(flash, StoreResult::loaded, kFirst);
 }
 
 TEST(RecordStore, ReadsItsOwnSaveWithoutLoading) {
@@ -105,17 +106,17 @@ TEST(RecordStore, ReadsItsOwnSaveWithoutLoading) {
   std::size_t size = 7;
   EXPECT_EQ(store.read_image(out, size), StoreResult::nothing_stored);
   EXPECT_EQ(size, 0U);
-  ASSERT_EQ(store.save(kOld.parameters, kOld.image), StoreResult::done);
+  ASSERT_EQ(store.save(kFirst.parameters, kFirst.image), StoreResult::done);
   EXPECT_EQ(store.record().sequence, 1U);
   ASSERT_EQ(store.read_image(out, size), StoreResult::done);
   out.resize(size);
-  EXPECT_EQ(out, kOld.image);
+  EXPECT_EQ(out, kFirst.image);
 }
 
 TEST(RecordStore, SaysHowLargeABufferMustBe) {
   Small flash;
   RecordStore<Small> store(flash);
-  ASSERT_EQ(store.save(kOld.parameters, kOld.image), StoreResult::done);
+  ASSERT_EQ(store.save(kFirst.parameters, kFirst.image), StoreResult::done);
   Bytes out(299, 0x55);
   std::size_t size = 0;
   EXPECT_EQ(store.read_image(out, size), StoreResult::buffer_too_small);
@@ -126,7 +127,7 @@ TEST(RecordStore, SaysHowLargeABufferMustBe) {
 TEST(RecordStore, PartsAreCheckedAgainWhenTheyAreRead) {
   Small flash;
   RecordStore<Small> store(flash);
-  ASSERT_EQ(store.save(kOld.parameters, kOld.image), StoreResult::done);
+  ASSERT_EQ(store.save(kFirst.parameters, kFirst.image), StoreResult::done);
   flash.flip(kParametersAt, 1);
   Bytes out(1024);
   std::size_t size = 0;
@@ -136,7 +137,7 @@ TEST(RecordStore, PartsAreCheckedAgainWhenTheyAreRead) {
 
 TEST(RecordStore, TheSequenceNumberWraps) {
   Small flash;
-  ASSERT_EQ(save(flash, kOld), StoreResult::done);
+  ASSERT_EQ(save(flash, kFirst), StoreResult::done);
   RecordHeaderBytes bytes{};
   ASSERT_EQ(flash.read(0, bytes), hal::BlockRead::done);
   RecordHeader header = decode_record_header(bytes, 1024).header;
@@ -168,21 +169,21 @@ TEST(RecordStore, EveryFlippedBitOfTheNewestRecordGivesTheOlderAndIsSaid) {
       Small flash = before;
       flash.flip(1024 + at, static_cast<std::uint8_t>(1U << bit));
       expect_loads(flash, of_record ? StoreResult::loaded_older : StoreResult::loaded,
-                   of_record ? kOld : kNew);
+                   of_record ? kFirst : kSecond);
     }
   }
 }
 
 TEST(RecordStore, EveryFlippedBitOfTheOnlyRecordIsRefusedAsDamage) {
   Small before;
-  ASSERT_EQ(save(before, kOld), StoreResult::done);
+  ASSERT_EQ(save(before, kFirst), StoreResult::done);
   std::size_t refused = 0;
   for (std::size_t at = 0; at < 1024; ++at) {
     for (unsigned bit = 0; bit < 8; ++bit) {
       Small flash = before;
       flash.flip(at, static_cast<std::uint8_t>(1U << bit));
       const Loaded found = load(flash);
-      const bool intact = found.result == StoreResult::loaded && found.record == kOld;
+      const bool intact = found.result == StoreResult::loaded && found.record == kFirst;
       EXPECT_TRUE(intact || found.result == StoreResult::damaged) << at;
       refused += intact ? 0U : 1U;
     }
@@ -198,11 +199,11 @@ TEST(RecordStore, AnotherImageInThePlaceOfTheStoredOneIsDamage) {
       bytes.push_back(static_cast<std::uint8_t>(crc >> (8 * i)));
     return bytes;
   };
-  const Bytes stored = closed(kOld.image);
+  const Bytes stored = closed(kFirst.image);
   const Bytes other = closed(make_record(0, 300, 14).image);
   ASSERT_EQ(crc32(stored), crc32(other));
   Small flash;
-  ASSERT_EQ(save(flash, {kOld.parameters, stored}), StoreResult::done);
+  ASSERT_EQ(save(flash, {kFirst.parameters, stored}), StoreResult::done);
   for (std::size_t i = 0; i < stored.size(); ++i)
     flash.flip(image_at(100) + i, static_cast<std::uint8_t>(stored[i] ^ other[i]));
   EXPECT_EQ(load(flash).result, StoreResult::damaged);
@@ -211,7 +212,7 @@ TEST(RecordStore, AnotherImageInThePlaceOfTheStoredOneIsDamage) {
 TEST(RecordStore, DamageToTheOlderRecordIsNoLoss) {
   Small flash = with_both();
   flash.flip(kParametersAt, 1);
-  expect_loads(flash, StoreResult::loaded, kNew);
+  expect_loads(flash, StoreResult::loaded, kSecond);
 }
 
 TEST(RecordStore, DamageToBothIsSaidAndCanBeSavedOver) {
@@ -219,17 +220,17 @@ TEST(RecordStore, DamageToBothIsSaidAndCanBeSavedOver) {
   flash.flip(0, 1);
   flash.flip(1024 + kParametersAt, 1);
   EXPECT_EQ(load(flash).result, StoreResult::damaged);
-  EXPECT_EQ(save(flash, kNew), StoreResult::done);
-  expect_loads(flash, StoreResult::loaded, kNew);
+  EXPECT_EQ(save(flash, kSecond), StoreResult::done);
+  expect_loads(flash, StoreResult::loaded, kSecond);
 }
 
 TEST(RecordStore, ADamagedNewestRecordIsReplacedAndTheOlderKept) {
   Small flash = with_both();
   flash.flip(1024 + kParametersAt, 1);
   const Bytes older = slot_of(flash, 0);
-  ASSERT_EQ(save(flash, kNew), StoreResult::done);
+  ASSERT_EQ(save(flash, kSecond), StoreResult::done);
   EXPECT_EQ(slot_of(flash, 0), older);
-  expect_loads(flash, StoreResult::loaded, kNew);
+  expect_loads(flash, StoreResult::loaded, kSecond);
 }
 
 TEST(RecordStore, SizesBeyondTheSectorAreNotBelieved) {
@@ -245,13 +246,13 @@ TEST(RecordStore, SizesBeyondTheSectorAreNotBelieved) {
 
 class FailingDevice : public ::testing::Test {
  protected:
-  void SetUp() override { ASSERT_EQ(save(flash, kOld), StoreResult::done); }
+  void SetUp() override { ASSERT_EQ(save(flash, kFirst), StoreResult::done); }
 
   // As soon as the device works again, so does the store.
   void TearDown() override {
-    EXPECT_TRUE(load(flash).record == kOld);
-    EXPECT_EQ(save(flash, kNew), StoreResult::done);
-    expect_loads(flash, StoreResult::loaded, kNew);
+    EXPECT_TRUE(load(flash).record == kFirst);
+    EXPECT_EQ(save(flash, kSecond), StoreResult::done);
+    expect_loads(flash, StoreResult::loaded, kSecond);
   }
 
   Small flash;
@@ -259,16 +260,16 @@ class FailingDevice : public ::testing::Test {
 
 TEST_F(FailingDevice, Erasing) {
   flash.refuse_erases(true);
-  EXPECT_EQ(save(flash, kNew), StoreResult::erase_failed);
+  EXPECT_EQ(save(flash, kSecond), StoreResult::erase_failed);
   EXPECT_EQ(erase_all(flash), StoreResult::erase_failed);
-  expect_loads(flash, StoreResult::loaded, kOld);
+  expect_loads(flash, StoreResult::loaded, kFirst);
   flash.refuse_erases(false);
 }
 
 TEST_F(FailingDevice, Programming) {
   flash.refuse_programs(true);
-  EXPECT_EQ(save(flash, kNew), StoreResult::write_failed);
-  expect_loads(flash, StoreResult::loaded, kOld);
+  EXPECT_EQ(save(flash, kSecond), StoreResult::write_failed);
+  expect_loads(flash, StoreResult::loaded, kFirst);
   flash.refuse_programs(false);
 }
 
@@ -277,7 +278,7 @@ TEST_F(FailingDevice, Reading) {
   flash.refuse_reads(0, true);
   flash.refuse_reads(1, true);
   EXPECT_EQ(load(flash).result, StoreResult::read_failed);
-  EXPECT_EQ(save(flash, kNew), StoreResult::read_failed);
+  EXPECT_EQ(save(flash, kSecond), StoreResult::read_failed);
   EXPECT_EQ(flash.operations(), operations) << "nothing is erased that does not answer";
   flash.refuse_reads(0, false);
   flash.refuse_reads(1, false);
@@ -285,10 +286,10 @@ TEST_F(FailingDevice, Reading) {
 
 TEST_F(FailingDevice, ABitThatCannotBeProgrammed) {
   flash.set_stuck_bits(0x10);
-  EXPECT_EQ(save(flash, kNew), StoreResult::verify_failed);
-  expect_loads(flash, StoreResult::loaded_older, kOld);  // no header was written
+  EXPECT_EQ(save(flash, kSecond), StoreResult::verify_failed);
+  expect_loads(flash, StoreResult::loaded_older, kFirst);  // no header was written
   EXPECT_EQ(save(flash, Record{}), StoreResult::verify_failed) << "in the header";
-  expect_loads(flash, StoreResult::loaded_older, kOld);
+  expect_loads(flash, StoreResult::loaded_older, kFirst);
   flash.set_stuck_bits(0);
 }
 
@@ -307,7 +308,7 @@ TEST(RecordStore, AFailureOfEveryOperationIsReportedAndLosesNothing) {
       const StoreResult result = save(flash, next);
       EXPECT_EQ(result, at == 0 ? StoreResult::erase_failed : StoreResult::write_failed);
       const Loaded found = load(flash);
-      EXPECT_TRUE(found.record == kNew || found.record == next);
+      EXPECT_TRUE(found.record == kSecond || found.record == next);
       EXPECT_EQ(save(flash, next), StoreResult::done);
       expect_loads(flash, StoreResult::loaded, next);
     }
@@ -317,30 +318,30 @@ TEST(RecordStore, AFailureOfEveryOperationIsReportedAndLosesNothing) {
 TEST(RecordStore, AnUnreadableSlotIsReplacedWhenTheOtherIsIntact) {
   Small flash = with_both();
   flash.refuse_reads(1, true);
-  expect_loads(flash, StoreResult::loaded_older, kOld);
-  EXPECT_EQ(save(flash, kOld), StoreResult::read_failed) << "it cannot be verified";
+  expect_loads(flash, StoreResult::loaded_older, kFirst);
+  EXPECT_EQ(save(flash, kFirst), StoreResult::read_failed) << "it cannot be verified";
   flash.refuse_reads(1, false);
-  EXPECT_TRUE(load(flash).record == kOld);
+  EXPECT_TRUE(load(flash).record == kFirst);
 }
 
 TEST(RecordStore, AnUnreadableRecordIsErasedOnlyAfterItsSuccessorIsComplete) {
   Small before;
-  ASSERT_EQ(save(before, kOld), StoreResult::done);
+  ASSERT_EQ(save(before, kFirst), StoreResult::done);
   before.refuse_reads(0, true);
   Small whole = before;
-  ASSERT_EQ(save(whole, kNew), StoreResult::done);
+  ASSERT_EQ(save(whole, kSecond), StoreResult::done);
   const std::size_t all = whole.operations() - before.operations();
   whole.refuse_reads(0, false);
-  expect_loads(whole, StoreResult::loaded, kNew);
+  expect_loads(whole, StoreResult::loaded, kSecond);
 
   for (std::size_t at = 0; at < all; ++at) {
     Small cut = before;
     cut.cut_power_at(at, Torn::random);
-    EXPECT_NE(save(cut, kNew), StoreResult::done);
+    EXPECT_NE(save(cut, kSecond), StoreResult::done);
     cut.power_on();
     cut.refuse_reads(0, false);
     const Loaded found = load(cut);
-    EXPECT_TRUE(found.record == kOld || (found.record == kNew && at >= all - 2)) << at;
+    EXPECT_TRUE(found.record == kFirst || (found.record == kSecond && at >= all - 2)) << at;
   }
 }
 

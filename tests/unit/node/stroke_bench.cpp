@@ -94,6 +94,7 @@ void StrokeBench::cycle(std::int32_t z_nm, std::uint16_t slot, bool up, bool end
     least = std::min(least, offset());
   }
   for (std::size_t a = 0; a < 3; ++a) {
+    if (drive[a].silent) continue;
     bench.drive_data(a);
     bench.offset_report(a);
   }
@@ -111,8 +112,9 @@ void StrokeBench::cycle(std::int32_t z_nm, std::uint16_t slot, bool up, bool end
     canopen::store_le(&f.data[4], 4, static_cast<std::uint32_t>(feed_nm_per_s));
     bench.give(f);
   }
-  for (std::size_t a = 0; a < 3; ++a)
-    bench.controller_data(a);
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!drive[a].silent) bench.controller_data(a);
+  }
   bench.wait(NodeBench::kPeriod_us);
 }
 

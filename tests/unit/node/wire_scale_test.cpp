@@ -69,6 +69,26 @@ TEST(WireScale, HalvesGoToTheEvenNeighbour) {
   EXPECT_EQ(offset_to_wire(-3, two_nm_per_unit), -2);
 }
 
+// A promise may be kept more than well, never less.
+TEST(WireScale, LimitsOfStepsAreRoundedDown) {
+  EXPECT_EQ(step_to_wire(1500, {1000, 1, false}), 1);
+  EXPECT_EQ(step_to_wire(9996, {10, 1, false}), 999);
+  EXPECT_EQ(step_to_wire(400, {1000, 1, false}), 0);
+  EXPECT_EQ(step_to_wire(400, {1, 3, false}), 1200);
+  EXPECT_EQ(step_to_wire(INT32_MAX, {1, 1000, false}), INT32_MAX);
+  Random random(315);
+  SCOPED_TRACE(random.trace());
+  for (int i = 0; i < kPoints; ++i) {
+    const WireScale s = any_scale(random);
+    const auto step = static_cast<std::int32_t>(random.integer(1, 1'000'000'000));
+    const std::int32_t wire = step_to_wire(step, s);
+    if (wire == INT32_MAX) continue;
+    const Wide fine = s.rotary ? 256 : 1;
+    ASSERT_LE(Wide{wire} * s.numerator, Wide{step} * fine * s.denominator);
+    ASSERT_GT((Wide{wire} + 1) * s.numerator, Wide{step} * fine * s.denominator);
+  }
+}
+
 TEST(WireScale, WhatDoesNotFitSaturates) {
   EXPECT_EQ(offset_to_wire(INT32_MAX, {1, 1000, false}), INT32_MAX);
   EXPECT_EQ(offset_to_wire(INT32_MIN, {1, kMostScale, true}), INT32_MIN);
@@ -123,6 +143,22 @@ TEST(WirePosition, RotaryAxisIsCountedThroughOverManyTurns) {
     wire -= kStep;
     expected -= std::int64_t{kStep} * 512;
     ASSERT_EQ(position.update(static_cast<std::int32_t>(wire), s), expected);
+  }
+}
+
+// After 2^23 turns the count wraps: to the same angle, as 2^64 is a whole number of turns.
+TEST(WirePosition, TheCountWrapsByWholeTurns) {
+  const WireScale s{kMostScale, 1, true};
+  constexpr std::uint32_t kStep = 0x4000'0123;  // 1024 turns and a bit
+  WirePosition position;
+  std::uint32_t wire = 0;
+  std::uint64_t expected = 0;
+  ASSERT_EQ(position.update(0, s), 0);
+  for (int i = 0; i < 20'000; ++i) {
+    wire += kStep;
+    expected += std::uint64_t{kStep} * kMostScale;
+    ASSERT_EQ(position.update(static_cast<std::int32_t>(wire), s),
+              static_cast<std::int64_t>(expected));
   }
 }
 

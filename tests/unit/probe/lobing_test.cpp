@@ -22,7 +22,7 @@ Vec3 anywhere(Random& random) {
 }
 
 // Evenly over the sphere: the spiral of Rakhmanov, Saff and Zhou.
-std::vector<Vec3> spread(std::size_t n) {
+std::vector<Vec3> all_round(std::size_t n) {
   std::vector<Vec3> all;
   for (std::size_t i = 0; i < n; ++i) {
     const double z = -1.0 + (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(n);
@@ -89,7 +89,7 @@ TEST(Lobing, FourTouchesInThirtySixDirectionsMapTheSphere) {
   Random random(41);
   std::vector<Vec3> mapped;
   for (int i = 0; i < 4; ++i) {
-    for (const Vec3& d : spread(36))
+    for (const Vec3& d : all_round(36))
       mapped.push_back(d);
   }
   std::vector<Vec3> checked;
@@ -106,7 +106,7 @@ TEST(Lobing, AnyMapComesBack) {
     for (double& c : truth.coefficient)
       c = random.in(-2.0, 2.0);
     truth.coefficient[0] = kRadius_um;
-    const std::vector<Vec3> directions = spread(36);
+    const std::vector<Vec3> directions = all_round(36);
     std::vector<double> radius;
     for (const Vec3& d : directions)
       radius.push_back(truth.radius(d));
@@ -141,7 +141,7 @@ TEST(Lobing, TermsThatCannotBeToldApartStayZero) {
 }
 
 TEST(Lobing, BadInputIsRefused) {
-  std::vector<Vec3> directions = spread(36);
+  std::vector<Vec3> directions = all_round(36);
   std::vector<double> radius(36, 1.5);
   LobingFit fit;
   fit.rank = -7;
@@ -163,7 +163,7 @@ TEST(SphereFit, FindsTheSphere) {
   Random random(43);
   const Vec3 centre(168.8, -30.0, 412.0);
   std::vector<Vec3> points;
-  for (const Vec3& d : spread(25))
+  for (const Vec3& d : all_round(25))
     points.push_back(centre + 12.5 * d);
   SphereFit fit;
   ASSERT_TRUE(fit_sphere(points, fit).ok());
@@ -172,11 +172,11 @@ TEST(SphereFit, FindsTheSphere) {
   EXPECT_LT(fit.rms, 1e-11);
 }
 
-// Of a hemisphere, as a probe reaches it: spread of 2000 fits beside the covariance.
+// Of a hemisphere, as a probe reaches it: all_round of 2000 fits beside the covariance.
 TEST(SphereFit, CovarianceIsTheSpread) {
   Random random(44);
   std::vector<Vec3> hemisphere;
-  for (const Vec3& d : spread(50)) {
+  for (const Vec3& d : all_round(50)) {
     if (d.z() > 0.0) hemisphere.push_back(d);
   }
   constexpr double kSigma = 1e-4;

@@ -9,11 +9,11 @@
 namespace volcomp::test {
 namespace {
 
-constexpr int kTouches = 5'000;
+constexpr int kPointTouches = 5'000;
 
 // Obtained with g++ 12 at -O2 on x86-64, and the same on the M7 and the M4F. A change of it is a
 // change of the arithmetic, which the conventions (section 5) forbid to happen by itself.
-constexpr std::uint32_t kDigest = 2'173'031'660;
+constexpr std::uint32_t kPointDigest = 2'173'031'660;
 
 MachineTables fixed_tables() {
   Fixed fixed;
@@ -91,13 +91,13 @@ TEST(PointDeterminism, SameBitsEverywhere) {
   ProbeCorrector corrector = probing_corrector();
   corrector.settings = fixed_settings(fixed);
   Digest digest;
-  for (int i = 0; i < kTouches; ++i) {
+  for (int i = 0; i < kPointTouches; ++i) {
     const Touch touch = fixed_touch(fixed);
     const ProbeFeature feature = fixed_feature(fixed);
     add_record(digest,
                corrector.correct(touch, feature, runner.compensator->error_at(touch.latched)));
   }
-  EXPECT_EQ(digest.value(), kDigest);
+  EXPECT_EQ(digest.value(), kPointDigest);
 }
 
 }  // namespace

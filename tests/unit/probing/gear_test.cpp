@@ -11,7 +11,7 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr double kBall = 1.4935;
+constexpr double kStylus = 1.4935;
 
 InvoluteGear gear_with(double helix_deg) {
   InvoluteGear g;
@@ -61,7 +61,7 @@ TEST_P(GearAt, ABallOnTheNormalOfAFlankIsAsFarAwayAsItIs) {
         const Vec3 p = on_flank(g, flank, s, 13.0);
         const Vec3 n = normal_of(g, flank, s, 13.0);
         for (const double distance : {-0.05, 0.0, 0.3}) {
-          const Gap gap = gear.gap(p + (kBall + distance) * n, kBall);
+          const Gap gap = gear.gap(p + (kStylus + distance) * n, kStylus);
           EXPECT_NEAR(gap.mm, distance, 1e-9) << tooth << " " << s;
           EXPECT_LT((gap.normal - n).norm(), 1e-8);
         }
@@ -77,8 +77,8 @@ TEST_P(GearAt, DeviationsAreThoseOfThePointTouched) {
     return 1e-3 * (side + 0.1 * flank.tooth + 0.01 * s + 0.001 * x);
   });
   const Flank flank{FlankSide::right, 3};
-  const Vec3 centre = on_flank(g, flank, 20.0, 11.0) + kBall * normal_of(g, flank, 20.0, 11.0);
-  EXPECT_NEAR(gear.gap(centre, kBall).mm, -1e-3 * (2.0 + 0.3 + 0.2 + 0.011), 1e-9);
+  const Vec3 centre = on_flank(g, flank, 20.0, 11.0) + kStylus * normal_of(g, flank, 20.0, 11.0);
+  EXPECT_NEAR(gear.gap(centre, kStylus).mm, -1e-3 * (2.0 + 0.3 + 0.2 + 0.011), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Helix, GearAt, testing::Values(0.0, 15.0, -25.0));
@@ -86,20 +86,20 @@ INSTANTIATE_TEST_SUITE_P(Helix, GearAt, testing::Values(0.0, 15.0, -25.0));
 // Tip diameter 132 mm, root diameter 114 mm, 30 mm wide.
 TEST(Gear, EndsAtTipRootAndFaces) {
   const Gear gear(gear_with(0.0));
-  const Gap tip = gear.gap({15.0, 70.0, 0.0}, kBall);
-  EXPECT_NEAR(tip.mm, 70.0 - 66.0 - kBall, 1e-12);
+  const Gap tip = gear.gap({15.0, 70.0, 0.0}, kStylus);
+  EXPECT_NEAR(tip.mm, 70.0 - 66.0 - kStylus, 1e-12);
   EXPECT_LT((tip.normal - Vec3::UnitY()).norm(), 1e-12);
 
   const double half_pitch = kPi / 31.0;
   const Vec3 in_space(15.0, 58.4 * std::cos(half_pitch), 58.4 * std::sin(half_pitch));
   EXPECT_NEAR(gear.gap(in_space, 0.5).mm, 58.4 - 57.0 - 0.5, 1e-12);
 
-  const Gap face = gear.gap({35.0, 60.0, 0.0}, kBall);
-  EXPECT_NEAR(face.mm, 5.0 - kBall, 1e-12);
+  const Gap face = gear.gap({35.0, 60.0, 0.0}, kStylus);
+  EXPECT_NEAR(face.mm, 5.0 - kStylus, 1e-12);
   EXPECT_LT((face.normal - Vec3::UnitX()).norm(), 1e-12);
-  EXPECT_NEAR(gear.gap({-2.0, 60.0, 0.0}, kBall).mm, 2.0 - kBall, 1e-12);
+  EXPECT_NEAR(gear.gap({-2.0, 60.0, 0.0}, kStylus).mm, 2.0 - kStylus, 1e-12);
 
-  EXPECT_LT(gear.gap({15.0, 0.0, 0.0}, kBall).mm, -10.0);
+  EXPECT_LT(gear.gap({15.0, 0.0, 0.0}, kStylus).mm, -10.0);
 }
 
 }  // namespace

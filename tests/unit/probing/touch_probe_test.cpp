@@ -10,7 +10,7 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr double kBall = 1.4935;
+constexpr double kTip = 1.4935;
 constexpr double kSpeed_mm_s = 1000.0 / 60.0;
 constexpr std::int64_t kPeriod_ns = 4'000'000;
 constexpr double kStep_mm = kSpeed_mm_s * kPeriod_ns * 1e-9;
@@ -53,7 +53,7 @@ class Probe : public testing::Test {
 // The ball of 1.4935 mm touches y = 60 mm when its centre is at 61.4935 mm.
 TEST_F(Probe, TripsWhenTheBallIsThere) {
   for (const double begin : {62.0, 62.0123, 61.9}) {
-    TouchProbe probe(truth, wall, {kBall, {}, 10'000, {}});
+    TouchProbe probe(truth, wall, {kTip, {}, 10'000, {}});
     const auto edges = touch(probe, begin, 12, 12);
     const double expected_ns = (begin - 61.4935) / kSpeed_mm_s * 1e9 + 10'000.0;
     ASSERT_EQ(edges.size(), 2U);
@@ -67,7 +67,7 @@ TEST_F(Probe, TripsWhenTheBallIsThere) {
 }
 
 TEST_F(Probe, AnEdgeDelayedIntoTheNextPeriodBelongsToThatPeriod) {
-  TouchProbe probe(truth, wall, {kBall, {}, 10'000, {}});
+  TouchProbe probe(truth, wall, {kTip, {}, 10'000, {}});
   const double begin = 61.4935 + kSpeed_mm_s * (kPeriod_ns - 4'000) * 1e-9;
   EXPECT_TRUE(probe.travel(at(begin), at(begin - kStep_mm), kPeriod_ns).empty());
   const auto edges = probe.travel(at(begin - kStep_mm), at(begin - 2.0 * kStep_mm), kPeriod_ns);
@@ -76,7 +76,7 @@ TEST_F(Probe, AnEdgeDelayedIntoTheNextPeriodBelongsToThatPeriod) {
 }
 
 TEST_F(Probe, BouncesAsItIsTold) {
-  TouchProbe probe(truth, wall, {kBall, {}, 10'000, {200'000, 5'000'000}});
+  TouchProbe probe(truth, wall, {kTip, {}, 10'000, {200'000, 5'000'000}});
   const auto edges = touch(probe, 62.0, 12, 0);
   ASSERT_EQ(edges.size(), 5U);
   const std::int64_t first = edges[0].time_ns;
@@ -88,7 +88,7 @@ TEST_F(Probe, BouncesAsItIsTold) {
 }
 
 TEST_F(Probe, InContactFromTheBeginningItHasNoRisingEdge) {
-  TouchProbe probe(truth, wall, {kBall, {}, 0, {}});
+  TouchProbe probe(truth, wall, {kTip, {}, 0, {}});
   EXPECT_TRUE(touch(probe, 61.4, 3, 0).empty());
 }
 
@@ -100,16 +100,16 @@ TEST_F(Probe, LobingFollowsTheFrameOfTheProbe) {
     seen = normal;
     return 0.004 * normal.z();
   };
-  TouchProbe on_wall(truth, wall, {kBall, lobing, 0, {}});
+  TouchProbe on_wall(truth, wall, {kTip, lobing, 0, {}});
   EXPECT_NEAR(on_wall.margin_mm(at(62.0)), 62.0 - 61.4935, 1e-12);
   EXPECT_LT((seen - Vec3::UnitY()).norm(), 1e-14);
 
   const double theta = 0.2;
   const Plane floor({0.0, 0.0, 20.0}, Vec3::UnitZ());
-  TouchProbe on_floor(truth, floor, {kBall, lobing, 0, {}});
+  TouchProbe on_floor(truth, floor, {kTip, lobing, 0, {}});
   const double height = 173.7135 * std::sin(theta);
   EXPECT_NEAR(on_floor.margin_mm(at(62.0, kArmLevel + theta)),
-              height - 20.0 - kBall - 0.004 * std::cos(theta), 1e-12);
+              height - 20.0 - kTip - 0.004 * std::cos(theta), 1e-12);
   // Of the probe's frame turned by +θ about Y, Z of the machine is (−sin θ, 0, cos θ).
   EXPECT_LT((seen - Vec3(-std::sin(theta), 0.0, std::cos(theta))).norm(), 1e-14);
 }
@@ -119,7 +119,7 @@ TEST_F(Probe, TouchesWithTheMachineAsItReallyIs) {
   truth.axis[1].lo = kOnAxis;
   truth.axis[1].hi = kOnAxis + 200.0;
   truth.axis[1].channel[1].linear = 0.012;
-  TouchProbe probe(truth, wall, {kBall, {}, 0, {}});
+  TouchProbe probe(truth, wall, {kTip, {}, 0, {}});
   EXPECT_NEAR(probe.ball_centre(at(50.0)).y(), 50.003, 1e-12);
   EXPECT_NEAR(probe.margin_mm(at(62.0)), 62.0 + 0.00372 - 61.4935, 1e-12);
 }

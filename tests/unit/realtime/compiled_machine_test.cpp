@@ -61,7 +61,6 @@ static_assert(!CompiledMachine<kRotary, RuntimeModel::folded>::chain.folded,
 TEST(CompiledMachine, RotaryMachineEqualsTheLoadedOne) {
   Random random(110);
   SCOPED_TRACE(random.trace());
-  constexpr std::int64_t kTurn = std::int64_t{1} << 40;
   MachineTables tables;
   tables.machine = kRotary;
   tables.axis[0] = random_table(-100'000'000, 20'000'000, 11, 10e3, 5e-5, random);

@@ -6,7 +6,8 @@
 namespace volcomp::test {
 namespace {
 
-constexpr int kTicks = 100'000;
+constexpr int kFixedTicks = 100'000;
+
 template <class Output>
 void add_record(Digest& digest, const Output& out, std::size_t axes) {
   for (std::size_t a = 0; a < axes; ++a) {
@@ -22,7 +23,7 @@ std::uint32_t run(AnyRunner& runner, std::size_t axes, std::int64_t rotary_span)
   Fixed fixed;
   Digest digest;
   typename AnyRunner::Positions q{};
-  for (int n = 0; n < kTicks; ++n) {
+  for (int n = 0; n < kFixedTicks; ++n) {
     for (std::size_t a = 0; a < axes; ++a) {
       q[a] += fixed.integer(-900'000, 1'000'000);
       if (a < 3 && q[a] > 30'000'000) q[a] = -450'000'000;

@@ -5,19 +5,6 @@
 namespace volcomp::test {
 namespace {
 
-MachineTables constant_tables(float x_nm) {
-  MachineTables t;
-  t.machine = kXyfzMachine;
-  for (std::size_t a = 0; a < 3; ++a) {
-    t.axis[a].q0 = -100'000'000;
-    t.axis[a].pitch = 100'000'000;
-    t.axis[a].knots = 2;
-  }
-  for (auto& column : t.axis[0].value)
-    column[0][0] = column[1][0] = x_nm;
-  return t;
-}
-
 std::size_t bit(StatusBit status) {
   return static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(status)));
 }

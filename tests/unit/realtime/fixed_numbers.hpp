@@ -6,8 +6,6 @@
 
 namespace volcomp::test {
 
-inline constexpr std::int64_t kTurn = std::int64_t{1} << 40;
-
 // Integers, and floats that one division makes of them.
 class Fixed {
  public:

@@ -14,6 +14,9 @@ MachineTables small_tables(Random& random) {
   MachineTables t = xyfz_tables(40e3, 4e-5, random);
   for (std::size_t a = 0; a < 3; ++a)
     t.axis[a] = random_table(-100'000'000, 50'000'000, 3, 40e3, 4e-5, random);
+  t.provenance.expires_unix_s = 1'800'000'000;
+  for (std::size_t a = 0; a < 3; ++a)
+    t.expansion[a] = {11.7e-6F, -100.0F, static_cast<std::uint8_t>(a)};
   return t;
 }
 
@@ -88,7 +91,7 @@ TEST_F(ImageDamage, TheAxisIsNamed) {
 
 // A knot count that lies must not send the search for the damaged axis astray.
 TEST_F(ImageDamage, LyingKnotCountsAreHarmless) {
-  const std::size_t knots_at = image_value_offset(tables, 0, 0, 0, 0) - 24 - 1 - 4;
+  const std::size_t knots_at = image_value_offset(tables, 0, 0, 0, 0) - 9 - 24 - 1 - 4;
   ASSERT_EQ(good[knots_at], 3);
   for (const std::uint32_t lie :
        {0U, 1U, 2U, 4U, 0x0FFFFFFFU, 0x0AAAAAA9U, 0x7FFFFFFFU, 0xFFFFFFFFU, 0x05555555U}) {

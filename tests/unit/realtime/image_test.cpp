@@ -5,6 +5,7 @@
 
 #include "comp/tables/crc32.hpp"
 #include "comp/tables/image.hpp"
+#include "comp/tables/image_layout.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {
@@ -12,7 +13,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Bytes encode(const MachineTables& tables) {
+Bytes image_of(const MachineTables& tables) {
   Bytes bytes(image_size(tables));
   std::size_t written = 0;
   EXPECT_TRUE(encode_image(tables, bytes, written).ok());
@@ -62,7 +63,9 @@ MachineTables any_tables(Random& random) {
   t.provenance.machine_id = 0xDEADBEEF;
   t.provenance.sequence = 77;
   t.provenance.built_unix_s = -1;
+  t.provenance.expires_unix_s = 1'800'000'000;
   t.provenance.temperature_C = 20.25F;
+  t.expansion[1] = {-8.5e-6F, 12.5F, 3};
   t.provenance.stamp = {'b', 'e', 'n', 'c', 'h'};
   return t;
 }
@@ -89,8 +92,8 @@ TEST(Crc32, CheckValueAndReference) {
 TEST(Image, IsNamedByItsClosingCrc) {
   Random random(92);
   SCOPED_TRACE(random.trace());
-  const Bytes a = encode(any_tables(random));
-  Bytes b = encode(any_tables(random));
+  const Bytes a = image_of(any_tables(random));
+  Bytes b = image_of(any_tables(random));
   ASSERT_EQ(a.size(), b.size());
   EXPECT_NE(image_crc({a.data(), a.size()}), image_crc({b.data(), b.size()}));
   EXPECT_EQ(crc32({a.data(), a.size()}), crc32({b.data(), b.size()}));
@@ -110,13 +113,19 @@ TEST(Image, RoundTripIsBitExact) {
   Random random(91);
   SCOPED_TRACE(random.trace());
   const MachineTables in = any_tables(random);
-  const Bytes bytes = encode(in);
+  const Bytes bytes = image_of(in);
   auto out = std::make_unique<MachineTables>();
   ASSERT_TRUE(decode(bytes, *out).ok());
-  EXPECT_EQ(encode(*out), bytes);
+  EXPECT_EQ(image_of(*out), bytes);
   EXPECT_EQ(out->provenance.machine_id, in.provenance.machine_id);
   EXPECT_EQ(out->provenance.sequence, in.provenance.sequence);
   EXPECT_EQ(out->provenance.built_unix_s, in.provenance.built_unix_s);
+  EXPECT_EQ(out->provenance.expires_unix_s, in.provenance.expires_unix_s);
+  EXPECT_EQ(out->provenance.temperature_C, in.provenance.temperature_C);
+  EXPECT_EQ(out->expansion[0].input, kNoTemperature);
+  EXPECT_EQ(out->expansion[1].per_K, -8.5e-6F);
+  EXPECT_EQ(out->expansion[1].fixed_mm, 12.5F);
+  EXPECT_EQ(out->expansion[1].input, 3);
   EXPECT_EQ(out->provenance.stamp, in.provenance.stamp);
   EXPECT_EQ(out->machine.tool_point, in.machine.tool_point);
   EXPECT_EQ(out->machine.body[5].constant_error, in.machine.body[5].constant_error);
@@ -138,9 +147,9 @@ TEST(Image, RoundTripIsBitExact) {
 TEST(Image, LayoutIsAsDocumented) {
   Random random(92);
   const MachineTables in = any_tables(random);
-  const Bytes bytes = encode(in);
+  const Bytes bytes = image_of(in);
   EXPECT_EQ(std::memcmp(bytes.data(), "VCT1", 4), 0);
-  EXPECT_EQ(bytes[4] + 256 * bytes[5], 2);
+  EXPECT_EQ(bytes[4] + 256 * bytes[5], 4);
   EXPECT_EQ(bytes[6], 4);
   EXPECT_EQ(bytes[7], 6);
   const auto u32 = [&](std::size_t at) {
@@ -150,6 +159,8 @@ TEST(Image, LayoutIsAsDocumented) {
   };
   EXPECT_EQ(u32(8), bytes.size());
   EXPECT_EQ(u32(12), 0xDEADBEEFU);
+  EXPECT_EQ(u32(28), 1'800'000'000U);
+  EXPECT_EQ(u32(32), 0U);
   EXPECT_EQ(u32(bytes.size() - 4), slow_crc(bytes.data(), bytes.size() - 4));
   // the stored float is where image_value_offset says
   for (const std::size_t axis : {0U, 2U, 3U}) {
@@ -158,6 +169,11 @@ TEST(Image, LayoutIsAsDocumented) {
     std::memcpy(&value, &raw, 4);
     EXPECT_EQ(value, in.axis[axis].value[1][7][4]);
   }
+  // expansion, fixed point and input stand in front of the first of them
+  const std::size_t knots_of_y = image_value_offset(in, 1, 0, 0, 0);
+  EXPECT_EQ(u32(knots_of_y - 9), 0xB70E9B39U);  // -8.5e-6
+  EXPECT_EQ(u32(knots_of_y - 5), 0x41480000U);  // 12.5
+  EXPECT_EQ(bytes[knots_of_y - 1], 3);
 }
 
 TEST(Image, BufferTooSmallIsRefused) {
@@ -171,7 +187,7 @@ TEST(Image, BufferTooSmallIsRefused) {
 
 TEST(Image, WrongMagicVersionAndCapacity) {
   Random random(94);
-  const Bytes good = encode(any_tables(random));
+  const Bytes good = image_of(any_tables(random));
   auto out = std::make_unique<MachineTables>();
   for (std::size_t i = 0; i < 4; ++i) {
     Bytes bad = good;
@@ -179,7 +195,7 @@ TEST(Image, WrongMagicVersionAndCapacity) {
     seal(bad);
     EXPECT_EQ(decode(bad, *out).reason, Reason::bad_magic);
   }
-  for (const unsigned version : {0U, 1U, 3U, 0x100U, 0xFFFFU}) {
+  for (const unsigned version : {0U, 1U, 2U, 3U, 5U, 0x100U, 0xFFFFU}) {
     Bytes bad = good;
     bad[4] = static_cast<std::uint8_t>(version & 0xFFU);
     bad[5] = static_cast<std::uint8_t>(version >> 8);
@@ -195,7 +211,7 @@ TEST(Image, WrongMagicVersionAndCapacity) {
 TEST(Image, NotANumberBehindACorrectCrcIsRefusedWithItsPlace) {
   Random random(95);
   const MachineTables in = any_tables(random);
-  const Bytes good = encode(in);
+  const Bytes good = image_of(in);
   auto out = std::make_unique<MachineTables>();
   for (const std::uint32_t pattern : {0x7FC00000U, 0x7F800000U, 0xFF800000U, 0x7F800001U}) {
     for (const std::size_t axis : {0U, 3U}) {
@@ -221,7 +237,7 @@ TEST(Image, OtherMachineShapesAreRefused) {
   const auto refused = [&](auto&& change) {
     MachineTables bad = in;
     change(bad);
-    Bytes bytes = encode(bad);
+    Bytes bytes = image_of(bad);
     return decode(bytes, *out).reason;
   };
   EXPECT_EQ(refused([](MachineTables& t) { t.machine.body[2].lower = 4; }),
@@ -252,22 +268,58 @@ TEST(Image, OtherMachineShapesAreRefused) {
   EXPECT_EQ(refused([](MachineTables&) {}), Reason::ok);
 }
 
+// Bytes that stand for no joint, bodies that have no place, axes that are not those of the machine.
+TEST(Image, NumbersThatAMachineCannotHaveAreRefused) {
+  Random random(96);
+  const Bytes good = image_of(any_tables(random));
+  auto out = std::make_unique<MachineTables>();
+  const auto refused = [&](std::size_t at, unsigned value) {
+    Bytes bad = good;
+    bad[at] = static_cast<std::uint8_t>(value);
+    seal(bad);
+    return decode(bad, *out);
+  };
+  const std::size_t second_body = image_layout::first_axis(1);
+  const Status kind = refused(second_body + 1, 3);
+  EXPECT_EQ(kind.reason, Reason::bad_joint);
+  EXPECT_EQ(kind.where.body, 2);
+  EXPECT_EQ(refused(second_body + 2, 3).reason, Reason::bad_joint);
+  EXPECT_EQ(refused(image_layout::kBodiesAt, kMaxBodies + 1).reason, Reason::too_many_bodies);
+  EXPECT_EQ(refused(image_layout::kAxesAt, good[image_layout::kAxesAt] + 1U).reason,
+            Reason::axes_mismatch);
+}
+
+// Cut anywhere, with size and CRC made right again: exact-size copies, so that a sanitizer sees any
+// read beyond the end.
+TEST(Image, ASealedPieceOfAnImageIsRefused) {
+  Random random(96);
+  const Bytes good = image_of(any_tables(random));
+  auto out = std::make_unique<MachineTables>();
+  for (std::size_t size = 12; size < good.size(); size += size < 2000 ? 1 : 37) {
+    Bytes piece(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+    for (std::size_t i = 0; i < 4; ++i)
+      piece[8 + i] = static_cast<std::uint8_t>(size >> (8 * i));
+    if (size >= 16) seal(piece);
+    EXPECT_FALSE(decode(piece, *out).ok()) << size;
+  }
+}
+
 // One axis twice among the correcting ones is not two correcting axes.
 TEST(Image, ARepeatedCorrectingAxisIsRefused) {
   Random random(97);
   MachineTables in = any_tables(random);
   in.machine.correcting = {0, 0, 1};
   auto out = std::make_unique<MachineTables>();
-  EXPECT_EQ(decode(encode(in), *out).reason, Reason::bad_axis_index);
+  EXPECT_EQ(decode(image_of(in), *out).reason, Reason::bad_axis_index);
 }
 
 // Tables that end before or after the image does, behind a correct CRC.
 TEST(Image, TablesThatDoNotFillTheImageAreRefused) {
   Random random(98);
   const MachineTables in = any_tables(random);
-  const Bytes good = encode(in);
+  const Bytes good = image_of(in);
   auto out = std::make_unique<MachineTables>();
-  const std::size_t knots_at = image_value_offset(in, 3, 0, 0, 0) - 24 - 1 - 4;
+  const std::size_t knots_at = image_value_offset(in, 3, 0, 0, 0) - 9 - 24 - 1 - 4;
   ASSERT_EQ(good[knots_at], 37);
   for (const int knots : {36, 38, 500}) {
     Bytes bad = good;
@@ -286,7 +338,7 @@ TEST(Image, TheViewFoldsLikeTheTables) {
   Random random(99);
   SCOPED_TRACE(random.trace());
   const MachineTables tables = any_tables(random);
-  const Bytes image = encode(tables);
+  const Bytes image = image_of(tables);
   auto view = std::make_unique<TablesView>();
   ASSERT_TRUE(check_image({image.data(), image.size()}, kTableKnots, *view).ok());
   LoadedRunner of_tables(tables.machine);

@@ -7,8 +7,6 @@
 namespace volcomp::test {
 namespace {
 
-constexpr std::int64_t kTurn = std::int64_t{1} << 40;
-
 Joint joint_of(JointKind kind) {
   Joint joint;
   joint.kind = kind;

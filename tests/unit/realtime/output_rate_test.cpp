@@ -5,8 +5,6 @@
 namespace volcomp::test {
 namespace {
 
-constexpr std::int64_t kTurn = std::int64_t{1} << 40;
-
 MachineTables big_tables(double sign, Random& random) {
   MachineTables t = xyfz_tables(60e3, 1e-4, random);
   for (AxisTable& axis : t.axis) {

@@ -122,7 +122,6 @@ TEST(PositionSource, MotionSubtractsTheError) {
 
 // A rotary correcting axis: its offset is fed back in 2^-32 turn, not in run-time units.
 TEST(PositionSource, RotaryFeedbackIsInTheRightUnit) {
-  constexpr std::int64_t kTurn = std::int64_t{1} << 40;
   MachineTables t;
   MachineDescription& d = t.machine;
   d.body_count = 2;

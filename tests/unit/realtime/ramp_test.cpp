@@ -8,19 +8,6 @@ namespace {
 
 double smooth(double u) { return 6 * std::pow(u, 5) - 15 * std::pow(u, 4) + 10 * std::pow(u, 3); }
 
-MachineTables constant_tables(float x_nm) {
-  MachineTables t;
-  t.machine = kXyfzMachine;
-  for (std::size_t a = 0; a < 3; ++a) {
-    t.axis[a].q0 = -100'000'000;
-    t.axis[a].pitch = 100'000'000;
-    t.axis[a].knots = 2;
-  }
-  for (auto& column : t.axis[0].value)
-    column[0][0] = column[1][0] = x_nm;
-  return t;
-}
-
 CompensatorSettings<5> ramped(std::uint32_t ticks) {
   auto settings = open_settings<5>();
   settings.ramp_ticks = ticks;
@@ -39,6 +26,14 @@ TEST(RampShape, IsTheQuinticStep) {
     EXPECT_FALSE(ramp.running());
     EXPECT_EQ(ramp.advance(), 1.0F);
   }
+}
+
+// Nothing to ramp: at its end from the beginning.
+TEST(RampShape, OfNoTicksIsOver) {
+  Ramp none;
+  none.restart(0);
+  EXPECT_FALSE(none.running());
+  EXPECT_TRUE(none.at_rest());
 }
 
 TEST(Ramp, ActivationSwapAndDeactivationFollowTheSmoothStep) {

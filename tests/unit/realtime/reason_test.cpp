@@ -9,7 +9,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr int kReasons = static_cast<int>(Reason::not_converged) + 1;
+constexpr int kReasons = static_cast<int>(Reason::cannot_orient) + 1;
 
 TEST(Reason, CodesAndSentencesAreDistinct) {
   std::set<std::string> codes;
@@ -33,13 +33,19 @@ TEST(Reason, CodesAreIdentifiersAndSentencesAreSentences) {
   }
 }
 
-// A node carries the sentences for what machines and tables can be refused for, and no others.
-TEST(Reason, LoadingSentencesEndWhereMeasuringBegins) {
-  for (int i = 0; i < kReasons; ++i) {
-    const auto reason = static_cast<Reason>(i);
-    EXPECT_EQ(loading_sentence(reason) != nullptr, reason < Reason::length_mismatch)
-        << code(reason);
-  }
+// A node carries the sentences for what images and settings can be refused for, and no others.
+TEST(Reason, LoadingSentencesAreThoseOfAnImage) {
+  for (const Reason reason :
+       {Reason::ok, Reason::not_finite, Reason::too_few_knots, Reason::too_many_knots,
+        Reason::pitch_not_positive, Reason::travel_too_long, Reason::not_periodic,
+        Reason::bad_magic, Reason::crc_mismatch, Reason::axes_mismatch, Reason::bound_exceeded,
+        Reason::bad_axis_index, Reason::no_authority, Reason::bad_setting, Reason::not_staged,
+        Reason::hand_over_pending, Reason::bad_thermal, Reason::expired, Reason::cannot_orient})
+    EXPECT_STREQ(loading_sentence(reason), sentence(reason)) << code(reason);
+  for (const Reason reason :
+       {Reason::no_runs, Reason::gap_too_large, Reason::unit_suspected, Reason::lever_mismatch,
+        Reason::too_few_points, Reason::length_mismatch, Reason::not_converged})
+    EXPECT_EQ(loading_sentence(reason), nullptr) << code(reason);
 }
 
 TEST(Reason, StableNames) {

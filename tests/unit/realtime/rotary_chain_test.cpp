@@ -3,12 +3,11 @@
 
 #include <algorithm>
 
-#include "tests/unit/realtime/support.hpp"
+#include "tests/unit/realtime/table_table.hpp"
 
 namespace volcomp::test {
 namespace {
 
-constexpr std::int64_t kTurn = std::int64_t{1} << 40;
 constexpr double kArm_mm = 173.7135;  // L_R of seed 000
 constexpr Real kWirePerRad = 4294967296.0L / (2 * 3.14159265358979323846264338327950288L);
 
@@ -26,29 +25,6 @@ MachineDescription l300g() {
   d.correcting = {0, 1, 2};
   d.correcting_count = 3;
   return d;
-}
-
-// X, A and C carry the table; Y and Z carry the tool.
-MachineDescription table_table() {
-  MachineDescription d;
-  d.body_count = 6;
-  d.body[1] = moving_body(1, JointKind::prismatic, Axis::x, -1, 0, 'X', {0, 0, 200});
-  d.body[2] = moving_body(2, JointKind::rotary, Axis::x, -1, 3, 'A', {50, 20, 180});
-  d.body[3] = moving_body(3, JointKind::rotary, Axis::z, -1, 4, 'C', {0.1, 35, 60});
-  d.body[4] = moving_body(1, JointKind::prismatic, Axis::y, 1, 1, 'Y', {40, 300, 700});
-  d.body[5] = moving_body(5, JointKind::prismatic, Axis::z, 1, 2, 'Z', {0, -150, 80});
-  d.work_body = 4;
-  d.tool_body = 6;
-  d.tool_point = {2, -3, -220};
-  d.correcting = {0, 1, 2};
-  d.correcting_count = 3;
-  return d;
-}
-
-AxisTable whole_turn(std::uint32_t knots, double delta_nm, double epsilon, Random& random) {
-  AxisTable t = random_table(kTurn / 7, kTurn / knots, knots, delta_nm, epsilon, random);
-  t.periodic = true;
-  return t;
 }
 
 MachineTables l300g_tables(double delta_nm, double epsilon, Random& random) {
@@ -161,6 +137,36 @@ TEST(RotaryChain, ThousandsOfTurnsChangeNoBit) {
       ASSERT_EQ(again.status[4] & kOutOfRange, 0) << turns << " turns";
     }
   }
+}
+
+// Nor does a sample that was lost on the way, however often the table has turned: 2^21 turns are
+// five days at 300 rpm, 2^23 are all that int64 counts.
+TEST(RotaryChain, ALostSampleAfterMillionsOfTurnsChangesNoBit) {
+  Random random(24);
+  SCOPED_TRACE(random.trace());
+  const MachineTables tables = table_table_tables(8e3, 40e-6, random);
+  const auto settings = [] {
+    auto s = open_settings<LoadedCompensator::kAxes>();
+    s.axis[4].max_step = 2 * kTurn;
+    return s;
+  }();
+  const auto path = [&](std::int64_t turns) {
+    LoadedRunner runner(tables.machine);
+    EXPECT_TRUE(runner.start(tables, settings).ok());
+    std::vector<std::array<std::int32_t, 5>> offsets;
+    for (int n = 0; n < 40; ++n) {
+      // The last of these counts wraps on the way.
+      const auto c = static_cast<std::int64_t>(static_cast<std::uint64_t>(turns * kTurn) +
+                                               static_cast<std::uint64_t>(n * kTurn / 16));
+      runner.in.axis[4].valid = n % 10 != 5;
+      offsets.push_back(runner.tick({-1'000'000, 2'000'000, 3'000'000, kTurn / 9, c}).offset);
+    }
+    return offsets;
+  };
+  const auto near_zero = path(0);
+  EXPECT_NE(near_zero.front(), near_zero.back());
+  for (const std::int64_t turns : {2'097'151, 2'100'000, -2'100'000, 8'000'000, 8'388'606})
+    EXPECT_EQ(path(turns), near_zero) << turns << " turns";
 }
 
 // Target mode adds the last offset: even the extremes of int64 must not overflow.

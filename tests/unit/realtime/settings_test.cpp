@@ -69,18 +69,9 @@ TEST(Settings, EachFieldOfEachAxisIsChecked) {
 
 TEST(Settings, ARefusalLeavesTheOldOnesInForce) {
   LoadedRunner runner(kXyfzMachine);
-  MachineTables tables;
-  tables.machine = kXyfzMachine;
-  for (std::size_t a = 0; a < 3; ++a) {
-    tables.axis[a].q0 = -100'000'000;
-    tables.axis[a].pitch = 100'000'000;
-    tables.axis[a].knots = 2;
-  }
-  for (auto& column : tables.axis[0].value)
-    column[0][0] = column[1][0] = 50'000.0F;
   auto good = open_settings<5>();
   good.axis[0].limit = 1'234;
-  ASSERT_TRUE(runner.start(tables, good).ok());
+  ASSERT_TRUE(runner.start(constant_tables(50'000.0F), good).ok());
   EXPECT_EQ(runner.tick({0, 0, 0, 0, 0}).offset[0], 1'234);
   EXPECT_NE(runner.out.status[0] & kClamped, 0);
   EXPECT_EQ(runner.out.status[1] & kClamped, 0);

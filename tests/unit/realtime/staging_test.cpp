@@ -113,6 +113,15 @@ TEST_F(Staging, CorrectingAxesWithoutAuthority) {
   EXPECT_EQ(other.out.offset, (std::array<std::int32_t, 5>{}));
 }
 
+// A machine that is watched only: its tables load, and no axis gets anything.
+TEST_F(Staging, WithoutACorrectingAxisNothingIsPutOut) {
+  MachineTables watched = good;
+  watched.machine.correcting_count = 0;
+  LoadedRunner other(watched.machine);
+  ASSERT_TRUE(other.start(watched).ok());
+  EXPECT_EQ(other.tick(kHere).offset, (std::array<std::int32_t, 5>{}));
+}
+
 TEST_F(Staging, ToolPointThatIsNotANumber) {
   expect_refused(good, Reason::not_finite, Vec3(0.0, std::nan(""), 0.0));
   expect_refused(good, Reason::not_finite, Vec3(HUGE_VAL, 0.0, 0.0));
@@ -161,6 +170,54 @@ TEST_F(Staging, NothingIsWrittenWhileAHandOverIsPending) {
   LoadedRunner fresh(kXyfzMachine);
   ASSERT_TRUE(fresh.start(other).ok());
   EXPECT_EQ(swapped, fresh.tick(kHere).offset);
+}
+
+// The tables that no tick has taken yet are given up; what comes next finds a free place.
+TEST_F(Staging, ADeactivationOvertakesAnActivation) {
+  ASSERT_TRUE(runner.compensator->stage(good, tool_of(good.machine), 2).ok());
+  ASSERT_TRUE(runner.compensator->activate().ok());
+  runner.compensator->deactivate();
+  EXPECT_EQ(runner.tick(kHere).offset, (std::array<std::int32_t, 5>{}));
+  EXPECT_FALSE(runner.compensator->active());
+  ASSERT_TRUE(runner.compensator->stage(good, tool_of(good.machine), 3).ok());
+  ASSERT_TRUE(runner.compensator->activate().ok());
+  EXPECT_EQ(runner.tick(kHere).offset, before);
+  EXPECT_EQ(runner.compensator->diagnostics().active_crc, 3U);
+}
+
+// While a set waits, nobody can say which one is to be judged.
+TEST_F(Staging, NothingIsScrubbedOrViewedWhileAHandOverIsPending) {
+  TablesView view;
+  ASSERT_TRUE(view_tables(good, view).ok());
+  ASSERT_TRUE(runner.compensator->stage(view, tool_of(good.machine), 2).ok());
+  ASSERT_TRUE(runner.compensator->activate().ok());
+  EXPECT_TRUE(runner.compensator->scrub().ok());
+  EXPECT_EQ(runner.compensator->stage(view, tool_of(good.machine), 3).reason,
+            Reason::hand_over_pending);
+  EXPECT_EQ(runner.tick(kHere).offset, before);
+  EXPECT_TRUE(runner.compensator->scrub().ok());
+}
+
+TEST_F(Staging, AMachineThatIsNoneIsRefusedWithItsTables) {
+  MachineTables broken = good;
+  broken.machine.body[1].joint.sign = 0;
+  expect_refused(broken, Reason::bad_joint);
+}
+
+// Restarted with more axes than it has room for, it runs no machine at all.
+TEST_F(Staging, AMachineOfTooManyAxesIsNotRun) {
+  MachineDescription six = good.machine;
+  for (std::uint8_t axis = 3; axis < 6; ++axis) {
+    six.body[six.body_count] =
+        moving_body(six.tool_body, JointKind::prismatic, Axis::z, 1, axis, 'W');
+    six.tool_body = ++six.body_count;
+  }
+  runner.compensator->restart(LoadedMachine<5>{make_runtime_chain(six)});
+  EXPECT_EQ(runner.compensator->machine().chain.axes, 0);
+  EXPECT_EQ(runner.compensator->stage(good, tool_of(good.machine), 2).reason,
+            Reason::axes_mismatch);
+  runner.out = {};
+  EXPECT_EQ(runner.tick(kHere).offset, (std::array<std::int32_t, 5>{}));
 }
 
 // A staged set that was never activated does not leak into the active one.

@@ -129,21 +129,21 @@ TEST_F(Stale, ImplausibleJumpIsHeld) {
   settings.axis[0].max_step = 1'000'000;
   ASSERT_TRUE(runner.compensator->configure(settings).ok());
   for (const std::int64_t sign : {1, -1}) {
-    constexpr std::int64_t kHere = 200'000'000;
-    runner.tick({kHere, 0, 0, 0, 0});
-    runner.tick({kHere + sign * 1'000'000, 0, 0, 0, 0});  // exactly the largest step
+    constexpr std::int64_t kAt = 200'000'000;
+    runner.tick({kAt, 0, 0, 0, 0});
+    runner.tick({kAt + sign * 1'000'000, 0, 0, 0, 0});  // exactly the largest step
     EXPECT_EQ(x(), 40'000 + sign * 200);
     EXPECT_EQ(status() & kImplausible, 0U);
-    runner.tick({kHere, 0, 0, 0, 0});
+    runner.tick({kAt, 0, 0, 0, 0});
     EXPECT_EQ(x(), 40'000);
-    runner.tick({kHere + sign * 1'000'001, 0, 0, 0, 0});  // one more is too much
+    runner.tick({kAt + sign * 1'000'001, 0, 0, 0, 0});  // one more is too much
     EXPECT_EQ(x(), 40'000) << "held";
     EXPECT_EQ(status() & (kImplausible | kStale | kValid), kImplausible | kStale);
     EXPECT_EQ(status(1) & (kImplausible | kStale), 0U);
-    runner.tick({kHere, 0, 0, 0, 0});  // back is a jump as well
+    runner.tick({kAt, 0, 0, 0, 0});  // back is a jump as well
     EXPECT_EQ(x(), 40'000);
     EXPECT_NE(status() & kImplausible, 0U);
-    runner.tick({kHere, 0, 0, 0, 0});
+    runner.tick({kAt, 0, 0, 0, 0});
     EXPECT_EQ(status() & kImplausible, 0U);
   }
 }

@@ -15,8 +15,11 @@
 #include <gtest/gtest.h>
 
 #include "comp/realtime/instances.hpp"
+#include "comp/units.hpp"
 
 namespace volcomp::test {
+
+inline constexpr std::int64_t kTurn = kUnitsPerTurn;
 
 #ifdef VOLCOMP_GTEST_SUBSET
 inline constexpr int kManyPoints = 10'000;  // an emulated board
@@ -81,6 +84,20 @@ inline MachineTables xyfz_tables(double delta_nm, double epsilon, Random& random
   tables.axis[1] = random_table(-300'000'000, 30'000'000, 11, delta_nm, epsilon, random);
   tables.axis[2] = random_table(-400'000'000, 40'000'000, 11, delta_nm, epsilon, random);
   return tables;
+}
+
+// Table of X: the same EXX everywhere.
+inline MachineTables constant_tables(float x_nm) {
+  MachineTables t;
+  t.machine = kXyfzMachine;
+  for (std::size_t a = 0; a < 3; ++a) {
+    t.axis[a].q0 = -100'000'000;
+    t.axis[a].pitch = 100'000'000;
+    t.axis[a].knots = 2;
+  }
+  for (auto& column : t.axis[0].value)
+    column[0][0] = column[1][0] = x_nm;
+  return t;
 }
 
 inline Body moving_body(std::uint8_t lower, JointKind kind, Axis axis, int sign, std::uint8_t nc,
@@ -229,6 +246,33 @@ class MachineModel {
     return ideal_work.turn(e);
   }
 
+  // Moves an axis beside where its tables are read: nm or rad.
+  void displace(std::size_t axis, Real by) { displaced_[axis] = by; }
+
+  // The tool seen from the work: its point and the direction of its axis, Z of its frame.
+  struct Tool {
+    Real3 point;
+    Real3 axis;
+  };
+  [[nodiscard]] Tool tool_in_work(Real scale) const {
+    const MachineDescription& d = tables_.machine;
+    const Htm tool = branch(d.tool_body, scale);
+    const Htm work = branch(d.work_body, scale);
+    Real3 p = tool.apply(tool_);
+    for (std::size_t a = 0; a < kMaxAxes; ++a) {
+      for (std::size_t i = 0; i < 3; ++i)
+        p[i] += scale * static_cast<Real>(tables_.directions[a](static_cast<Eigen::Index>(i))) *
+                at_[a].held;
+    }
+    const Real3 k = tool.turn({0, 0, 1});
+    Real3 axis{};
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t i = 0; i < 3; ++i)
+        axis[r] += work.m[i][r] * k[i];
+    }
+    return {work.apply_inverse(p), axis};
+  }
+
   // Tool point of the ideal machine, base frame.
   [[nodiscard]] Real3 nominal() const { return branch(tables_.machine.tool_body, 0).apply(tool_); }
 
@@ -261,7 +305,7 @@ class MachineModel {
     Six e{};
     if (joint.moves()) {
       const Interpolated& at = at_[joint.nc_axis];
-      const Real motion = joint.sign * at.held;
+      const Real motion = joint.sign * (at.held + displaced_[joint.nc_axis]);
       Real3 along{};
       along[index(joint.axis)] = motion;
       h = h *
@@ -278,6 +322,7 @@ class MachineModel {
   const MachineTables& tables_;
   Real3 tool_;
   std::array<Interpolated, kMaxAxes> at_{};
+  std::array<Real, kMaxAxes> displaced_{};
 };
 
 // --- harness -------------------------------------------------------------------------------------
@@ -300,7 +345,7 @@ struct Runner {
   Runner() : compensator(std::make_unique<Compensator>()) { all_valid(); }
   explicit Runner(const MachineDescription& machine, RuntimeModel model = RuntimeModel::automatic)
       : compensator(std::make_unique<Compensator>(
-            LoadedMachine<Compensator::kAxes>{make_runtime_chain(machine, model)})) {
+            std::decay_t<decltype(compensator->machine())>{make_runtime_chain(machine, model)})) {
     all_valid();
   }
 
@@ -334,6 +379,7 @@ struct Runner {
 };
 
 using LoadedRunner = Runner<LoadedCompensator>;
+using OrientingRunner = Runner<OrientingCompensator>;
 using XyfzRunner = Runner<XyfzCompensator>;
 
 // Scales all values so that the load-time bound S is `bound_nm`.

@@ -8,7 +8,7 @@
 namespace volcomp::test {
 namespace {
 
-const LoadedRunner::Positions kHere{-123'456'789, -100'000'000, -200'000'000, 0, 0};
+const LoadedRunner::Positions kSomewhere{-123'456'789, -100'000'000, -200'000'000, 0, 0};
 
 class TableMemory : public ::testing::Test {
  protected:
@@ -21,7 +21,7 @@ class TableMemory : public ::testing::Test {
     settings.ramp_ticks = 50;
     ASSERT_TRUE(runner.start(tables, settings).ok());
     for (int n = 0; n < 100; ++n)
-      runner.tick(kHere);
+      runner.tick(kSomewhere);
   }
 
   // Flips one bit of a stored angle, wherever the compensator keeps it.
@@ -40,7 +40,7 @@ class TableMemory : public ::testing::Test {
 
 TEST_F(TableMemory, ScrubFindsNothingInHealthyTables) {
   EXPECT_TRUE(runner.compensator->scrub().ok());
-  EXPECT_EQ(runner.tick(kHere).status[0] & kTableDamaged, 0);
+  EXPECT_EQ(runner.tick(kSomewhere).status[0] & kTableDamaged, 0);
 }
 
 TEST_F(TableMemory, ScrubWithoutTablesHasNothingToSay) {
@@ -54,10 +54,10 @@ TEST_F(TableMemory, OneFlippedBitRampsTheCorrectionDown) {
   flip_one_bit();
   EXPECT_EQ(runner.compensator->scrub().reason, Reason::crc_mismatch);
   EXPECT_EQ(runner.compensator->diagnostics().last_rejection.reason, Reason::crc_mismatch);
-  const std::int32_t first = runner.tick(kHere).offset[0];
+  const std::int32_t first = runner.tick(kSomewhere).offset[0];
   EXPECT_LT(std::abs(first - before), std::abs(before) / 10 + 2) << "it must not jump";
   for (int n = 0; n < 100; ++n)
-    runner.tick(kHere);
+    runner.tick(kSomewhere);
   for (std::size_t a = 0; a < 3; ++a) {
     EXPECT_EQ(runner.out.offset[a], 0);
     EXPECT_NE(runner.out.status[a] & kTableDamaged, 0);
@@ -66,7 +66,7 @@ TEST_F(TableMemory, OneFlippedBitRampsTheCorrectionDown) {
   // New tables end the alarm.
   ASSERT_TRUE(runner.swap(tables).ok());
   for (int n = 0; n < 100; ++n)
-    runner.tick(kHere);
+    runner.tick(kSomewhere);
   EXPECT_EQ(runner.out.offset[0], before);
   EXPECT_EQ(runner.out.status[0] & kTableDamaged, 0);
 }
@@ -89,7 +89,7 @@ TEST_F(TableMemory, TablesOfAnotherGeometryAreRefused) {
     if (change == 1) other.machine.body[1].joint.sign = 1;
     if (change == 2) other.machine.correcting = {1, 0, 2};
     EXPECT_EQ(runner.swap(other).reason, Reason::machine_mismatch) << change;
-    EXPECT_EQ(runner.tick(kHere).offset[0], runner.out.offset[0]);
+    EXPECT_EQ(runner.tick(kSomewhere).offset[0], runner.out.offset[0]);
   }
 }
 
@@ -107,7 +107,7 @@ TEST_F(TableMemory, MachineThatDoesNotFitIsNone) {
   many.machine = large;
   LoadedRunner runner_of_six(large);
   EXPECT_EQ(runner_of_six.swap(many).reason, Reason::axes_mismatch);
-  EXPECT_EQ(runner_of_six.tick(kHere).offset, (std::array<std::int32_t, 5>{}));
+  EXPECT_EQ(runner_of_six.tick(kSomewhere).offset, (std::array<std::int32_t, 5>{}));
 }
 
 }  // namespace

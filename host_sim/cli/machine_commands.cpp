@@ -1,0 +1,121 @@
+// volcomp machine, volcomp list
+
+#include <array>
+#include <functional>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/output.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/data/whole_file.hpp"
+#include "host_sim/machine/chain_string.hpp"
+#include "host_sim/machine/machine_facts.hpp"
+#include "host_sim/machine/machine_summary.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct MachineArguments {
+  std::string path;
+  std::string json_file;
+};
+
+using Describe = std::function<std::string(const MachineFile&)>;
+
+int describe_machine(const MachineArguments& a, const Describe& describe) {
+  Results results({a.json_file}, {a.path});
+  const MachineFile machine = read_machine_file(a.path);
+  const std::string text = describe(machine);
+  results.add(a.json_file, json_text(summary_of(machine)));
+  results.write();
+  fmt::print(results.words(), "{}", text);
+  return 0;
+}
+
+void add_description(CLI::App& machine, const std::string& name, const std::string& what,
+                     const Describe& describe, int& code) {
+  CLI::App* command = machine.add_subcommand(name, what);
+  auto a = std::make_shared<MachineArguments>();
+  command->add_option("FILE", a->path, "Machine file (TOML; -: standard input)")->required();
+  command->add_option("--json", a->json_file,
+                      "Write everything that follows from it to this file (-: standard output)");
+  command->callback([a, describe, &code] { code = describe_machine(*a, describe); });
+}
+
+int print_example(const std::string& name) {
+  constexpr std::size_t kLargest = std::size_t{1} << 20U;
+  if (name.find('/') != std::string::npos)
+    throw UserError(fmt::format("{}: not the name of a machine (volcomp list)", name));
+  fmt::print("{}", read_whole_file(bundled_machine(name), kLargest));
+  return 0;
+}
+
+struct Listed {
+  const char* name;
+  const char* what;
+};
+constexpr std::array<Listed, 5> kScenarios{{
+    {"xyfz", "three-axis machine: laser campaign, diagonals, 21 errors"},
+    {"l300g", "gear grinder that measures: involute gears, 24 errors"},
+    {"face-gear", "the same for face gears, on a table and three slides"},
+    {"internal-helical", "grinder of internal gears: learns the lag of its axes"},
+    {"machine", "any machine file, errors at random: diagonals, volume, ball on the table"},
+}};
+
+int list_everything(const std::string& json_file) {
+  Results results({json_file});
+  nlohmann::json result{{"scenarios", nlohmann::json::array()},
+                        {"machines", nlohmann::json::array()}};
+  std::string text = "scenarios (volcomp run NAME):\n";
+  for (const Listed& s : kScenarios) {
+    text += fmt::format("  {:17} {}\n", s.name, s.what);
+    result["scenarios"].push_back({{"name", s.name}, {"what", s.what}});
+  }
+  text += "machines (volcomp machine example NAME):\n";
+  for (const std::string& name : bundled_machines()) {
+    const MachineFile m = read_machine_file(bundled_machine(name));
+    text += fmt::format("  {:17} {:16} {}\n", name, chain_text(m.chain), m.path);
+    result["machines"].push_back(
+        {{"name", name}, {"chain", chain_text(m.chain)}, {"file", m.path}});
+  }
+  results.add(json_file, json_text(result));
+  results.write();
+  fmt::print(results.words(), "{}", text);
+  return 0;
+}
+
+}  // namespace
+
+void add_machine_command(CLI::App& app, int& code) {
+  CLI::App* machine = app.add_subcommand("machine", "Machine files");
+  machine->require_subcommand(1);
+  add_description(
+      *machine, "check", "Read a machine file and say in short what it describes",
+      [](const MachineFile& m) {
+        require_authority(m);
+        return short_text(m);
+      },
+      code);
+  add_description(
+      *machine, "show", "Everything that follows from a machine file",
+      [](const MachineFile& m) { return summary_text(summary_of(m)); }, code);
+
+  CLI::App* example = machine->add_subcommand(
+      "example", "Print the file of a machine that comes with the program, to begin with");
+  auto name = std::make_shared<std::string>();
+  example->add_option("NAME", *name, "Its name, for instance xyfz")->required();
+  example->callback([name, &code] { code = print_example(*name); });
+}
+
+void add_list_command(CLI::App& app, int& code) {
+  CLI::App* list =
+      app.add_subcommand("list", "List scenarios and the machines that come with the program");
+  auto json_file = std::make_shared<std::string>();
+  list->add_option("--json", *json_file, "Write it to this file, too (-: standard output)");
+  list->callback([json_file, &code] { code = list_everything(*json_file); });
+}
+
+}  // namespace volcomp::sim

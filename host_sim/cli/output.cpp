@@ -1,0 +1,108 @@
+#include "host_sim/cli/output.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "host_sim/data/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+// What is printed and a result would write over each other by the second name.
+bool is_standard_output(const std::string& name) {
+  return name == kStandardStream || name == "/dev/stdout";
+}
+
+// /dev/null may take any number of results, and is no result that an input could suffer from.
+bool is_device(const std::string& name) {
+  std::error_code ignored;
+  return std::filesystem::is_character_file(name, ignored);
+}
+
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(a, b, ignored);
+}
+
+// The same for a file to come.
+std::filesystem::path place_of(const std::string& name) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file_behind(name), ignored),
+                                           ignored);
+}
+
+}  // namespace
+
+std::string shown_output(const std::string& path) {
+  return is_standard_output(path) ? "standard output" : path;
+}
+
+std::string json_text(const nlohmann::json& result) {
+  return result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+Results::Results(const std::vector<std::string>& names, std::vector<std::string> inputs)
+    : inputs_(std::move(inputs)) {
+  for (const std::string& name : names)
+    announce(name);
+}
+
+void Results::announce(const std::string& name) {
+  if (is_standard_output(name)) {
+    if (words_ == stderr) throw UserError("only one result can go to standard output (-)");
+    words_ = stderr;
+  } else if (!name.empty() && !is_device(name)) {
+    refuse_inputs(name);
+    refuse_others(name);
+    files_announced_.push_back(name);
+  }
+}
+
+void Results::refuse_inputs(const std::string& name) const {
+  for (const std::string& input : inputs_)
+    if (are_one_file(name, input))
+      throw UserError(fmt::format("{}: a result cannot take the place of an input", name));
+}
+
+void Results::refuse_others(const std::string& name) const {
+  for (const std::string& other : files_announced_)
+    if (are_one_file(name, other) || place_of(name) == place_of(other))
+      throw UserError(fmt::format("{}: two results cannot have one place", name));
+}
+
+void Results::add(const std::string& name, std::string_view content) {
+  if (name.empty()) return;
+  if (is_standard_output(name)) {
+    piped_ = content;
+  } else {
+    files_.add(name, content);
+  }
+}
+
+void Results::add_files(const std::string& folder, const std::vector<NamedText>& files) {
+  add_folder(folder);
+  for (const NamedText& file : files) {
+    const std::string name = (std::filesystem::path(folder) / file.name).string();
+    announce(name);
+    add(name, file.text);
+  }
+}
+
+void Results::write() {
+  if (piped_) {
+    if (std::fwrite(piped_->data(), 1, piped_->size(), stdout) != piped_->size())
+      throw UserError("standard output: cannot be written");
+    finish_standard_output();
+  }
+  files_.put_in_place();
+}
+
+void finish_standard_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw UserError("standard output: cannot be written");
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,58 @@
+#pragma once
+// Where results go: files, or standard output for "-". Words for people then go to standard error,
+// so that a pipe holds the result and nothing else.
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "host_sim/data/input_file.hpp"
+#include "host_sim/data/whole_file.hpp"
+
+namespace volcomp::sim {
+
+// For words about a result: its path, or "standard output".
+[[nodiscard]] std::string shown_output(const std::string& path);
+
+// A result for programs. The name of a file need not be UTF-8 as JSON is.
+[[nodiscard]] std::string json_text(const nlohmann::json& result);
+
+// The results of a command, each a file that appears whole or standard output; an empty name is no
+// result. None is put in place before all are written.
+class Results {
+ public:
+  // Before anything is read. Throws UserError for two results with one place and for a result that
+  // would replace an input.
+  explicit Results(const std::vector<std::string>& names, std::vector<std::string> inputs = {});
+
+  // For words to people: standard output, or standard error when one of the results goes there.
+  [[nodiscard]] std::FILE* words() const { return words_; }
+
+  // All throw UserError naming the file or the folder.
+  void add(const std::string& name, std::string_view content);
+  // Made if need be.
+  void add_folder(const std::string& folder) { files_.add_folder(folder); }
+  // Files whose names were not known before; refused as above.
+  void add_files(const std::string& folder, const std::vector<NamedText>& files);
+  void write();
+
+ private:
+  void announce(const std::string& name);
+  void refuse_inputs(const std::string& name) const;
+  void refuse_others(const std::string& name) const;
+
+  std::vector<std::string> inputs_;
+  std::vector<std::string> files_announced_;
+  std::FILE* words_ = stdout;
+  std::optional<std::string> piped_;
+  WholeFiles files_;
+};
+
+// Throws UserError when what was printed has not arrived, a full disk for instance.
+void finish_standard_output();
+
+}  // namespace volcomp::sim

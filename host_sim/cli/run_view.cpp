@@ -1,0 +1,79 @@
+#include "host_sim/cli/run_view.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "host_sim/report/report.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr std::chrono::milliseconds kMoment{50};
+
+void say(std::FILE* words, const std::string& line) {
+  fmt::print(words, "{}\n", line);
+  static_cast<void>(std::fflush(words));  // whoever reads a pipe waits for it
+}
+
+}  // namespace
+
+RunView::RunView(const LiveChoice& choice, const std::string& command, const std::string& transport,
+                 std::FILE* words)
+    : choice_(choice), words_(words), feed_(command, transport) {
+  if (!choice.port) return;
+  server_ = std::make_unique<LiveServer>(*choice.port, [this] {
+    return feed_.state().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  });
+  say(words_, "live: " + server_->address());
+}
+
+void RunView::cycle(const MachineSnapshot& snapshot) {
+  interruption_.check();
+  feed_.cycle(snapshot);
+}
+
+void RunView::progress(double done, const std::string& what) {
+  interruption_.check();
+  feed_.progress(done, what);
+}
+
+void RunView::ended(const nlohmann::json& document) {
+  if (server_ && choice_.stay) server_->offer_report(report_html(document), report_text(document));
+  feed_.ended(document, choice_.stay);
+  if (!server_) return;
+  if (choice_.stay) {
+    stay();
+  } else {
+    await_readers();
+  }
+}
+
+void RunView::failed(const std::string& why) {
+  feed_.failed(why);
+  if (server_) await_readers();
+}
+
+// A page asks four times a second; the second answer from now on is surely of the end.
+void RunView::await_readers() const {
+  constexpr int kPatience = 60;    // moments
+  constexpr int kOtherPages = 10;  // moments for pages that ask less often
+  constexpr std::uint64_t kSurely = 2;
+  const std::uint64_t before = server_->told();
+  for (int i = 0; i < kPatience && server_->watched() && !interruption_.asked(); ++i) {
+    std::this_thread::sleep_for(kMoment);
+    if (server_->told() < before + kSurely) continue;
+    std::this_thread::sleep_for(kOtherPages * kMoment);
+    return;
+  }
+}
+
+void RunView::stay() const {
+  say(words_, fmt::format("The run has ended. {} stays until Ctrl+C.", server_->address()));
+  while (!interruption_.asked())
+    std::this_thread::sleep_for(kMoment);
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,52 @@
+#pragma once
+// Who looks on while a scenario runs: the statistics for its report and, with --serve, a page in
+// browsers of this computer.
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "host_sim/data/interruption.hpp"
+#include "host_sim/live/live_feed.hpp"
+#include "host_sim/live/live_server.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr std::uint16_t kLivePort = 8470;
+
+struct LiveChoice {
+  std::optional<std::uint16_t> port;  // none: no page; 0: any port that is free
+  bool stay = false;                  // after the run, until Ctrl+C
+};
+
+class RunView final : public MachineWatch {
+ public:
+  // Says in `words` where the page is. Throws UserError when its port cannot be had.
+  RunView(const LiveChoice& choice, const std::string& command, const std::string& transport,
+          std::FILE* words);
+
+  // Of every machine of the run. Throws Interrupted.
+  [[nodiscard]] std::uint32_t enter() override { return feed_.enter(); }
+  void cycle(const MachineSnapshot& snapshot) override;
+  void progress(double done, const std::string& what);
+
+  [[nodiscard]] const TickStatistics& ticks() const { return feed_.ticks(); }
+
+  // Returns when the pages that look on have seen it, or with Ctrl+C where the page is to stay.
+  void ended(const nlohmann::json& document);
+  void failed(const std::string& why);
+
+ private:
+  void await_readers() const;
+  void stay() const;
+
+  LiveChoice choice_;
+  std::FILE* words_;
+  LiveFeed feed_;
+  Interruption interruption_;  // a run leaves no temporary folder, and tells its page
+  std::unique_ptr<LiveServer> server_;
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,226 @@
+// volcomp simulate: the simulated machine measured, for trying the tools without one.
+
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "host_sim/bus_tools/table_transfer.hpp"
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/number_check.hpp"
+#include "host_sim/cli/output.hpp"
+#include "host_sim/cli/run_files.hpp"
+#include "host_sim/cli/run_options.hpp"
+#include "host_sim/data/user_error.hpp"
+#include "host_sim/scenarios/xyfz/simulated_measurement.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct SimulateArguments {
+  std::string machine;  // empty: the one that comes with the program
+  std::uint64_t machine_seed = kXyfzMachineSeed;
+  Instruments instruments;
+  std::size_t runs = 5;
+  DiagonalPlan plan;
+  int volume_points = 100;
+  std::string out;
+  std::string json_file;
+  std::string tables;
+  NodePlace node;
+};
+
+SimulatedMachine machine_of(const SimulateArguments& a) {
+  return simulated_machine(
+      a.machine.empty() ? bundled_machine("xyfz") : std::filesystem::path(a.machine),
+      a.machine_seed);
+}
+
+int simulate_run_files(const SimulateArguments& a) {
+  Results results({a.json_file}, {a.machine});
+  const SimulatedMachine simulated = machine_of(a);
+  std::vector<NamedText> files;
+  std::string text;
+  nlohmann::json axes = nlohmann::json::array();
+  for (const RunsFile& runs : simulate_runs(simulated, a.instruments, a.runs)) {
+    const std::string path = (std::filesystem::path(a.out) / runs.name).string();
+    files.push_back({runs.name, runs_csv(runs)});
+    text += path + "\n";
+    axes.push_back(run_file_json(runs, path));
+  }
+  results.add_files(a.out, files);
+  const nlohmann::json figures{{"machine", simulated.machine.path},
+                               {"machine_seed", a.machine_seed},
+                               {"seed", a.instruments.seed},
+                               {"perfect", a.instruments.perfect},
+                               {"folder", a.out},
+                               {"values", run_values_json()},
+                               {"axes", axes}};
+  results.add(a.json_file, json_text(figures));
+  results.write();
+  fmt::print(results.words(), "{}", text);
+  return 0;
+}
+
+// What the node on the bus was found to do.
+std::string node_words(const BusAxes& axes) {
+  const std::uint8_t id = axes.controller().settings().node;
+  const std::uint32_t crc = axes.controller().report().active_crc;
+  if (crc == 0) return fmt::format("node {} has no tables: nothing is compensated", id);
+  return fmt::format("node {} compensates with its tables, CRC-32 {:08X}", id, crc);
+}
+
+// `measure(cell, progress)` on the machine with whatever compensation was asked for; the words say
+// which.
+template <class Measure>
+auto on_machine(const SimulateArguments& a, const SimulatedMachine& simulated,
+                const Measure& measure, std::string& words) {
+  std::unique_ptr<ScenarioBus> bus;
+  if (!a.node.can.empty()) bus = std::make_unique<ScenarioBus>(a.node);
+  return run_with_bar(bus.get(), [&](const Progress& progress) {
+    progress(0.0, "starting the machine");
+    const MachineFile& machine = simulated.machine;
+    std::unique_ptr<MotionCell> cell;
+    const BusAxes* axes = nullptr;
+    if (bus) {
+      BusSettings settings = bus_settings(machine, a.node.cycle_hz);
+      settings.node_brings_tables = true;
+      auto on_bus = bus->axes()(settings, {});
+      axes = on_bus.get();
+      cell = std::make_unique<MotionCell>(simulated.truth, std::move(on_bus));
+    } else {
+      const auto image = a.tables.empty() ? std::vector<std::uint8_t>() : read_image_file(a.tables);
+      cell = make_integrated_cell(simulated.truth, machine.correction, image);
+    }
+    cell->place(travel_box(machine).lo);
+    words = axes != nullptr    ? node_words(*axes)
+            : a.tables.empty() ? "nothing is compensated"
+                               : "compensated with " + a.tables;
+    auto measured = measure(*cell, progress);
+    cell.reset();
+    if (bus) bus->switch_off();
+    return measured;
+  });
+}
+
+void check(const SimulateArguments& a) {
+  if (a.node.can == "loopback")
+    throw UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
+}
+
+int simulate_diagonal_file(const SimulateArguments& a) {
+  check(a);
+  Results results({a.out, a.node.log_file}, {a.machine, a.tables});
+  const SimulatedMachine simulated = machine_of(a);
+  std::string words;
+  const DiagonalsFile file = on_machine(
+      a, simulated,
+      [&](MotionCell& cell, const Progress& progress) {
+        return simulate_diagonals(cell, simulated.machine, a.plan, a.instruments, progress);
+      },
+      words);
+  results.add(a.out, diagonals_csv(file));
+  results.write();
+  fmt::print(results.words(), "{}\n{}: {} diagonals, {} targets, {} runs up and down\n", words,
+             shown_output(a.out), file.diagonals.size(), a.plan.points, a.plan.runs);
+  return 0;
+}
+
+int simulate_volume_file(const SimulateArguments& a) {
+  check(a);
+  Results results({a.out, a.node.log_file}, {a.machine, a.tables});
+  const SimulatedMachine simulated = machine_of(a);
+  std::string words;
+  const VolumeFile file = on_machine(
+      a, simulated,
+      [&](MotionCell& cell, const Progress& progress) {
+        progress(0.0, "places of the volume");
+        return simulate_volume(cell, simulated.machine, a.volume_points, a.instruments.seed);
+      },
+      words);
+  results.add(a.out, volume_csv(file));
+  results.write();
+  fmt::print(results.words(), "{}\n{}: {} places\n", words, shown_output(a.out),
+             file.points.size());
+  return 0;
+}
+
+std::shared_ptr<SimulateArguments> add_machine_options(CLI::App& command) {
+  auto a = std::make_shared<SimulateArguments>();
+  command.add_option("--machine", a->machine,
+                     "Machine file (TOML; default: the xyfz that comes with the program)");
+  command
+      .add_option("--machine-seed", a->machine_seed, "Seed of the errors of the simulated machine")
+      ->check(seed_number())
+      ->capture_default_str();
+  command.add_option("--seed", a->instruments.seed, "Seed of instruments and places")
+      ->check(seed_number())
+      ->capture_default_str();
+  return a;
+}
+
+void add_compensation_options(CLI::App& command, SimulateArguments& a) {
+  CLI::Option* can = command.add_option(
+      "--can", a.node.can,
+      fmt::format("Drives and controller of the machine on this bus, compensated by the node there "
+                  "with the tables it has: {}",
+                  kLinkForms));
+  command
+      .add_option("--tables", a.tables,
+                  "Image file to compensate with, without a bus (default: no compensation)")
+      ->excludes(can);
+  for (CLI::Option* option : add_bus_options(command, a.node))
+    option->needs(can);
+}
+
+void add_perfect(CLI::App& command, Instruments& instruments) {
+  command.add_flag(
+      "--perfect", instruments.perfect,
+      "Instruments without errors (default: 0.7 µm and 0.7 µrad per reading and more)");
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& code) {
+  CLI::App* simulate = app.add_subcommand(
+      "simulate", "Measure the simulated XYFZ machine: the CSV files its owner would have");
+  simulate->require_subcommand(1);
+
+  CLI::App* runs = simulate->add_subcommand("runs", "Runs of every axis, for build-tables");
+  const auto r = add_machine_options(*runs);
+  add_perfect(*runs, r->instruments);
+  runs->add_option("--runs", r->runs, "Runs in each direction")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  runs->add_option("--out", r->out, "Folder for runs_X.csv, runs_Y.csv, runs_Z.csv")->required();
+  runs->add_option("--json", r->json_file,
+                   "Write what was measured and written to this file (-: standard output)");
+  runs->callback([r, &code] { code = simulate_run_files(*r); });
+
+  CLI::App* diagonals =
+      simulate->add_subcommand("diagonals", "Body diagonals after ISO 230-6, for verify");
+  const auto d = add_machine_options(*diagonals);
+  add_perfect(*diagonals, d->instruments);
+  diagonals->add_flag("--faces", d->plan.faces, "The six diagonals of the faces, too");
+  diagonals->add_option("--points", d->plan.points, "Targets of a diagonal")
+      ->check(CLI::Range(2, 512))
+      ->capture_default_str();
+  diagonals->add_option("--runs", d->plan.runs, "Runs in each direction")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  diagonals->add_option("--out", d->out, "CSV file to write (-: standard output)")->required();
+  add_compensation_options(*diagonals, *d);
+  diagonals->callback([d, &code] { code = simulate_diagonal_file(*d); });
+
+  CLI::App* volume =
+      simulate->add_subcommand("volume", "Error vectors at random places, for verify --volume");
+  const auto v = add_machine_options(*volume);
+  volume->add_option("--points", v->volume_points, "Places")
+      ->check(CLI::Range(4, 100000))
+      ->capture_default_str();
+  volume->add_option("--out", v->out, "CSV file to write (-: standard output)")->required();
+  add_compensation_options(*volume, *v);
+  volume->callback([v, &code] { code = simulate_volume_file(*v); });
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,28 @@
+#pragma once
+// What a person wants to know of a code that a machine gives: why it comes, and what to do. What
+// happened is the sentence that belongs to the code itself.
+
+#include "comp/realtime/tick_types.hpp"
+#include "comp/realtime/touch.hpp"
+#include "comp/status.hpp"
+#include "firmware/canopen/emergency.hpp"
+
+namespace volcomp::sim {
+
+struct Explanation {
+  const char* why = "";
+  const char* remedy = "";
+};
+
+[[nodiscard]] Explanation explain(Reason reason);
+[[nodiscard]] Explanation explain(canopen::ErrorCode code);
+[[nodiscard]] Explanation explain(TouchVerdict verdict);
+[[nodiscard]] Explanation explain(StatusBit bit);
+
+// All reasons: there is no other way to know where they end.
+inline constexpr int kReasons = static_cast<int>(Reason::cannot_orient) + 1;
+
+// What an object of the node is for, by index; nullptr where nothing is known of it.
+[[nodiscard]] const char* purpose(unsigned index);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,26 @@
+#pragma once
+// Error functions of axes as curves with bands: displacements and angles of each axis.
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "comp/geometry/error_motion.hpp"
+
+namespace volcomp::sim {
+
+struct ErrorCurves {
+  char letter = '\0';
+  bool rotary = false;
+  std::vector<double> at;               // mm or rad
+  std::vector<ErrorMotion> value;       // mm and rad
+  std::vector<ErrorMotion> half_width;  // of the bands; empty: none
+};
+
+// A group of two charts for each axis.
+[[nodiscard]] nlohmann::json error_functions_group(const std::string& title,
+                                                   const std::vector<ErrorCurves>& axes,
+                                                   const std::string& note);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,21 @@
+#pragma once
+// What is said to a user whose input is refused.
+
+#include <string>
+
+#include "host_sim/data/user_error.hpp"
+
+namespace volcomp::sim {
+
+// The sentence of the UserError that the work throws; "accepted" when it throws none.
+template <class Work>
+[[nodiscard]] std::string complaint_of(const Work& work) {
+  try {
+    static_cast<void>(work());
+  } catch (const UserError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,187 @@
+// Files that appear whole or not at all, what stands in their place, and files read no further than
+// need be.
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+
+#include <gmock/gmock.h>
+
+#include "host_sim/bus_tools/table_transfer.hpp"
+#include "host_sim/data/temporary_folder.hpp"
+#include "host_sim/data/toml_text.hpp"
+#include "host_sim/data/whole_file.hpp"
+#include "tests/complaint.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kEnough = 1000;
+
+class WholeFileTest : public testing::Test {
+ protected:
+  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
+  [[nodiscard]] std::string text(const std::string& name) const {
+    return read_whole_file(path(name), kEnough);
+  }
+  [[nodiscard]] std::ptrdiff_t entries() const {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(WholeFileTest, ALinkStaysAndTheFileBehindItIsReplaced) {
+  write_whole_file(path("real"), "old");
+  fs::create_symlink("real", path("link"));
+  fs::create_symlink(path("link"), path("link to link"));
+  write_whole_file(path("link to link"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link to link")));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_FALSE(fs::is_symlink(path("real")));
+  EXPECT_EQ(text("real"), "new");
+  EXPECT_EQ(entries(), 3);
+}
+
+TEST_F(WholeFileTest, ALinkToAFileToComeGetsIt) {
+  fs::create_directory(path("folder"));
+  fs::create_symlink("folder/real", path("link"));
+  write_whole_file(path("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(text("folder/real"), "new");
+}
+
+TEST_F(WholeFileTest, LinksInACircleAreRefused) {
+  fs::create_symlink("b", path("a"));
+  fs::create_symlink("a", path("b"));
+  EXPECT_EQ(complaint_of([&] { write_whole_file(path("a"), "new"); }),
+            path("a").string() + ": cannot be written");
+}
+
+TEST_F(WholeFileTest, TheModeOfAnEarlierFileIsKept) {
+  for (const unsigned mode : {0600U, 0664U, 0755U}) {
+    write_whole_file(path("file"), "old");
+    fs::permissions(path("file"), static_cast<fs::perms>(mode));
+    write_whole_file(path("file"), "new");
+    EXPECT_EQ(static_cast<unsigned>(fs::status(path("file")).permissions()), mode);
+  }
+}
+
+// For root, too.
+TEST_F(WholeFileTest, AFileThatNobodyMayWriteIsRefused) {
+  write_whole_file(path("file"), "old");
+  fs::permissions(path("file"), static_cast<fs::perms>(0444));
+  EXPECT_EQ(complaint_of([&] { write_whole_file(path("file"), "new"); }),
+            path("file").string() + ": cannot be written");
+  EXPECT_EQ(text("file"), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(WholeFileTest, APipeIsWrittenAndStays) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  write_whole_file(path("pipe"), "new");
+  std::array<char, kEnough> got{};
+  EXPECT_EQ(::read(reader, got.data(), got.size()), 3);
+  ::close(reader);
+  EXPECT_STREQ(got.data(), "new");
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(WholeFileTest, ADeviceBehindALinkStays) {
+  fs::create_symlink("/dev/null", path("nothing"));
+  write_whole_file(path("nothing"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("nothing")));
+  EXPECT_TRUE(fs::is_character_file(path("nothing")));
+  EXPECT_EQ(entries(), 1);
+}
+
+// The one who opened the file sees what is written to the descriptor.
+TEST_F(WholeFileTest, ADescriptorIsWrittenAndItsFileStays) {
+  const int open_file = ::open(path("file").c_str(), O_RDWR | O_CREAT, 0600);
+  ASSERT_GE(open_file, 0);
+  fs::create_symlink(fs::path("/proc/self/fd") / std::to_string(open_file), path("link"));
+  write_whole_file(path("link"), "new");
+  std::array<char, kEnough> got{};
+  EXPECT_EQ(::pread(open_file, got.data(), got.size(), 0), 3);
+  ::close(open_file);
+  EXPECT_STREQ(got.data(), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+}
+
+TEST_F(WholeFileTest, OfSeveralNoneIsPutInPlaceBeforeAllAreWritten) {
+  write_whole_file(path("first"), "old");
+  {
+    WholeFiles files;
+    files.add(path("first"), "new");
+    files.add_folder(path("folder/inner"));
+    files.add(path("folder/inner/second"), "new");
+    EXPECT_EQ(complaint_of([&] { files.add(path("none/third"), "new"); }),
+              path("none/third").string() + ": cannot be written");
+  }
+  EXPECT_EQ(text("first"), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(WholeFileTest, ADeviceThatFailsLeavesTheFilesAsTheyWere) {
+  write_whole_file(path("first"), "old");
+  fs::create_symlink("/dev/full", path("full"));
+  {
+    WholeFiles files;
+    files.add(path("first"), "new");
+    files.add(path("full"), "new");
+    EXPECT_EQ(complaint_of([&] { files.put_in_place(); }),
+              path("full").string() + ": cannot be written");
+  }
+  EXPECT_EQ(text("first"), "old");
+  EXPECT_EQ(entries(), 2);
+}
+
+TEST_F(WholeFileTest, SeveralAppearTogether) {
+  fs::create_directory(path("old folder"));
+  {
+    WholeFiles files;
+    files.add_folder(path("folder"));
+    files.add_folder(path("old folder"));
+    files.add(path("folder/first"), "1");
+    files.add(path("second"), "2");
+    EXPECT_FALSE(fs::exists(path("second")));
+    files.put_in_place();
+  }
+  EXPECT_EQ(text("folder/first"), "1");
+  EXPECT_EQ(text("second"), "2");
+  EXPECT_TRUE(fs::exists(path("old folder")));
+}
+
+// --- reading
+
+// The memory of a process has no first byte.
+TEST(ReadingFiles, WhatCannotBeReadIsNotTakenForItsEnd) {
+  const fs::path unreadable = "/proc/self/mem";
+  const std::string complaint = "/proc/self/mem: cannot be read";
+  EXPECT_EQ(complaint_of([&] { return read_whole_file(unreadable, kEnough); }), complaint);
+  EXPECT_EQ(complaint_of([&] { return text_of_file(unreadable); }), complaint);
+  EXPECT_EQ(complaint_of([&] { return read_image_file(unreadable); }), complaint);
+}
+
+TEST(ReadingFiles, NoMoreIsReadThanShowsThatItIsTooMuch) {
+  constexpr std::size_t kMiB = std::size_t{1} << 20U;
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "large.toml";
+  write_whole_file(path, "");
+  fs::resize_file(path, 8 * kMiB);
+  const std::string text = text_of_file(path);
+  EXPECT_EQ(text.size(), kMiB + 1);
+  EXPECT_THAT(complaint_of([&] { refuse_monsters(text, "large.toml"); }),
+              testing::HasSubstr("larger than 1 MiB"));
+}
+
+}  // namespace
+}  // namespace volcomp::sim
