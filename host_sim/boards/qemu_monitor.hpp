@@ -16,8 +16,8 @@ class QemuMonitor {
   // later, when nobody answers or not as QEMU does.
   explicit QemuMonitor(const std::string& socket);
 
-  // Executed since the start. QEMU counts with -icount only. What arrived at an interface of the
-  // emulated machine before the call has been taken in by then.
+  // Executed since the start. QEMU counts with -icount only. It answers in its main loop, each turn
+  // of which also takes one frame out of a CAN interface: a call takes in one that waits there.
   [[nodiscard]] std::uint64_t instructions();
 
  private:

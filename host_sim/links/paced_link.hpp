@@ -14,8 +14,8 @@ namespace volcomp::sim {
 
 class PacedLink final : public FrameLink {
  public:
-  // How far the other end has come, in whatever it works; never decreases. May throw UserError when
-  // it comes no further.
+  // How far the other end has come, in whatever it works; never decreases. The controller takes in
+  // one frame between two calls, if there is one. May throw UserError when it comes no further.
   using Progress = std::function<std::uint64_t()>;
 
   // `burst`: frames the other end has room for; `spacing`: progress from one burst to the next.
@@ -35,7 +35,10 @@ class PacedLink final : public FrameLink {
   [[nodiscard]] bool turn_by_turn() const override { return link_->turn_by_turn(); }
 
  private:
+  // The other end can fetch the frames of the burst only once its controller has them all.
   void await_progress() {
+    for (int frame = 0; frame < sent_; ++frame)
+      static_cast<void>(progress_());
     const std::uint64_t until = progress_() + spacing_;
     while (progress_() < until)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
