@@ -133,6 +133,8 @@ bool BusWorld::approach() { return go_to(kBefore) && go_to(kStart); }
 
 std::string BusWorld::trouble() {
   if (std::string t = axes_.controller().trouble(); !t.empty()) return t;
+  // What is on its way may be tables that are out of date already, and then the right ones.
+  if (!axes_.controller().node().channel.idle()) return "the node is being given tables";
   if (node().state != static_cast<std::uint8_t>(node::NodeState::compensating))
     return fmt::format("node state {}", node().state);
   if (node().communication.error_register != 0)
