@@ -54,7 +54,7 @@ std::vector<std::string> inputs_of(const CompareArguments& a) {
 }
 
 int compare(const CompareArguments& a) {
-  Results results(with_report({a.json_file}, a.report_folder), inputs_of(a));
+  Results results(with_report({a.json_file}, a.report_folder), inputs_of(a), a.report_folder);
   const FlankComparison result = compare_flanks(options_of(a));
   if (!a.report_folder.empty())
     add_report(results, a.report_folder, comparison_document(result, {a.command, {}}));

@@ -93,7 +93,7 @@ std::vector<std::string> inputs_of(const ExportArguments& a) {
 }
 
 int export_tables_to(const ExportArguments& a) {
-  Results results({a.json_file}, inputs_of(a));
+  Results results({a.json_file}, inputs_of(a), a.out);
   const Source source = source_of(a);
   const ControllerExport result = export_tables(source.tables, source.name, a.options);
   std::vector<NamedText> files;

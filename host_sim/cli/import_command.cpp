@@ -98,7 +98,7 @@ using ReadForeign = void (*)(std::istream&, const std::string&, ForeignErrors&);
 
 template <class Read>
 int import_with(const ImportArguments& a, const Read& read) {
-  Results results({a.json_file}, a.files);
+  Results results({a.json_file}, a.files, a.out);
   const Imported imported = read();
   const std::vector<NamedText> files = files_of(imported);
   results.add_files(a.out, files);

@@ -34,6 +34,12 @@ std::filesystem::path place_of(const std::string& name) {
                                            ignored);
 }
 
+// The folder need not be there yet.
+bool is_in_folder(const std::string& name, const std::string& folder) {
+  const std::string in_it = (std::filesystem::path(folder) / "any").string();
+  return place_of(name).parent_path() == place_of(in_it).parent_path();
+}
+
 }  // namespace
 
 std::string shown_output(const std::string& path) {
@@ -44,10 +50,14 @@ std::string json_text(const nlohmann::json& result) {
   return result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-Results::Results(const std::vector<std::string>& names, std::vector<std::string> inputs)
+Results::Results(const std::vector<std::string>& names, std::vector<std::string> inputs,
+                 const std::string& folder)
     : inputs_(std::move(inputs)) {
   for (const std::string& name : names)
     announce(name);
+  if (!folder.empty()) require_folder(folder);
+  for (const std::string& file : files_announced_)
+    if (folder.empty() || !is_in_folder(file, folder)) require_place(file);
 }
 
 void Results::announce(const std::string& name) {

@@ -25,9 +25,11 @@ namespace volcomp::sim {
 // result. None is put in place before all are written.
 class Results {
  public:
-  // Before anything is read. Throws UserError for two results with one place and for a result that
-  // would replace an input.
-  explicit Results(const std::vector<std::string>& names, std::vector<std::string> inputs = {});
+  // Before anything is read or done. `folder` is that of add_folder() or add_files(), if there will
+  // be one. Throws UserError for two results with one place, for a result that would replace an
+  // input, and for one that has no place: its folder is not there or lets nothing in.
+  explicit Results(const std::vector<std::string>& names, std::vector<std::string> inputs = {},
+                   const std::string& folder = {});
 
   // For words to people: standard output, or standard error when one of the results goes there.
   [[nodiscard]] std::FILE* words() const { return words_; }

@@ -79,7 +79,7 @@ Results run_results(const RunArguments& arguments, const std::vector<std::string
   inputs.insert(inputs.end(), {arguments.machine, arguments.node.firmware.image.string()});
   return Results(
       with_report({arguments.json_file, arguments.node.log_file}, arguments.report_folder),
-      std::move(inputs));
+      std::move(inputs), arguments.report_folder);
 }
 
 void write_results(const RunArguments& arguments, const nlohmann::json& document,

@@ -37,7 +37,7 @@ SimulatedMachine machine_of(const SimulateArguments& a) {
 }
 
 int simulate_run_files(const SimulateArguments& a) {
-  Results results({a.json_file}, {a.machine});
+  Results results({a.json_file}, {a.machine}, a.out);
   const SimulatedMachine simulated = machine_of(a);
   std::vector<NamedText> files;
   std::string text;

@@ -80,7 +80,8 @@ std::vector<std::string> inputs_of(const VerifyArguments& a) {
 }
 
 int verify_files(const VerifyArguments& a) {
-  Results results(with_report({a.json_file, a.csv_file}, a.report_folder), inputs_of(a));
+  Results results(with_report({a.json_file, a.csv_file}, a.report_folder), inputs_of(a),
+                  a.report_folder);
   const VerificationInput input = read_input(a);
   const VerificationResult result = verify(input);
   if (!a.report_folder.empty())

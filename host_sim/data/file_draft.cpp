@@ -24,10 +24,16 @@ bool is_link_to_descriptor(const fs::path& link) {
 }
 
 // root may write everything: a file without any permission to write stays as it is all the same.
-bool may_be_replaced(const fs::path& file, fs::perms mode) {
+bool may_be_taken(const fs::path& place, const fs::file_status& there) {
   constexpr fs::perms kAnyWrite =
       fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
-  return (mode & kAnyWrite) != fs::perms::none && ::access(file.c_str(), W_OK) == 0;
+  if (!fs::exists(there)) return true;
+  return !fs::is_directory(there) && (there.permissions() & kAnyWrite) != fs::perms::none &&
+         ::access(place.c_str(), W_OK) == 0;
+}
+
+[[noreturn]] void refuse(const fs::path& path) {
+  throw UserError(fmt::format("{}: cannot be written", path.string()));
 }
 
 }  // namespace
@@ -47,6 +53,15 @@ bool is_written_directly(const fs::path& path) {
   return fs::is_other(path, ignored);
 }
 
+void require_place(const fs::path& path) {
+  if (is_written_directly(path)) return;
+  const fs::path place = file_behind(path);
+  const fs::path folder = place.has_parent_path() ? place.parent_path() : ".";
+  std::error_code ignored;
+  const bool lets_in = fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK) == 0;
+  if (!lets_in || !may_be_taken(place, fs::status(place, ignored))) refuse(path);
+}
+
 FileDraft::FileDraft(const fs::path& path) : path_(path), place_(file_behind(path)) {
   if (is_written_directly(path)) {
     stream_.open(path, std::ios::binary);
@@ -55,7 +70,7 @@ FileDraft::FileDraft(const fs::path& path) : path_(path), place_(file_behind(pat
   }
   if (stream_) return;
   discard();
-  fail();
+  refuse(path_);
 }
 
 FileDraft::FileDraft(FileDraft&& other) noexcept
@@ -67,31 +82,29 @@ FileDraft::FileDraft(FileDraft&& other) noexcept
 void FileDraft::open_beside() {
   std::error_code failed;
   const fs::file_status there = fs::status(place_, failed);
-  const bool replaces = fs::exists(there);
-  if (fs::is_directory(there) || (replaces && !may_be_replaced(place_, there.permissions())))
-    fail();
+  if (!may_be_taken(place_, there)) refuse(path_);
   temporary_ = place_;
   temporary_ += fmt::format(".{}.tmp", ::getpid());
   stream_.open(temporary_, std::ios::binary);
   // Before there is anything in it to be read.
-  if (stream_ && replaces) fs::permissions(temporary_, there.permissions(), failed);
+  if (stream_ && fs::exists(there)) fs::permissions(temporary_, there.permissions(), failed);
 }
 
 void FileDraft::write(std::string_view text) {
   stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream_) fail();
+  if (!stream_) refuse(path_);
 }
 
 void FileDraft::complete() {
   stream_.close();
-  if (!stream_) fail();
+  if (!stream_) refuse(path_);
 }
 
 void FileDraft::put_in_place() {
   if (temporary_.empty()) return;
   std::error_code failed;
   fs::rename(temporary_, place_, failed);
-  if (failed) fail();
+  if (failed) refuse(path_);
   temporary_.clear();
 }
 
@@ -99,10 +112,6 @@ void FileDraft::discard() const {
   if (temporary_.empty()) return;
   std::error_code ignored;
   fs::remove(temporary_, ignored);
-}
-
-void FileDraft::fail() const {
-  throw UserError(fmt::format("{}: cannot be written", path_.string()));
 }
 
 }  // namespace volcomp::sim

@@ -15,6 +15,10 @@ namespace volcomp::sim {
 // as standard output is.
 [[nodiscard]] bool is_written_directly(const std::filesystem::path& path);
 
+// Throws UserError naming the file where a draft of it would, without writing anything: so that
+// what takes long is not done in vain.
+void require_place(const std::filesystem::path& path);
+
 // Written beside its place with the mode of the file that is there; gone unless it was put in
 // place. All throw UserError naming the file, also where it may not be written.
 class FileDraft {
@@ -35,7 +39,6 @@ class FileDraft {
  private:
   void open_beside();
   void discard() const;
-  [[noreturn]] void fail() const;
 
   std::filesystem::path path_;       // as the user says it
   std::filesystem::path place_;      // without links

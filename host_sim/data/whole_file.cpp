@@ -1,5 +1,7 @@
 #include "host_sim/data/whole_file.hpp"
 
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include "host_sim/data/input_file.hpp"
@@ -56,6 +58,15 @@ void WholeFiles::put_in_place() {
   for (FileDraft& draft : drafts_)
     draft.put_in_place();
   new_folders_.clear();
+}
+
+void require_folder(const fs::path& path) {
+  std::error_code ignored;
+  fs::path there = fs::absolute(path, ignored);
+  while (!fs::exists(there, ignored) && there.has_relative_path())
+    there = there.parent_path();
+  if (!fs::is_directory(there, ignored) || ::access(there.c_str(), W_OK) != 0)
+    throw UserError(fmt::format("{}: cannot be created or written", path.string()));
 }
 
 void create_folder(const fs::path& path) {

@@ -47,6 +47,10 @@ class WholeFiles {
   std::vector<std::filesystem::path> new_folders_;  // innermost first
 };
 
+// Throws UserError naming the folder where none could be made, or nothing be written into it,
+// without making it.
+void require_folder(const std::filesystem::path& path);
+
 // With those above it; one that exists is fine. Throws UserError naming it.
 void create_folder(const std::filesystem::path& path);
 

@@ -57,6 +57,9 @@ changes_nothing 2 'none/x: cannot be written' "$volcomp" simulate runs --seed 9 
 changes_nothing 2 'none/x: cannot be written' "$volcomp" export-tables --image t.vct --out controller --format isg --entries 5 --json none/x
 changes_nothing 2 'none/x: cannot be written' "${compare[@]}" --report report --json none/x
 changes_nothing 2 'none/x: cannot be written' "$volcomp" run machine --places 10 --report report --json none/x
+# ... and a node on a bus is not asked, nor a run of minutes begun: there is no such bus
+changes_nothing 2 'none/x: cannot be written' "$volcomp" download t.vct --can pipe:none --json none/x
+changes_nothing 2 'm.toml: cannot be created' "$volcomp" run xyfz --can pipe:none --report m.toml
 mkdir -p controller/kept
 changes_nothing 2 'm.toml: cannot be created' "${verify[@]}" --json v.json --report m.toml
 changes_nothing 2 'standard output: cannot be written' bash -c '"$@" >/dev/full' - "${verify[@]}" --json - --csv v.csv

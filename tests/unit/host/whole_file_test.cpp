@@ -82,6 +82,29 @@ TEST_F(WholeFileTest, AFileThatNobodyMayWriteIsRefused) {
   EXPECT_EQ(entries(), 1);
 }
 
+// What a draft or a folder would be refused for is known before there is anything to write.
+TEST_F(WholeFileTest, WhatHasNoPlaceIsRefusedBeforeItIsWritten) {
+  write_whole_file(path("file"), "old");
+  write_whole_file(path("kept"), "old");
+  fs::permissions(path("kept"), static_cast<fs::perms>(0444));
+  fs::create_directory(path("folder"));
+  fs::create_symlink("folder/new", path("link"));
+  fs::create_symlink("none/new", path("lost"));
+  for (const char* name : {"file", "new", "folder/new", "link"})
+    EXPECT_NO_THROW(require_place(path(name))) << name;
+  for (const char* name : {"kept", "folder", "none/new", "lost", "file/new"})
+    EXPECT_EQ(complaint_of([&] { require_place(path(name)); }),
+              path(name).string() + ": cannot be written");
+  EXPECT_NO_THROW(require_place("/dev/null"));
+  for (const char* name : {"folder", "new", "new/inner"})
+    EXPECT_NO_THROW(require_folder(path(name))) << name;
+  for (const char* name : {"file", "file/new", "file/new/inner"})
+    EXPECT_EQ(complaint_of([&] { require_folder(path(name)); }),
+              path(name).string() + ": cannot be created or written");
+  EXPECT_EQ(text("file"), "old");
+  EXPECT_EQ(entries(), 5);
+}
+
 TEST_F(WholeFileTest, APipeIsWrittenAndStays) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
