@@ -108,41 +108,48 @@ void check(const SimulateArguments& a) {
     throw UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
 }
 
-int simulate_diagonal_file(const SimulateArguments& a) {
+// Writes what `csv` makes of the measurement, and says what `extent` calls it.
+template <class Measure, class Csv, class Extent>
+int simulate_file(const SimulateArguments& a, const Measure& measure, const Csv& csv,
+                  const Extent& extent) {
   check(a);
   Results results({a.out, a.node.log_file}, {a.machine, a.tables});
   const SimulatedMachine simulated = machine_of(a);
   std::string words;
-  const DiagonalsFile file = on_machine(
+  const auto file = on_machine(
       a, simulated,
       [&](MotionCell& cell, const Progress& progress) {
-        return simulate_diagonals(cell, simulated.machine, a.plan, a.instruments, progress);
+        return measure(cell, simulated.machine, progress);
       },
       words);
-  results.add(a.out, diagonals_csv(file));
+  results.add(a.out, csv(file));
   results.write();
-  fmt::print(results.words(), "{}\n{}: {} diagonals, {} targets, {} runs up and down\n", words,
-             shown_output(a.out), file.diagonals.size(), a.plan.points, a.plan.runs);
+  fmt::print(results.words(), "{}\n{}: {}\n", words, shown_output(a.out), extent(file));
   return 0;
 }
 
-int simulate_volume_file(const SimulateArguments& a) {
-  check(a);
-  Results results({a.out, a.node.log_file}, {a.machine, a.tables});
-  const SimulatedMachine simulated = machine_of(a);
-  std::string words;
-  const VolumeFile file = on_machine(
-      a, simulated,
-      [&](MotionCell& cell, const Progress& progress) {
-        progress(0.0, "places of the volume");
-        return simulate_volume(cell, simulated.machine, a.volume_points, a.instruments.seed);
+int simulate_diagonal_file(const SimulateArguments& a) {
+  return simulate_file(
+      a,
+      [&](MotionCell& cell, const MachineFile& machine, const Progress& progress) {
+        return simulate_diagonals(cell, machine, a.plan, a.instruments, progress);
       },
-      words);
-  results.add(a.out, volume_csv(file));
-  results.write();
-  fmt::print(results.words(), "{}\n{}: {} places\n", words, shown_output(a.out),
-             file.points.size());
-  return 0;
+      diagonals_csv,
+      [&](const DiagonalsFile& file) {
+        return fmt::format("{} diagonals, {} targets, {} runs up and down", file.diagonals.size(),
+                           a.plan.points, a.plan.runs);
+      });
+}
+
+int simulate_volume_file(const SimulateArguments& a) {
+  return simulate_file(
+      a,
+      [&](MotionCell& cell, const MachineFile& machine, const Progress& progress) {
+        progress(0.0, "places of the volume");
+        return simulate_volume(cell, machine, a.volume_points, a.instruments.seed);
+      },
+      volume_csv,
+      [](const VolumeFile& file) { return fmt::format("{} places", file.points.size()); });
 }
 
 std::shared_ptr<SimulateArguments> add_machine_options(CLI::App& command) {

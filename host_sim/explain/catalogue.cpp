@@ -161,8 +161,7 @@ std::string reason_page() {
   std::string page =
       "# What volcomp says, and what to do\n\n"
       "Made from the code by `volcomp device-files --reasons FILE`; `volcomp explain CODE` shows "
-      "one "
-      "of them.\n";
+      "one of them.\n";
   append_kind(page, all, CodeKind::reason,
               "Why an input was refused. The host tool adds file, line, axis, run or field; a node "
               "tells the number in 2112h:02 and in the emergency FF10h. What was in force stays in "
@@ -184,11 +183,9 @@ std::string object_page() {
       "# Object dictionary of the node\n\n"
       "Made from the code by `volcomp device-files --objects FILE`; the same as "
       "[volcomp.eds](../firmware/volcomp.eds), for people. `volcomp explain 2202h` shows one "
-      "object. "
-      "[firmware/README.md](../firmware/README.md) tells how they work together.\n\n"
+      "object. [firmware/README.md](../firmware/README.md) tells how they work together.\n\n"
       "Access: ro read only, rw read and write, rwr also in a TPDO, rww also in an RPDO. Defaults "
-      "are "
-      "those of a node that was never configured.\n";
+      "are those of a node that was never configured.\n";
   for (const std::vector<EdsObject>& alike : objects_alike())
     page += object_section(alike);
   return page;

@@ -13,21 +13,18 @@ const std::vector<ReasonRow>& loading_reasons() {
        "Look at the run, target and channel that are named, and measure or export them again."},
       {Reason::missing_field,
        "Convention, side, lever and kappa decide signs; a silent default would be wrong for half "
-       "of "
-       "all machines and cost 8 to 60 µm.",
+       "of all machines and cost 8 to 60 µm.",
        "Write the field. docs/conventions.md says with one drawing each what the values mean."},
       {Reason::no_runs, "The file holds targets but no readings for this axis.",
        "Measure at least one run; two directions and three runs or more are needed for reversal "
-       "and "
-       "repeatability."},
+       "and repeatability."},
       {Reason::run_length, "A run was aborted, or a line is missing in the export.",
        "Complete the run or take it out; the others are enough if they are whole."},
       {Reason::too_many_runs, "Averaging works in memory of fixed size.",
        "Average runs beforehand, or build the tables from the latest ones."},
       {Reason::positions_not_monotone,
        "The targets rise and fall: both directions were put below one another, or lines were "
-       "sorted "
-       "by another column.",
+       "sorted by another column.",
        "Give every direction as runs of its own (columns run and direction) with targets in "
        "order."},
       {Reason::positions_duplicate,
@@ -45,8 +42,7 @@ const std::vector<ReasonRow>& loading_reasons() {
        "Change reference_mm or reference_rad in the machine file, or measure farther."},
       {Reason::unit_suspected,
        "The header names a unit in which the values would be those of a broken machine: "
-       "micrometres "
-       "read as millimetres, arc seconds as microradians.",
+       "micrometres read as millimetres, arc seconds as microradians.",
        "Correct the unit in the header of the column."},
       {Reason::too_few_knots, "One point says nothing about what lies beside it.",
        "Measure at least two targets; eleven are usual (ISO 230-2)."},
@@ -119,8 +115,7 @@ const std::vector<ReasonRow>& loading_reasons() {
        "Correct the setting that is named; the ones in force stay."},
       {Reason::lever_mismatch,
        "Straightness and positioning at two places differ by angle times lever. Here they do not, "
-       "so "
-       "a sign, a unit, the order of the angles or an arm is wrong.",
+       "so a sign, a unit, the order of the angles or an arm is wrong.",
        "Compare convention, side, sensed_point_mm and kappa with the setup; docs/conventions.md."},
       {Reason::lever_spread_too_small, "The axis hardly pitches: every sign would pass the test.",
        "Take the two places farther apart, or trust the setup sheet."},

@@ -76,8 +76,7 @@ const std::vector<ReasonRow>& measuring_reasons() {
        "Check the helix angle, its hand and the radius of the wheel."},
       {Reason::breaks_helix,
        "Both axes lag one command. The lags balance each other on the flank; taking away one of "
-       "them "
-       "leaves the other on it.",
+       "them leaves the other on it.",
        "Learn from the synchronisation. 2520h:03 = 1 forces it."},
       {Reason::feed_mismatch,
        "A lag grows with the feed; the table knows that of its own feed only.",

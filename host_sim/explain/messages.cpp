@@ -21,8 +21,7 @@ constexpr std::array<Row<StatusBit>, kStatusBits> kBits{{
     {kValid, {"The axis runs as configured.", "Nothing."}},
     {kNotHomed,
      {"The drive is not in operation enabled, or its status word does not say that it is "
-      "referenced "
-      "(2033h). Before that, positions mean nothing.",
+      "referenced (2033h). Before that, positions mean nothing.",
       "Enable the drive and let it home."}},
     {kStale,
      {"The process data of this cycle did not come before the deadline.",
@@ -46,8 +45,7 @@ constexpr std::array<Row<StatusBit>, kStatusBits> kBits{{
     {kRateLimited,
      {"The correction has to change faster than its share of 2202h, a (2 x 2200h:04 + 3)th, as "
       "after a reversal or near a step "
-      "in "
-      "a table.",
+      "in a table.",
       "Nothing during a moment; if it stays, raise 2202h or look for a kink in the table."}},
     {kDirectionUnknown,
      {"Reversal is known only after the first motion.",

@@ -37,8 +37,7 @@ constexpr std::array kPurposes{
         "while OPERATIONAL."},
     Purpose{0x1011, 0x1011,
             "Writing \"load\" (64616F6Ch) to sub-index 1 forgets what is stored; defaults hold "
-            "after the "
-            "next reset."},
+            "after the next reset."},
     Purpose{0x1012, 0x1012,
             "Identifier of TIME, which gives the node the date; bit 31: it listens. Needed for "
             "tables that expire."},
@@ -124,13 +123,11 @@ constexpr std::array kPurposes{
             "or 2^-32 turn."},
     Purpose{0x2300, 0x2300,
             "Switches probing on with the settings of 2301h to 2306h, or off; sub-index 5 says why "
-            "they "
-            "were refused."},
+            "they were refused."},
     Purpose{0x2301, 0x2301, "Delay of each drive's probe input."},
     Purpose{0x2302, 0x2302,
             "How the ball acts by direction: a constant, then spherical harmonics to third order, "
-            "frame "
-            "of the tool."},
+            "frame of the tool."},
     Purpose{0x2303, 0x2303,
             "Where the part stands on its holder: rotation by rows, then position."},
     Purpose{0x2304, 0x2306, "Standard uncertainties, from which that of every point is made."},
@@ -147,8 +144,7 @@ constexpr std::array kPurposes{
             "watched, learning."},
     Purpose{0x2510, 0x2516,
             "What was watched: samples by what became of them, signals on the flank by direction, "
-            "means "
-            "by node."},
+            "means by node."},
     Purpose{0x2520, 0x2525, "Learning: commands, what became of each table, what is in force."},
     Purpose{0x2526, 0x2526, "The learned tables as one block, to be read and written."},
     Purpose{
