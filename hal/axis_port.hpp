@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "comp/realtime/tick_types.hpp"
+#include "comp/tick/tick_types.hpp"
 
 namespace volcomp::hal {
 

@@ -29,7 +29,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 
 namespace volcomp::hal {
 

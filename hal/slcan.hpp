@@ -19,7 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 #include "hal/can_port.hpp"
 
 namespace volcomp::hal {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Proves from their object files that the libraries of the target (comp, c_interface, canopen, node, hal/linux) keep their
-# promises: no heap, no exceptions, no work before main, no mutable globals, no C library mathematics in comp/realtime.
+# promises: no heap, no exceptions, no work before main, no mutable globals, no C library mathematics in comp/tick.
 #
 #   toolchain/check-archive.sh [BUILD_FOLDER]   default build/host; a Release build
 #   toolchain/check-archive.sh --self-test      proves that each kind of offence is found
@@ -80,7 +80,7 @@ report() {
   done <<< "$lines"
 }
 
-# realtime_members SPLIT_FOLDER OBJECT_FOLDER: those members whose bytes equal an object of comp/realtime.
+# realtime_members SPLIT_FOLDER OBJECT_FOLDER: those members whose bytes equal an object of comp/tick.
 realtime_members() {
   local object member
   [ -d "$2" ] || return 0
@@ -103,8 +103,8 @@ check_realtime() {
       die "$realtime_sources has headers but no object in $archive, so nothing about it can be proved."
     return
   fi
-  printf '  comp/realtime: %s of the objects\n' "$(wc -l <<< "$members")"
-  report mathematics 'C library mathematics in comp/realtime' \
+  printf '  comp/tick: %s of the objects\n' "$(wc -l <<< "$members")"
+  report mathematics 'C library mathematics in comp/tick' \
     "$(list_undefined "$folder" | awk 'NR == FNR { realtime[$1]; next } $1 in realtime' <(printf '%s\n' "$members") - |
       matches "$libm")"
 }
@@ -215,7 +215,7 @@ self_test() {
 need "$nm" "$objdump" "$ar" c++filt
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-realtime_sources=comp/realtime
+realtime_sources=comp/tick
 cxx=${CXX:-g++}
 case "${1:-}" in
   -h | --help) usage ;;

@@ -215,10 +215,10 @@ def print_figures(graph):
 
 def print_realtime_mathematics(graph):
     """What check-archive.sh cannot see: C library mathematics behind calls into other folders of comp."""
-    roots = [t for t, f in graph.functions.items() if f.defined and f.place.startswith("comp/realtime/")]
+    roots = [t for t, f in graph.functions.items() if f.defined and f.place.startswith("comp/tick/")]
     reached = graph.reachable(roots)
     found = sorted(t for t in reached if LIBM.match(t))
-    print(f"  C library mathematics reached from the {len(roots)} functions of comp/realtime: {len(found)}")
+    print(f"  C library mathematics reached from the {len(roots)} functions of comp/tick: {len(found)}")
     for title in found:
         path = [title]
         while reached[path[-1]] is not None:

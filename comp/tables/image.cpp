@@ -2,9 +2,9 @@
 
 #include "comp/tables/image.hpp"
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
+#include "comp/core/little_endian.hpp"
 #include "comp/tables/image_layout.hpp"
-#include "comp/tables/little_endian.hpp"
 
 namespace volcomp {
 namespace {

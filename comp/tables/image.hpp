@@ -17,8 +17,8 @@
 //            one at the end would not depend on the block any more, see crc32.hpp)
 //   end      crc32 u32 over everything before it
 
-#include "comp/span.hpp"
-#include "comp/status.hpp"
+#include "comp/core/span.hpp"
+#include "comp/core/status.hpp"
 #include "comp/tables/tables_view.hpp"
 
 namespace volcomp {

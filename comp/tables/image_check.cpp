@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
+#include "comp/core/little_endian.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/image_layout.hpp"
-#include "comp/tables/little_endian.hpp"
 #include "comp/tables/thermal_check.hpp"
 
 namespace volcomp {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp {
 namespace {

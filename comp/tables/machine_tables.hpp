@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdint>
 
-#include "comp/geometry/machine_chain.hpp"
-#include "comp/tables/error_table.hpp"
+#include "comp/machine/machine_chain.hpp"
+#include "comp/metrology/tables/error_table.hpp"
 #include "comp/tables/thermal.hpp"
 
 namespace volcomp {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "comp/tables/little_endian.hpp"
+#include "comp/core/little_endian.hpp"
 
 namespace volcomp {
 

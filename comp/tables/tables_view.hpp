@@ -3,7 +3,7 @@
 // numbers in MachineTables, or still as the bytes of an image (check_image), so that a node needs
 // no second copy. A view owns no value; it lives as long as what it was taken of, unchanged.
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 #include "comp/tables/machine_tables.hpp"
 
 namespace volcomp {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "comp/core/units.hpp"
 #include "comp/tables/tables_view.hpp"
 #include "comp/tables/thermal_check.hpp"
-#include "comp/units.hpp"
 
 namespace volcomp {
 

@@ -3,7 +3,7 @@
 //
 // A scale (or ballscrew) that is ΔT warmer than when the tables were measured is longer by α·ΔT: an
 // axis that reads q has really gone from the fixed point of its scale, where the growth is zero, by
-// (1 + α·ΔT)(q − q_fix). Actual minus nominal for the same reading (conventions of comp/geometry):
+// (1 + α·ΔT)(q − q_fix). Actual minus nominal for the same reading (conventions of comp/machine):
 //
 //   E = +α·ΔT·(q − q_fix)   along the motion of the axis
 //
@@ -20,8 +20,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "comp/geometry/machine_description.hpp"
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
+#include "comp/machine/machine_description.hpp"
 
 namespace volcomp {
 

@@ -1,10 +1,10 @@
 #pragma once
 // What stands behind a volcomp_compensator of volcomp.h.
 
-#include "comp/realtime/instances.hpp"
-#include "comp/realtime/probe_corrector.hpp"
-#include "comp/realtime/temperature_input.hpp"
+#include "comp/probe/probe_corrector.hpp"
 #include "comp/tables/tables_view.hpp"
+#include "comp/tick/instances.hpp"
+#include "comp/tick/temperature_input.hpp"
 #include "firmware/c_interface/volcomp.h"
 
 struct volcomp_compensator {

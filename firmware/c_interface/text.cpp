@@ -1,6 +1,6 @@
 // What the numbers of volcomp.h mean, and that they are those of the C++ code.
 
-#include "comp/realtime/status_text.hpp"
+#include "comp/tick/status_text.hpp"
 #include "firmware/c_interface/compensator.hpp"
 
 namespace {

@@ -2,7 +2,7 @@
 // What an SDO server does with the objects of its device: whole values in, whole values out. Both
 // directions work on bytes in place; a domain (table image) is never copied.
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 #include "firmware/canopen/abort_code.hpp"
 
 namespace volcomp::canopen {

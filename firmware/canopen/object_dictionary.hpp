@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 #include "firmware/canopen/object_access.hpp"
 
 namespace volcomp::canopen {

@@ -13,8 +13,8 @@
 #include <array>
 #include <cstdint>
 
-#include "comp/realtime/instances.hpp"
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
+#include "comp/tick/instances.hpp"
 #include "firmware/integrated/servo_loop.hpp"
 
 namespace volcomp::example {

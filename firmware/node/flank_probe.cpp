@@ -1,6 +1,6 @@
 #include "firmware/node/flank_probe.hpp"
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::node {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 // Touches that are meant for a flank of a face gear: the gear, the flank that was announced before
-// the touch, and what the kernel says of the touch (comp/surfaces/face_touch.hpp).
+// the touch, and what the kernel says of the touch (comp/probe/face_touch.hpp).
 
-#include "comp/surfaces/face_touch.hpp"
+#include "comp/probe/face_touch.hpp"
 #include "firmware/node/preemption.hpp"
 #include "firmware/node/probe_objects.hpp"
 

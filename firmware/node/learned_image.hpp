@@ -2,8 +2,8 @@
 // Learned tables as bytes: what is read and written as 2526h:01 and kept in the store. Layout: see
 // kLearnedHeader.
 
-#include "comp/span.hpp"
-#include "comp/status.hpp"
+#include "comp/core/span.hpp"
+#include "comp/core/status.hpp"
 #include "firmware/node/stroke_objects.hpp"
 
 namespace volcomp::node {

@@ -3,7 +3,7 @@
 // have is the board's choice, VOLCOMP_NODE_KNOTS, because it decides about the memory: 960 bytes
 // per knot here and 240 in the image buffer.
 
-#include "comp/realtime/instances.hpp"
+#include "comp/tick/instances.hpp"
 #include "firmware/node/node_features.hpp"
 
 namespace volcomp::node {

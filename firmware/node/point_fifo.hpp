@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "comp/realtime/probe_corrector.hpp"
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
+#include "comp/probe/probe_corrector.hpp"
 #include "firmware/node/flank_probe.hpp"
 #include "firmware/node/node_compensator.hpp"
 
@@ -25,7 +25,7 @@ namespace volcomp::node {
 //   16  i64 × 3  machine, nm
 //   40  i64 × 3  workpiece, nm
 //
-// Verdicts on flank and foot are Reasons (comp/surfaces/face_touch.hpp). Those of a point without
+// Verdicts on flank and foot are Reasons (comp/probe/face_touch.hpp). Those of a point without
 // flank are kNotJudged; slot, side, row, column, distance and foot are 0 then.
 inline constexpr std::size_t kPointBytes = 192;
 using PointRecord = std::array<std::uint8_t, kPointBytes>;

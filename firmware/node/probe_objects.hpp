@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "comp/realtime/lobing.hpp"
+#include "comp/probe/lobing.hpp"
 #include "firmware/node/node_compensator.hpp"
 
 namespace volcomp::node {

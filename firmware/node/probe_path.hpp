@@ -2,8 +2,8 @@
 // The probe of a node: from what the drives latch to points that wait to be read. The tick collects
 // touches, the background makes points of them.
 
-#include "comp/realtime/probe_corrector.hpp"
-#include "comp/realtime/touch_collector.hpp"
+#include "comp/probe/probe_corrector.hpp"
+#include "comp/probe/touch_collector.hpp"
 #include "firmware/node/flank_probe.hpp"
 #include "firmware/node/point_fifo.hpp"
 #include "firmware/node/preemption.hpp"

@@ -1,6 +1,6 @@
 #include "firmware/node/record_layout.hpp"
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "firmware/canopen/bytes.hpp"
 #include "hal/block_device.hpp"
 

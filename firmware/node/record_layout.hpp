@@ -19,7 +19,7 @@
 //     header means that the save had written everything else.
 //   - A CRC of its own for the header, so that its sizes are never trusted unchecked; one for each
 //     part, so that a part is checked in the memory it was read into. CRC-32C, because an image
-//     ends with its CRC-32 (comp/tables/crc32.hpp).
+//     ends with its CRC-32 (comp/core/crc32.hpp).
 //   - Seal after the header was read back. A header that power failed upon may read well today and
 //     badly tomorrow ("The unstable bits issue" in the documentation of UBIFS), so it must not
 //     replace the record before it. Where a seal was begun, the header is known to be firm.

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/span.hpp"
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
+#include "comp/core/span.hpp"
 #include "firmware/node/record_layout.hpp"
 #include "hal/block_device.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 
 namespace volcomp::node {
 

@@ -1,6 +1,6 @@
 // Strokes on the bus: what the background makes of the passes.
 
-#include "comp/evaluation/spectral_line.hpp"
+#include "comp/strokes/spectral_line.hpp"
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/node/stroke_service.hpp"
 

@@ -1,15 +1,15 @@
 #pragma once
 // The values behind 201Ah (what the controller grinds) and 2500h (monitor, learning and offsets of
 // a helical grinder), with their defaults. The node adds the learned offsets to those of the axis C
-// (comp/realtime/stroke_offsets.hpp). Seed 003 sections 8 and 9.
+// (comp/strokes/stroke_offsets.hpp). Seed 003 sections 8 and 9.
 //
 // Lengths in mm and angles in rad unless the name says otherwise.
 
 #include <array>
 #include <cstdint>
 
-#include "comp/realtime/helix_instances.hpp"
-#include "comp/tables/learning_choice.hpp"
+#include "comp/strokes/helix_instances.hpp"
+#include "comp/strokes/learning_choice.hpp"
 #include "firmware/canopen/named_entry.hpp"
 
 namespace volcomp::node {

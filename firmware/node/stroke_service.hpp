@@ -6,8 +6,8 @@
 // with them; the positions of a cycle were taken at its own SYNC. So positions are compared with
 // the targets of the cycle before, and the offset belongs to the targets of this one.
 
-#include "comp/realtime/helix_instances.hpp"
-#include "comp/tables/learning_guard.hpp"
+#include "comp/strokes/helix_instances.hpp"
+#include "comp/strokes/learning_guard.hpp"
 #include "firmware/node/learned_image.hpp"
 #include "firmware/node/preemption.hpp"
 #include "firmware/node/stroke_objects.hpp"

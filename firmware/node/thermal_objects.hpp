@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "comp/realtime/temperature_input.hpp"
+#include "comp/tick/temperature_input.hpp"
 
 namespace volcomp::node {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 #include "hal/block_device.hpp"
 #include "hal/linux/open_status.hpp"
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 #include "hal/block_device.hpp"
 
 namespace volcomp::hal::mps2 {

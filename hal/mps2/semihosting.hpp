@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 
 namespace volcomp::hal::mps2::semihosting {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 #include "hal/sja1000/sja1000.hpp"
 #include "hal/virt/interrupt_lock.hpp"
 #include "hal/virt/registers.hpp"

@@ -2,7 +2,7 @@
 // Services of the debugger or emulator the board hangs on (Arm "Semihosting for AArch32 and
 // AArch64"). Where no host listens, every call fails.
 
-#include "comp/span.hpp"
+#include "comp/core/span.hpp"
 
 namespace volcomp::hal::virt::semihosting {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a probe ball can touch. Everything in the work frame of the machine, mm.
 
-#include "comp/geometry/error_motion.hpp"
+#include "comp/machine/error_motion.hpp"
 
 namespace volcomp::sim {
 

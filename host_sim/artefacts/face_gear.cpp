@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "comp/surfaces/face_relief.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/probe/face_relief.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <functional>
 
-#include "comp/geometry/frame.hpp"
-#include "comp/surfaces/face_gear.hpp"
+#include "comp/machine/frame.hpp"
+#include "comp/probe/face_gear.hpp"
 #include "host_sim/artefacts/artefact.hpp"
 
 namespace volcomp::sim {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "comp/surfaces/involute_gear.hpp"
+#include "comp/metrology/gears/involute_gear.hpp"
 #include "host_sim/artefacts/artefact.hpp"
 
 namespace volcomp::sim {

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "comp/realtime/tick_types.hpp"
+#include "comp/tick/tick_types.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/storage.hpp"
 #include "hal/reset_cause.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/status_text.hpp"
+#include "comp/tick/status_text.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/node/storage.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"

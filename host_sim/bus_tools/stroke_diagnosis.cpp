@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/stroke_offsets.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/strokes/stroke_offsets.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
 
 namespace volcomp::sim {

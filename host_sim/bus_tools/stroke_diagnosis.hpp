@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "comp/status.hpp"
-#include "comp/tables/learning_guard.hpp"
+#include "comp/core/status.hpp"
+#include "comp/strokes/learning_guard.hpp"
 #include "firmware/node/stroke_objects.hpp"
 #include "host_sim/bus_tools/node_client.hpp"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_files.hpp"

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/instances.hpp"
+#include "comp/metrology/tables/squareness.hpp"
 #include "comp/tables/image.hpp"
-#include "comp/tables/squareness.hpp"
+#include "comp/tick/instances.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/machine/machine_facts.hpp"
 

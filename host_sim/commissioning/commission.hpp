@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "comp/realtime/compensator.hpp"
+#include "comp/metrology/tables/table_builder.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "comp/tables/machine_tables.hpp"
-#include "comp/tables/table_builder.hpp"
-#include "comp/tables/volumetric_model.hpp"
+#include "comp/tick/compensator.hpp"
 #include "host_sim/data/runs_csv.hpp"
 #include "host_sim/machine/machine_file.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "comp/calibration/axis_identification.hpp"
+#include "comp/metrology/fits/axis_identification.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {

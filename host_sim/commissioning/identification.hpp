@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "comp/tables/machine_tables.hpp"
-#include "comp/tables/volumetric_model.hpp"
 #include "host_sim/machine/machine_file.hpp"
 #include "host_sim/machine/true_machine.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "comp/tables/lever_test.hpp"
+#include "comp/metrology/tables/lever_test.hpp"
 #include "host_sim/data/runs_csv.hpp"
 #include "host_sim/machine/machine_file.hpp"
 

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/crc32.hpp"
-#include "comp/units.hpp"
+#include "comp/core/crc32.hpp"
+#include "comp/core/units.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "host_sim/controller/bus_controller.hpp"

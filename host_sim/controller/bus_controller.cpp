@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/tick_types.hpp"
 #include "comp/tables/image.hpp"
+#include "comp/tick/tick_types.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "comp/realtime/temperature_input.hpp"
+#include "comp/tick/temperature_input.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/stroke_objects.hpp"
 #include "host_sim/controller/bus_controller.hpp"

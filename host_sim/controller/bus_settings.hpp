@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "comp/realtime/instances.hpp"
+#include "comp/tick/instances.hpp"
 #include "host_sim/controller/watched_strokes.hpp"
 #include "host_sim/machine/machine_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/controller/bus_axes.hpp"
 
 namespace volcomp::sim {

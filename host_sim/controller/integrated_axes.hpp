@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "comp/realtime/instances.hpp"
+#include "comp/tick/instances.hpp"
 #include "firmware/integrated/servo_loop.hpp"
 #include "host_sim/controller/axis_group.hpp"
 #include "host_sim/controller/motion_cell.hpp"

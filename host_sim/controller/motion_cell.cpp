@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/inverse.hpp"
 #include "host_sim/controller/straight_move.hpp"
 
 namespace volcomp::sim {

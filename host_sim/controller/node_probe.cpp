@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "firmware/node/probe_objects.hpp"
 #include "host_sim/data/user_error.hpp"
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "comp/realtime/probe_corrector.hpp"
-#include "comp/status.hpp"
-#include "comp/surfaces/face_gear.hpp"
+#include "comp/core/status.hpp"
+#include "comp/probe/face_gear.hpp"
+#include "comp/probe/probe_corrector.hpp"
 #include "host_sim/controller/sdo_channel.hpp"
 #include "host_sim/machine/machine_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/drives/cia402_axis.hpp"
 #include "host_sim/machine/true_machine.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "comp/realtime/tick_types.hpp"
+#include "comp/tick/tick_types.hpp"
 #include "host_sim/controller/machine_watch.hpp"
 
 namespace volcomp::sim {

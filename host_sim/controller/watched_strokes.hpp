@@ -1,9 +1,9 @@
 #pragma once
 // What the compensation of a helical grinder is told of gear and strokes, wherever it runs.
 
-#include "comp/realtime/helix_monitor.hpp"
-#include "comp/realtime/stroke_offsets.hpp"
-#include "comp/tables/learning_choice.hpp"
+#include "comp/strokes/helix_monitor.hpp"
+#include "comp/strokes/learning_choice.hpp"
+#include "comp/strokes/stroke_offsets.hpp"
 
 namespace volcomp::sim {
 

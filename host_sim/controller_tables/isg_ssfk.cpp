@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/interpolation.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/interpolation.hpp"
 #include "host_sim/controller_tables/text_numbers.hpp"
 #include "host_sim/data/user_error.hpp"
 

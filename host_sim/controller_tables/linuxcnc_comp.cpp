@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/interpolation.hpp"
+#include "comp/metrology/tables/interpolation.hpp"
 #include "host_sim/controller_tables/text_numbers.hpp"
 #include "host_sim/data/csv_cells.hpp"
 #include "host_sim/data/user_error.hpp"

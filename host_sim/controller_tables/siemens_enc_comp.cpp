@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/learning.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/strokes/learning.hpp"
 #include "host_sim/controller_tables/siemens_text.hpp"
 #include "host_sim/controller_tables/text_numbers.hpp"
 #include "host_sim/data/user_error.hpp"

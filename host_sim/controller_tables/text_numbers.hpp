@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
 
 namespace volcomp::sim {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "comp/tables/per_axis.hpp"
-#include "comp/tables/volumetric_model.hpp"
+#include "comp/metrology/tables/per_axis.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "host_sim/controller_tables/siemens_cec.hpp"
 #include "host_sim/controller_tables/siemens_enc_comp.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::sim {
 namespace {

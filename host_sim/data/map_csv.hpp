@@ -10,7 +10,7 @@
 #include <istream>
 #include <string>
 
-#include "comp/evaluation/error_map.hpp"
+#include "comp/metrology/faces/error_map.hpp"
 
 namespace volcomp::sim {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "comp/geometry/error_motion.hpp"
-#include "comp/tables/table_builder.hpp"
+#include "comp/machine/error_motion.hpp"
+#include "comp/metrology/tables/table_builder.hpp"
 
 namespace volcomp::sim {
 

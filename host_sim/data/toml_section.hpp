@@ -7,7 +7,7 @@
 
 #include <toml.hpp>
 
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
 
 namespace volcomp::sim {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
 
 namespace volcomp::sim {
 

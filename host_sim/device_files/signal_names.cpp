@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/touch.hpp"
+#include "comp/tick/touch.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/nmt.hpp"
 #include "firmware/node/node_objects.hpp"

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/inverse.hpp"
 #include "host_sim/controller_tables/isg_ssfk.hpp"
 #include "host_sim/controller_tables/linuxcnc_comp.hpp"
 #include "host_sim/controller_tables/volumetric_files.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/machine/chain_string.hpp"
 

@@ -1,7 +1,7 @@
 #include "host_sim/exchange/table_model.hpp"
 
-#include "comp/realtime/table_set.hpp"
 #include "comp/tables/image.hpp"
+#include "comp/tables/table_set.hpp"
 #include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"

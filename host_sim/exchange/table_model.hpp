@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "comp/tables/machine_tables.hpp"
-#include "comp/tables/volumetric_model.hpp"
 
 namespace volcomp::sim {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/status_text.hpp"
+#include "comp/tick/status_text.hpp"
 #include "firmware/canopen/abort_code.hpp"
 #include "host_sim/explain/explanation.hpp"
 #include "host_sim/explain/object_text.hpp"

@@ -2,9 +2,9 @@
 // What a person wants to know of a code that a machine gives: why it comes, and what to do. What
 // happened is the sentence that belongs to the code itself.
 
-#include "comp/realtime/tick_types.hpp"
-#include "comp/realtime/touch.hpp"
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
+#include "comp/tick/tick_types.hpp"
+#include "comp/tick/touch.hpp"
 #include "firmware/canopen/emergency.hpp"
 
 namespace volcomp::sim {

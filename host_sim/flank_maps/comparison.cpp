@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/face_gear_grade.hpp"
-#include "comp/surfaces/spline_patch.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
+#include "comp/metrology/faces/spline_patch.hpp"
 #include "host_sim/data/map_csv.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/flank_maps/gear_choice.hpp"

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "comp/evaluation/map_comparison.hpp"
+#include "comp/metrology/faces/map_comparison.hpp"
 #include "host_sim/scenarios/report/document.hpp"
 
 namespace volcomp::sim {

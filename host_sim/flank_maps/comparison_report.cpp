@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/face_gear_grade.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
 #include "host_sim/flank_maps/comparison.hpp"
 #include "host_sim/scenarios/report/provenance.hpp"
 #include "host_sim/scenarios/report_parts.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/face_gear_grade.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
 #include "host_sim/flank_maps/comparison.hpp"
 
 namespace volcomp::sim {

@@ -1,6 +1,6 @@
 #include "host_sim/flank_maps/gear_choice.hpp"
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/data/toml_text.hpp"
 
 namespace volcomp::sim {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "comp/surfaces/face_grid.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
 
 namespace volcomp::sim {
 

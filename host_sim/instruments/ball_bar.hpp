@@ -1,7 +1,7 @@
 #pragma once
 // Ball bar: measures the squareness of three axis pairs at its own place.
 
-#include "comp/tables/squareness.hpp"
+#include "comp/metrology/tables/squareness.hpp"
 #include "host_sim/instruments/noise.hpp"
 #include "host_sim/machine/true_machine.hpp"
 

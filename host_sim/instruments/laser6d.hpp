@@ -2,7 +2,7 @@
 // Six-degree-of-freedom laser: reads the motion of one axis at its sensed point, with its own
 // imperfections.
 
-#include "comp/tables/abbe.hpp"
+#include "comp/metrology/tables/abbe.hpp"
 #include "host_sim/instruments/noise.hpp"
 #include "host_sim/machine/true_machine.hpp"
 

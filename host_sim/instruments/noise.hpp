@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <random>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::sim {
 

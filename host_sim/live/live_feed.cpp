@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "comp/realtime/status_text.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/tick/status_text.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
 #include "host_sim/device_files/signal_names.hpp"
 #include "host_sim/scenarios/report/tick_tables.hpp"

@@ -1,13 +1,13 @@
 #pragma once
 // How the NC axes of a machine count: linear ones in mm, rotary ones in rad; at run time in nm and
-// 2^-40 turn (comp/units.hpp).
+// 2^-40 turn (comp/core/units.hpp).
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "comp/geometry/machine_chain.hpp"
-#include "comp/realtime/instances.hpp"
+#include "comp/machine/machine_chain.hpp"
+#include "comp/tick/instances.hpp"
 
 namespace volcomp::sim {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "comp/geometry/machine_chain.hpp"
+#include "comp/machine/machine_chain.hpp"
 
 namespace volcomp::sim {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::sim {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "comp/geometry/frame.hpp"
-#include "comp/tables/plausibility.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/frame.hpp"
+#include "comp/metrology/tables/plausibility.hpp"
 #include "host_sim/machine/chain_string.hpp"
 #include "host_sim/machine/machine_sections.hpp"
 

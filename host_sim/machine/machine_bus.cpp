@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "firmware/node/wire_scale.hpp"
 
 namespace volcomp::sim {

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "comp/geometry/frame.hpp"
-#include "comp/geometry/inverse.hpp"
-#include "comp/geometry/pose_offset.hpp"
+#include "comp/machine/frame.hpp"
+#include "comp/machine/inverse.hpp"
+#include "comp/metrology/tables/pose_offset.hpp"
 #include "comp/tables/image.hpp"
 #include "host_sim/data/user_error.hpp"
 

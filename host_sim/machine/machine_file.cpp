@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/plausibility.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/plausibility.hpp"
 #include "host_sim/data/input_file.hpp"
 #include "host_sim/data/toml_text.hpp"
 #include "host_sim/data/user_error.hpp"

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "comp/geometry/machine_chain.hpp"
-#include "comp/geometry/xyfz.hpp"
-#include "comp/surfaces/internal_gear.hpp"
-#include "comp/tables/abbe.hpp"
-#include "comp/tables/error_table.hpp"
+#include "comp/machine/machine_chain.hpp"
+#include "comp/machine/xyfz.hpp"
+#include "comp/metrology/gears/internal_gear.hpp"
+#include "comp/metrology/tables/abbe.hpp"
+#include "comp/metrology/tables/error_table.hpp"
 #include "comp/tables/thermal.hpp"
 
 namespace volcomp::sim {

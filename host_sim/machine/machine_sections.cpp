@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/plausibility.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/plausibility.hpp"
 
 namespace volcomp::sim {
 

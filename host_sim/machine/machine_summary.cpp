@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/realtime/compensator.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/inverse.hpp"
+#include "comp/tick/compensator.hpp"
 #include "host_sim/machine/chain_string.hpp"
 #include "host_sim/machine/machine_facts.hpp"
 

@@ -2,8 +2,8 @@
 // The machine as it really is: smooth error motions, reversal, squareness, thermal growth, exact
 // kinematics.
 
-#include "comp/geometry/volumetric.hpp"
-#include "comp/geometry/xyfz.hpp"
+#include "comp/machine/xyfz.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "host_sim/machine/error_function.hpp"
 
 namespace volcomp::sim {

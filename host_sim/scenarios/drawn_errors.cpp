@@ -1,6 +1,6 @@
 #include "host_sim/scenarios/drawn_errors.hpp"
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/runtime_chain.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/tables/runtime_chain.hpp"
 #include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "comp/evaluation/diagonals.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
 #include "host_sim/exchange/table_model.hpp"
 #include "host_sim/machine/machine_file.hpp"
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/diagonals.hpp"
-#include "comp/evaluation/iso230.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
+#include "comp/metrology/tables/iso230.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {

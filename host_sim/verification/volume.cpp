@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/data/csv_units.hpp"
 #include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"

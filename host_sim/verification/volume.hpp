@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "comp/geometry/frame.hpp"
+#include "comp/machine/frame.hpp"
 
 namespace volcomp::sim {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "tests/bench/machines.hpp"
 
 namespace volcomp::bench {

@@ -4,10 +4,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "comp/geometry/volumetric.hpp"
-#include "comp/realtime/instances.hpp"
-#include "comp/tables/table_builder.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/table_builder.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
+#include "comp/tick/instances.hpp"
 #include "tests/bench/machines.hpp"
 
 namespace volcomp::bench {

@@ -6,10 +6,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "comp/surfaces/closest_point.hpp"
-#include "comp/surfaces/face_grid.hpp"
-#include "comp/surfaces/face_relief.hpp"
-#include "comp/surfaces/face_touch.hpp"
+#include "comp/metrology/faces/closest_point.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
+#include "comp/probe/face_relief.hpp"
+#include "comp/probe/face_touch.hpp"
 
 namespace volcomp::bench {
 namespace {

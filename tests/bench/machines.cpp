@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::bench {
 namespace {

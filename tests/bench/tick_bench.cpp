@@ -10,7 +10,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "comp/realtime/instances.hpp"
+#include "comp/tick/instances.hpp"
 #include "tests/bench/machines.hpp"
 
 namespace volcomp::bench {

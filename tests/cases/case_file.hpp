@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "comp/geometry/error_motion.hpp"
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
+#include "comp/machine/error_motion.hpp"
 
 namespace volcomp::cases {
 

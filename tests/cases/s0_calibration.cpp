@@ -1,9 +1,9 @@
 // Seed 000: circles through probe readings, error motions from targets, the printed procedure.
 
-#include "comp/calibration/axis_identification.hpp"
-#include "comp/calibration/circle_fit.hpp"
-#include "comp/calibration/printed_procedure.hpp"
-#include "comp/geometry/volumetric.hpp"
+#include "comp/metrology/fits/axis_identification.hpp"
+#include "comp/metrology/fits/circle_fit.hpp"
+#include "comp/metrology/fits/printed_procedure.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 

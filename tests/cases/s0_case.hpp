@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "comp/geometry/l300g.hpp"
-#include "comp/surfaces/involute_gear.hpp"
+#include "comp/metrology/gears/involute_gear.hpp"
+#include "comp/metrology/gears/l300g.hpp"
 #include "tests/cases/case_file.hpp"
 
 namespace volcomp::cases {

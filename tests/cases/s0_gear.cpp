@@ -1,9 +1,9 @@
 // Seed 000: involute flanks, deviations, tolerances and grades.
 
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/evaluation/gear_tolerance.hpp"
-#include "comp/evaluation/pitch.hpp"
-#include "comp/geometry/volumetric.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/gear_tolerance.hpp"
+#include "comp/metrology/gears/pitch.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 

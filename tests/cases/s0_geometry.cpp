@@ -1,10 +1,10 @@
 // Seed 000: error chains of probe and work branch, the arm, the stylus.
 
-#include "comp/calibration/axis_identification.hpp"
-#include "comp/calibration/stylus.hpp"
-#include "comp/geometry/l300g.hpp"
-#include "comp/geometry/volumetric.hpp"
-#include "comp/surfaces/gear_path.hpp"
+#include "comp/metrology/fits/axis_identification.hpp"
+#include "comp/metrology/fits/stylus.hpp"
+#include "comp/metrology/gears/gear_path.hpp"
+#include "comp/metrology/gears/l300g.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/plausibility.hpp"
 #include "comp/tables/image.hpp"
-#include "comp/tables/plausibility.hpp"
-#include "comp/units.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/table_case.hpp"
 #include "tests/cases/tick_case.hpp"

@@ -1,9 +1,9 @@
 // Seed 001: diagonals, commands that compensate, the integer tick, the figures of the paper.
 
-#include "comp/evaluation/diagonals.hpp"
-#include "comp/realtime/compensator.hpp"
-#include "comp/realtime/limiter.hpp"
-#include "comp/tables/command.hpp"
+#include "comp/metrology/tables/compensated_command.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
+#include "comp/tick/compensator.hpp"
+#include "comp/tick/limiter.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/tick_case.hpp"
 #include "tests/cases/xyfz_case.hpp"

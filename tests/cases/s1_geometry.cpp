@@ -1,6 +1,6 @@
 // Seed 001: exact and first-order volumetric errors of the XYFZ machine and of generic chains.
 
-#include "comp/tables/abbe.hpp"
+#include "comp/metrology/tables/abbe.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/xyfz_case.hpp"
 

@@ -1,8 +1,8 @@
 // Seed 001: from runs to tables, interpolation, squareness closure, per-axis tables.
 
-#include "comp/geometry/xyfz.hpp"
-#include "comp/tables/per_axis.hpp"
-#include "comp/tables/squareness.hpp"
+#include "comp/machine/xyfz.hpp"
+#include "comp/metrology/tables/per_axis.hpp"
+#include "comp/metrology/tables/squareness.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/table_case.hpp"
 #include "tests/cases/xyfz_case.hpp"

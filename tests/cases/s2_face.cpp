@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "comp/surfaces/face_flank.hpp"
-#include "comp/surfaces/face_touch.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/probe/face_flank.hpp"
+#include "comp/probe/face_touch.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s2_face_case.hpp"
 

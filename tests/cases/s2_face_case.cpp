@@ -1,7 +1,7 @@
 #include "tests/cases/s2_face_case.hpp"
 
-#include "comp/surfaces/face_relief.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/probe/face_relief.hpp"
 
 namespace volcomp::cases {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What the cases of seed 002 share: the gear, the flank, the names of verdicts.
 
-#include "comp/surfaces/face_kernel.hpp"
+#include "comp/probe/face_kernel.hpp"
 #include "tests/cases/case_file.hpp"
 
 namespace volcomp::cases {

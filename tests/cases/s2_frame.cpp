@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "comp/calibration/face_angle.hpp"
-#include "comp/calibration/face_frame.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_angle.hpp"
+#include "comp/metrology/faces/face_frame.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 #include "tests/cases/s2_face_case.hpp"

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "comp/evaluation/error_map.hpp"
-#include "comp/evaluation/pitch.hpp"
-#include "comp/surfaces/closest_point.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/closest_point.hpp"
+#include "comp/metrology/faces/error_map.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s2_face_case.hpp"
 

@@ -1,6 +1,6 @@
 #include "tests/cases/s3_case.hpp"
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::cases {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What the cases of seed 003 share: gears, wheel setups.
 
-#include "comp/surfaces/form_wheel.hpp"
+#include "comp/metrology/gears/form_wheel.hpp"
 #include "tests/cases/case_file.hpp"
 
 namespace volcomp::cases {

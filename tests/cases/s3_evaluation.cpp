@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "comp/evaluation/gear_grade.hpp"
-#include "comp/evaluation/internal_gear_deviations.hpp"
-#include "comp/evaluation/pitch.hpp"
+#include "comp/metrology/gears/gear_grade.hpp"
+#include "comp/metrology/gears/internal_gear_deviations.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "comp/surfaces/flank_envelope.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/flank_envelope.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s3_case.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "comp/geometry/left_error.hpp"
-#include "comp/surfaces/contact_line.hpp"
+#include "comp/metrology/gears/contact_line.hpp"
+#include "comp/metrology/tables/left_error.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 #include "tests/cases/s3_case.hpp"

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "comp/evaluation/spectral_line.hpp"
-#include "comp/geometry/fine_trig.hpp"
-#include "comp/tables/learning_guard.hpp"
+#include "comp/machine/fine_trig.hpp"
+#include "comp/strokes/learning_guard.hpp"
+#include "comp/strokes/spectral_line.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "comp/tables/table_builder.hpp"
+#include "comp/metrology/tables/table_builder.hpp"
 #include "tests/cases/case_file.hpp"
 
 namespace volcomp::cases {

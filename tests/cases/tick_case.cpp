@@ -1,7 +1,7 @@
 #include "tests/cases/tick_case.hpp"
 
+#include "comp/core/units.hpp"
 #include "comp/tables/image.hpp"
-#include "comp/units.hpp"
 
 namespace volcomp::cases {
 

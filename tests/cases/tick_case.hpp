@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "comp/realtime/instances.hpp"
+#include "comp/tick/instances.hpp"
 #include "tests/cases/xyfz_case.hpp"
 
 namespace volcomp::cases {

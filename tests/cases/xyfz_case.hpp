@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "comp/geometry/xyfz.hpp"
-#include "comp/tables/volumetric_model.hpp"
+#include "comp/machine/xyfz.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "tests/cases/case_file.hpp"
 
 namespace volcomp::cases {

@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "comp/realtime/instances.hpp"
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "comp/tables/image.hpp"
+#include "comp/tick/instances.hpp"
 
 namespace volcomp {
 namespace {

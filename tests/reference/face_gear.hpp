@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include "comp/surfaces/measuring_grid.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/measuring_grid.hpp"
 
 namespace volcomp::reference {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/evaluation/error_map.hpp"
+#include "comp/metrology/faces/error_map.hpp"
 
 namespace volcomp::reference {
 

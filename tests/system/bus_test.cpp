@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/tables/command.hpp"
+#include "comp/metrology/tables/compensated_command.hpp"
 #include "host_sim/controller/integrated_axes.hpp"
 #include "host_sim/scenarios/xyfz/dynamics.hpp"
 #include "tests/system/bus_world.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/controller/integrated_axes.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 #include "host_sim/scenarios/xyfz/scenario.hpp"

@@ -66,10 +66,10 @@ def every_code_is_explained():
         for entry in re.split(r"\n\n(?=\*\*)", rest)[1:]:
             explained = "*Why:*" in entry and "*What to do:*" in entry
             check(explained or heading == "SDO abort codes", f"reason-codes.md: unexplained: {entry[:60]}")
-    reasons = re.findall(r"^  ([a-z_]+),$", (ROOT / "comp/status.hpp").read_text(), re.M)
+    reasons = re.findall(r"^  ([a-z_]+),$", (ROOT / "comp/core/status.hpp").read_text(), re.M)
     for reason in reasons:
         check(f"**`{reason}`**" in page, f"reason-codes.md lacks {reason}")
-    check(len(reasons) > 70, "comp/status.hpp was not understood")
+    check(len(reasons) > 70, "comp/core/status.hpp was not understood")
     faults = (ROOT / "firmware/README.md").read_text(encoding="utf-8").partition("| EMCY | way back |")[2].partition("\n\n")[0]
     emergencies = [code for row in faults.splitlines()[2:] for code in re.findall("([4-9A-F][0-9A-F]{3})h", row.split("|")[3])]
     for code in emergencies:

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/calibration/face_frame.hpp"
-#include "comp/evaluation/map_comparison.hpp"
-#include "comp/surfaces/face_grid.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_frame.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
+#include "comp/metrology/faces/map_comparison.hpp"
 #include "host_sim/commissioning/identification.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/instruments/noise.hpp"

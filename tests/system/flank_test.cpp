@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/surfaces/face_grid.hpp"
-#include "comp/surfaces/face_touch.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
+#include "comp/probe/face_touch.hpp"
 #include "firmware/node/flank_probe.hpp"
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/commissioning/identification.hpp"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/controller_tables/isg_ssfk.hpp"
 #include "host_sim/controller_tables/linuxcnc_comp.hpp"
 #include "host_sim/controller_tables/siemens_cec.hpp"

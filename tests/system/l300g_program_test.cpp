@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/geometry/volumetric.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "host_sim/commissioning/identification.hpp"
 #include "host_sim/scenarios/l300g/inspection_program.hpp"
 

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/scenarios/l300g/figures.hpp"
 
 namespace volcomp::sim {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/controller/bus_axes.hpp"
 #include "host_sim/scenarios/machine/campaign.hpp"
 #include "host_sim/scenarios/machine/figures.hpp"

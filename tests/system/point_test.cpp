@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/artefacts/plane.hpp"
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/commissioning/identification.hpp"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/controller/tick_statistics.hpp"
 #include "host_sim/data/hashed_input.hpp"
 #include "host_sim/live/host_header.hpp"

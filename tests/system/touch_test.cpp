@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "firmware/canopen/bytes.hpp"
 #include "host_sim/artefacts/plane.hpp"
 #include "host_sim/controller/bus_axes.hpp"

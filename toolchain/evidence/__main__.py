@@ -25,7 +25,7 @@ SHOWN_FLAGS = ("-mfloat-abi", "-O", "-ffp-contract", "-fno-tree", "-fno-schedule
 
 
 def compiler_and_flags(build):
-    command = kernel_estimate.compile_command(build, "comp/realtime/instances.cpp")
+    command = kernel_estimate.compile_command(build, "comp/tick/instances.cpp")
     version = subprocess.run([command[0], "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
     flags = [w for w in command if w.startswith(SHOWN_FLAGS)]
     return version, " ".join(dict.fromkeys(flags))

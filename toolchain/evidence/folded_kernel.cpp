@@ -1,7 +1,7 @@
 // The kernel of the folded machine by itself: compiled to assembly for the estimate of llvm-mca,
 // never linked.
 
-#include "comp/realtime/instances.hpp"
+#include "comp/tick/instances.hpp"
 
 namespace volcomp {
 

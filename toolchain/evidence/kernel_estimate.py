@@ -28,7 +28,7 @@ def compile_command(build, source_end):
 
 def estimate(build):
     """{instructions, cycles} of one call."""
-    command = compile_command(build, "comp/realtime/instances.cpp")
+    command = compile_command(build, "comp/tick/instances.cpp")
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "kernel.s"
         run = subprocess.run([*command, "-g0", "-S", "-o", str(out), str(SOURCE)], capture_output=True, text=True, check=False)

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/face_gear_grade.hpp"
-#include "comp/evaluation/map_comparison.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
+#include "comp/metrology/faces/map_comparison.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/face_gear/published_maps.hpp"
 #include "host_sim/version.hpp"

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "comp/calibration/face_angle.hpp"
-#include "comp/surfaces/face_relief.hpp"
-#include "comp/surfaces/face_touch.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_angle.hpp"
+#include "comp/probe/face_relief.hpp"
+#include "comp/probe/face_touch.hpp"
 #include "firmware/node/flank_probe.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/face_gear/truth.hpp"

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "comp/calibration/face_frame.hpp"
-#include "comp/evaluation/error_map.hpp"
-#include "comp/evaluation/pitch.hpp"
-#include "comp/surfaces/face_grid.hpp"
+#include "comp/metrology/faces/error_map.hpp"
+#include "comp/metrology/faces/face_frame.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/scenarios/face_gear/station.hpp"
 
 namespace volcomp::sim {

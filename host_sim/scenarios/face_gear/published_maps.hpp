@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "comp/evaluation/error_map.hpp"
+#include "comp/metrology/faces/error_map.hpp"
 
 namespace volcomp::sim {
 

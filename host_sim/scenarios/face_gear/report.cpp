@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/face_gear_grade.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/face_gear/figures.hpp"
 #include "host_sim/scenarios/face_gear/flank_charts.hpp"

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/calibration/face_angle.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_angle.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/flank_maps/gear_choice.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "comp/geometry/volumetric.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/data/user_error.hpp"
 

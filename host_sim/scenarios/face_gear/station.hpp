@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "comp/surfaces/measuring_grid.hpp"
+#include "comp/metrology/faces/measuring_grid.hpp"
 #include "comp/tables/machine_tables.hpp"
 #include "host_sim/artefacts/face_gear.hpp"
 #include "host_sim/controller/prober.hpp"

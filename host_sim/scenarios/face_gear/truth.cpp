@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/drawn_errors.hpp"
 #include "host_sim/scenarios/face_gear/published_maps.hpp"

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "comp/evaluation/error_map.hpp"
-#include "comp/geometry/frame.hpp"
-#include "comp/surfaces/face_grid.hpp"
+#include "comp/machine/frame.hpp"
+#include "comp/metrology/faces/error_map.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
 #include "host_sim/artefacts/face_gear.hpp"
 #include "host_sim/machine/machine_file.hpp"
 #include "host_sim/machine/true_machine.hpp"

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/helix_instances.hpp"
-#include "comp/tables/crc32.hpp"
-#include "comp/tables/little_endian.hpp"
+#include "comp/core/crc32.hpp"
+#include "comp/core/little_endian.hpp"
+#include "comp/strokes/helix_instances.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "host_sim/commissioning/commission.hpp"

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 
 namespace volcomp::sim {
 

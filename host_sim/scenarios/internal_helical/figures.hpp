@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "comp/evaluation/gear_grade.hpp"
+#include "comp/metrology/gears/gear_grade.hpp"
 #include "host_sim/scenarios/internal_helical/scenario.hpp"
 
 namespace volcomp::sim {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "comp/surfaces/contact_line.hpp"
-#include "comp/surfaces/flank_envelope.hpp"
+#include "comp/metrology/gears/contact_line.hpp"
+#include "comp/metrology/gears/flank_envelope.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/internal_helical/grinding.hpp"
 #include "host_sim/scenarios/internal_helical/grinding_job.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "comp/evaluation/spectral_line.hpp"
+#include "comp/strokes/spectral_line.hpp"
 
 namespace volcomp::sim {
 namespace {

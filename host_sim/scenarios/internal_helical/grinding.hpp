@@ -3,8 +3,8 @@
 // to the lower envelope over the strokes around it, for the ripple is steeper than the wheel is
 // round. Seed 003 section 5.
 
-#include "comp/geometry/left_error.hpp"
-#include "comp/surfaces/flank_error.hpp"
+#include "comp/metrology/gears/flank_error.hpp"
+#include "comp/metrology/tables/left_error.hpp"
 #include "host_sim/scenarios/internal_helical/process.hpp"
 
 namespace volcomp::sim {

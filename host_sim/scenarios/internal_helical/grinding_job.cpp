@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/realtime/helix_instances.hpp"
+#include "comp/strokes/helix_instances.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/internal_helical/constants.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a run grinds, from the machine file.
 
-#include "comp/surfaces/form_wheel.hpp"
+#include "comp/metrology/gears/form_wheel.hpp"
 #include "host_sim/machine/machine_file.hpp"
 
 namespace volcomp::sim {

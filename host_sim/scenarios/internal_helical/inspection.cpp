@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "comp/evaluation/internal_gear_deviations.hpp"
+#include "comp/metrology/gears/internal_gear_deviations.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {

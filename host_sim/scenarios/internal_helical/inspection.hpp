@@ -1,8 +1,8 @@
 #pragma once
 // The ground gear on a measuring machine: pitch of all slots and profile of four, at mid face.
 
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/evaluation/pitch.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/scenarios/internal_helical/grinding.hpp"
 
 namespace volcomp::sim {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "comp/evaluation/spectral_line.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/strokes/spectral_line.hpp"
 #include "firmware/node/wire_scale.hpp"
 #include "host_sim/data/user_error.hpp"
 

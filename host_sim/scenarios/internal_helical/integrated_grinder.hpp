@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "comp/realtime/helix_instances.hpp"
-#include "comp/tables/learning_guard.hpp"
+#include "comp/strokes/helix_instances.hpp"
+#include "comp/strokes/learning_guard.hpp"
 #include "host_sim/controller/machine_watch.hpp"
 #include "host_sim/scenarios/internal_helical/grinder_control.hpp"
 #include "host_sim/scenarios/internal_helical/grinder_plant.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/gear_tolerance.hpp"
+#include "comp/metrology/gears/gear_tolerance.hpp"
 
 namespace volcomp::sim {
 namespace {

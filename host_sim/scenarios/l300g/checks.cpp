@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "comp/geometry/volumetric.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "comp/geometry/l300g.hpp"
+#include "comp/metrology/gears/l300g.hpp"
 #include "comp/tables/machine_tables.hpp"
 #include "host_sim/controller/prober.hpp"
 #include "host_sim/scenarios/l300g/truth.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {

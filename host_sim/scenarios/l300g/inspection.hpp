@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/evaluation/gear_tolerance.hpp"
-#include "comp/evaluation/pitch.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/gear_tolerance.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/scenarios/l300g/inspection_plan.hpp"
 
 namespace volcomp::sim {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/surfaces/gear_path.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/gear_path.hpp"
 #include "host_sim/scenarios/l300g/grinder.hpp"
 
 namespace volcomp::sim {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/inverse.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "comp/tables/volumetric_model.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "host_sim/scenarios/l300g/inspection_plan.hpp"
 
 namespace volcomp::sim {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/artefacts/sphere.hpp"
 #include "host_sim/commissioning/identification.hpp"
 #include "host_sim/data/user_error.hpp"

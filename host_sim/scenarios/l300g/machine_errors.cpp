@@ -4,7 +4,7 @@
 #include <functional>
 #include <map>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/data/toml_text.hpp"
 
 namespace volcomp::sim {

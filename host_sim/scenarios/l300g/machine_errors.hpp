@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "comp/geometry/error_motion.hpp"
+#include "comp/machine/error_motion.hpp"
 
 namespace volcomp::sim {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "comp/calibration/effective_radius.hpp"
+#include "comp/metrology/fits/effective_radius.hpp"
 #include "host_sim/artefacts/mandrel.hpp"
 #include "host_sim/data/user_error.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "comp/calibration/circle_fit.hpp"
+#include "comp/metrology/fits/circle_fit.hpp"
 #include "host_sim/scenarios/l300g/grinder.hpp"
 
 namespace volcomp::sim {

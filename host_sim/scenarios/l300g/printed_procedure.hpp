@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "comp/calibration/printed_procedure.hpp"
+#include "comp/metrology/fits/printed_procedure.hpp"
 #include "host_sim/commissioning/identification.hpp"
 #include "host_sim/scenarios/l300g/machine_errors.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/scenarios/l300g/figures.hpp"
 #include "host_sim/scenarios/l300g/gear_charts.hpp"
 #include "host_sim/scenarios/report/before_after.hpp"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/inverse.hpp"
 #include "host_sim/machine/chain_string.hpp"
 
 namespace volcomp::sim {

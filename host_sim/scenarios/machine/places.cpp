@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "comp/geometry/pose_offset.hpp"
-#include "comp/geometry/tilt.hpp"
+#include "comp/machine/tilt.hpp"
+#include "comp/metrology/tables/pose_offset.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/machine/chain_string.hpp"
 #include "host_sim/scenarios/machine/figures.hpp"
 #include "host_sim/scenarios/report/before_after.hpp"

@@ -5,8 +5,8 @@
 
 #include <Eigen/LU>
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/inverse.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/scenarios/drawn_errors.hpp"
 
 namespace volcomp::sim {

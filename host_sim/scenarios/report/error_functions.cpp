@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/scenarios/report_parts.hpp"
 
 namespace volcomp::sim {

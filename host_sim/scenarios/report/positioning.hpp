@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "comp/evaluation/iso230.hpp"
+#include "comp/metrology/tables/iso230.hpp"
 
 namespace volcomp::sim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/scenarios/report_parts.hpp"
 
 namespace volcomp::sim {

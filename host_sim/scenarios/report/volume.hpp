@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "comp/geometry/error_motion.hpp"
+#include "comp/machine/error_motion.hpp"
 
 namespace volcomp::sim {
 

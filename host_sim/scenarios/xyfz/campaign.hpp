@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "comp/evaluation/diagonals.hpp"
-#include "comp/tables/lever_test.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
+#include "comp/metrology/tables/lever_test.hpp"
 #include "host_sim/data/runs_csv.hpp"
 #include "host_sim/instruments/noise.hpp"
 #include "host_sim/machine/machine_file.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "comp/tables/command.hpp"
+#include "comp/metrology/tables/compensated_command.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/tables/per_axis.hpp"
+#include "comp/metrology/tables/per_axis.hpp"
 #include "host_sim/data/temporary_folder.hpp"
 #include "host_sim/data/whole_file.hpp"
 #include "host_sim/scenarios/xyfz/campaign.hpp"

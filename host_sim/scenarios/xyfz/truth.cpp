@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "comp/evaluation/diagonals.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/instruments/ball_bar.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "comp/evaluation/diagonals.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
 #include "host_sim/controller/motion_cell.hpp"
 #include "host_sim/instruments/noise.hpp"
 #include "host_sim/verification/volume.hpp"

@@ -9,8 +9,8 @@
 #include <iterator>
 #include <vector>
 
-#include "comp/realtime/instances.hpp"
 #include "comp/tables/image.hpp"
+#include "comp/tick/instances.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a piece of work costs on the board, in instructions.
 
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
 #include "hal/mps2/instruction_counter.hpp"
 #include "tests/target/stop.hpp"
 

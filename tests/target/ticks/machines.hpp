@@ -2,7 +2,7 @@
 // The compensators whose ticks are measured, compiled once each (instances.cpp): beside the ready
 // ones of the library those of the machines of the benchmarks.
 
-#include "comp/realtime/instances.hpp"
+#include "comp/tick/instances.hpp"
 #include "tests/bench/machines.hpp"
 
 namespace volcomp {

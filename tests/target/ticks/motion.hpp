@@ -5,10 +5,10 @@
 #include <array>
 #include <cstdint>
 
-#include "comp/realtime/direction.hpp"
-#include "comp/realtime/tick_types.hpp"
+#include "comp/core/units.hpp"
+#include "comp/tables/direction.hpp"
 #include "comp/tables/machine_tables.hpp"
-#include "comp/units.hpp"
+#include "comp/tick/tick_types.hpp"
 #include "tests/target/ticks/tally.hpp"
 
 namespace volcomp::target {

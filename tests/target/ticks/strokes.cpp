@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "firmware/node/stroke_service.hpp"
 #include "tests/target/text.hpp"
 #include "tests/target/ticks/cost.hpp"

@@ -2,7 +2,7 @@
 // Drives one compensator through the measured ticks; counts the instructions of each and the stack
 // it takes.
 
-#include "comp/realtime/compensator.hpp"
+#include "comp/tick/compensator.hpp"
 #include "hal/mps2/instruction_counter.hpp"
 #include "tests/target/stop.hpp"
 #include "tests/target/ticks/motion.hpp"

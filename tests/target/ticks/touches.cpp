@@ -13,11 +13,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "comp/realtime/instances.hpp"
-#include "comp/realtime/probe_corrector.hpp"
-#include "comp/realtime/touch_collector.hpp"
-#include "comp/surfaces/face_grid.hpp"
-#include "comp/surfaces/face_touch.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
+#include "comp/probe/face_touch.hpp"
+#include "comp/probe/probe_corrector.hpp"
+#include "comp/probe/touch_collector.hpp"
+#include "comp/tick/instances.hpp"
 #include "tests/bench/machines.hpp"
 #include "tests/target/text.hpp"
 #include "tests/target/ticks/cost.hpp"

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/geometry/volumetric.hpp"
-#include "comp/geometry/xyfz.hpp"
+#include "comp/machine/inverse.hpp"
+#include "comp/machine/xyfz.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "comp/tables/table_builder.hpp"
+#include "comp/metrology/tables/table_builder.hpp"
 
 namespace volcomp::test {
 

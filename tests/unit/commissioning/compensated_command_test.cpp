@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/tables/command.hpp"
+#include "comp/metrology/tables/compensated_command.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

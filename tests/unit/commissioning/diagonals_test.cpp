@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/evaluation/diagonals.hpp"
-#include "comp/geometry/xyfz.hpp"
+#include "comp/machine/xyfz.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

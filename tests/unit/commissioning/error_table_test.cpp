@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/machine_tables.hpp"
-#include "comp/tables/volumetric_model.hpp"
-#include "comp/units.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

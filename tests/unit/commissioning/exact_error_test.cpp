@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/geometry/volumetric.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/tables/interpolation.hpp"
+#include "comp/metrology/tables/interpolation.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/evaluation/iso230.hpp"
+#include "comp/metrology/tables/iso230.hpp"
 
 namespace volcomp::test {
 namespace {

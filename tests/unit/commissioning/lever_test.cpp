@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/tables/lever_test.hpp"
+#include "comp/metrology/tables/lever_test.hpp"
 #include "tests/unit/commissioning/campaign.hpp"
 #include "tests/unit/commissioning/support.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/geometry/xyfz.hpp"
+#include "comp/machine/xyfz.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/tables/per_axis.hpp"
+#include "comp/metrology/tables/per_axis.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

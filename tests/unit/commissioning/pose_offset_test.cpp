@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/geometry/pose_offset.hpp"
-#include "comp/geometry/tilt.hpp"
+#include "comp/machine/tilt.hpp"
+#include "comp/metrology/tables/pose_offset.hpp"
 
 namespace volcomp {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/evaluation/diagonals.hpp"
-#include "comp/tables/plausibility.hpp"
-#include "comp/tables/squareness.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
+#include "comp/metrology/tables/plausibility.hpp"
+#include "comp/metrology/tables/squareness.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "comp/geometry/machine_chain.hpp"
-#include "comp/tables/error_table.hpp"
+#include "comp/machine/machine_chain.hpp"
+#include "comp/metrology/tables/error_table.hpp"
 
 namespace volcomp::test {
 

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/evaluation/diagonals.hpp"
-#include "comp/geometry/volumetric.hpp"
-#include "comp/geometry/xyfz.hpp"
-#include "comp/tables/abbe.hpp"
+#include "comp/machine/xyfz.hpp"
+#include "comp/metrology/tables/abbe.hpp"
+#include "comp/metrology/tables/diagonals.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

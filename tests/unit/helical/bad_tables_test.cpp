@@ -5,8 +5,8 @@
 #include <limits>
 #include <memory>
 
-#include "comp/tables/error_table.hpp"
-#include "comp/tables/volumetric_model.hpp"
+#include "comp/metrology/tables/error_table.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <vector>
 
-#include "comp/geometry/xyfz.hpp"
+#include "comp/machine/xyfz.hpp"
 #include "host_sim/controller_tables/isg_ssfk.hpp"
 #include "host_sim/controller_tables/linuxcnc_comp.hpp"
 #include "host_sim/controller_tables/volumetric_files.hpp"

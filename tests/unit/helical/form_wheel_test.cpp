@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "comp/surfaces/contact_line.hpp"
+#include "comp/metrology/gears/contact_line.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include "comp/evaluation/gear_grade.hpp"
-#include "comp/evaluation/internal_gear_deviations.hpp"
-#include "comp/evaluation/pitch.hpp"
+#include "comp/metrology/gears/gear_grade.hpp"
+#include "comp/metrology/gears/internal_gear_deviations.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

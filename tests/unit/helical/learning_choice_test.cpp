@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "comp/tables/learning_choice.hpp"
+#include "comp/strokes/learning_choice.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "comp/realtime/helix_instances.hpp"
-#include "comp/tables/learning_guard.hpp"
+#include "comp/strokes/helix_instances.hpp"
+#include "comp/strokes/learning_guard.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

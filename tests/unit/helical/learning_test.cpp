@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "comp/tables/learning_guard.hpp"
+#include "comp/strokes/learning_guard.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "comp/realtime/helix_instances.hpp"
+#include "comp/strokes/helix_instances.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/surfaces/flank_envelope.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/flank_envelope.hpp"
 #include "tests/unit/commissioning/support.hpp"
 
 namespace volcomp::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "comp/surfaces/contact_line.hpp"
+#include "comp/metrology/gears/contact_line.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/unit/helical/support.hpp"
 

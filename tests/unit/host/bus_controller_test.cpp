@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
 #include "host_sim/controller/bus_axes.hpp"
 #include "tests/complaint.hpp"
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/realtime/instances.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/tick/instances.hpp"
 #include "host_sim/machine/chain_string.hpp"
 #include "host_sim/machine/machine_file.hpp"
 #include "tests/unit/host/changed_machine.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/commissioning/identification.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/l300g/printed_procedure.hpp"

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/controller/bus_axes.hpp"
 #include "host_sim/controller/integrated_axes.hpp"
 #include "host_sim/data/toml_text.hpp"

@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/geometry/pose_offset.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/pose_offset.hpp"
 #include "host_sim/machine/machine_facts.hpp"
 
 namespace volcomp::sim {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/geometry/l300g.hpp"
-#include "comp/realtime/instances.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/l300g.hpp"
+#include "comp/tick/instances.hpp"
 #include "host_sim/machine/machine_file.hpp"
 #include "tests/unit/host/changed_machine.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/data/runs_csv.hpp"
 #include "tests/complaint.hpp"
 

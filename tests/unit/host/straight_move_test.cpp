@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/controller/straight_move.hpp"
 
 namespace volcomp::sim {

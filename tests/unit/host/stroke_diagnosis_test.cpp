@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "comp/realtime/stroke_offsets.hpp"
+#include "comp/strokes/stroke_offsets.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
 #include "tests/unit/host/service_bench.hpp"
 

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/calibration/axis_identification.hpp"
-#include "comp/calibration/effective_radius.hpp"
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/evaluation/pitch.hpp"
-#include "comp/geometry/l300g.hpp"
-#include "comp/surfaces/involute_gear.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/fits/axis_identification.hpp"
+#include "comp/metrology/fits/effective_radius.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/involute_gear.hpp"
+#include "comp/metrology/gears/l300g.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/unit/inspection/support.hpp"
 

@@ -5,14 +5,14 @@
 #include <limits>
 #include <vector>
 
-#include "comp/calibration/axis_identification.hpp"
-#include "comp/calibration/circle_fit.hpp"
-#include "comp/calibration/face_angle.hpp"
-#include "comp/calibration/face_frame.hpp"
-#include "comp/calibration/lobing_fit.hpp"
-#include "comp/calibration/printed_procedure.hpp"
-#include "comp/calibration/sphere_fit.hpp"
-#include "comp/calibration/stylus.hpp"
+#include "comp/metrology/faces/face_angle.hpp"
+#include "comp/metrology/faces/face_frame.hpp"
+#include "comp/metrology/fits/axis_identification.hpp"
+#include "comp/metrology/fits/circle_fit.hpp"
+#include "comp/metrology/fits/lobing_fit.hpp"
+#include "comp/metrology/fits/printed_procedure.hpp"
+#include "comp/metrology/fits/sphere_fit.hpp"
+#include "comp/metrology/fits/stylus.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/unit/inspection/face_support.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/calibration/circle_fit.hpp"
+#include "comp/metrology/fits/circle_fit.hpp"
 
 namespace volcomp::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/surfaces/closest_point.hpp"
+#include "comp/metrology/faces/closest_point.hpp"
 #include "tests/reference/face_gear.hpp"
 
 namespace volcomp::test {

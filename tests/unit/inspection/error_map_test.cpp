@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/evaluation/error_map.hpp"
-#include "comp/evaluation/face_gear_grade.hpp"
-#include "comp/evaluation/map_polynomial.hpp"
+#include "comp/metrology/faces/error_map.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
+#include "comp/metrology/faces/map_polynomial.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/reference/face_gear.hpp"
 #include "tests/reference/face_gear_tables.hpp"

@@ -5,15 +5,15 @@
 #include <random>
 #include <vector>
 
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/evaluation/gear_grade.hpp"
-#include "comp/evaluation/iso230.hpp"
-#include "comp/evaluation/map_comparison.hpp"
-#include "comp/evaluation/pitch.hpp"
-#include "comp/evaluation/spectral_line.hpp"
-#include "comp/geometry/machine_chain.hpp"
-#include "comp/surfaces/closest_point.hpp"
-#include "comp/surfaces/gear_path.hpp"
+#include "comp/machine/machine_chain.hpp"
+#include "comp/metrology/faces/closest_point.hpp"
+#include "comp/metrology/faces/map_comparison.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/gear_grade.hpp"
+#include "comp/metrology/gears/gear_path.hpp"
+#include "comp/metrology/gears/pitch.hpp"
+#include "comp/metrology/tables/iso230.hpp"
+#include "comp/strokes/spectral_line.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/unit/inspection/support.hpp"
 

@@ -1,11 +1,11 @@
 // Where a face gear stands on the turntable: the worked example of the paper, and what each way to
 // find it costs (seed 002 section 5).
 
-#include "comp/calibration/face_angle.hpp"
+#include "comp/metrology/faces/face_angle.hpp"
 
 #include <limits>
 
-#include "comp/surfaces/face_relief.hpp"
+#include "comp/probe/face_relief.hpp"
 #include "tests/unit/inspection/face_support.hpp"
 
 namespace volcomp::test {

@@ -1,7 +1,7 @@
 // Frames of face gears from many touches: what layouts show, and what is refused (seed 002 section
 // 5).
 
-#include "comp/calibration/face_frame.hpp"
+#include "comp/metrology/faces/face_frame.hpp"
 
 #include <limits>
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "comp/surfaces/face_relief.hpp"
+#include "comp/probe/face_relief.hpp"
 #include "tests/unit/inspection/face_support.hpp"
 
 namespace volcomp::test {

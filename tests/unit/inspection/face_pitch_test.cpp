@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/evaluation/pitch.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/reference/face_gear.hpp"
 

@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <gtest/gtest.h>
-#include "comp/surfaces/face_grid.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
 
 namespace volcomp::test {
 

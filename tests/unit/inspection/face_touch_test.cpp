@@ -1,6 +1,6 @@
 // Verdicts on touches of face gears, one for every row of the table of bad input (seed 002).
 
-#include "comp/surfaces/face_touch.hpp"
+#include "comp/probe/face_touch.hpp"
 
 #include <limits>
 

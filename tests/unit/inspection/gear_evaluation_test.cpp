@@ -4,10 +4,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/evaluation/gear_tolerance.hpp"
-#include "comp/evaluation/pitch.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/gear_tolerance.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 
 namespace volcomp::test {
 namespace {

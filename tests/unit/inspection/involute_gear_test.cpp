@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include "comp/surfaces/involute_gear.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/involute_gear.hpp"
 #include "tests/unit/inspection/support.hpp"
 
 namespace volcomp::test {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/evaluation/gear_deviations.hpp"
-#include "comp/evaluation/gear_tolerance.hpp"
-#include "comp/geometry/inverse.hpp"
-#include "comp/geometry/volumetric.hpp"
-#include "comp/surfaces/gear_path.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/inverse.hpp"
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/gear_path.hpp"
+#include "comp/metrology/gears/gear_tolerance.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/unit/inspection/support.hpp"
 
 namespace volcomp::test {

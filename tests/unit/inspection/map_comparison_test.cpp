@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/evaluation/map_comparison.hpp"
+#include "comp/metrology/faces/map_comparison.hpp"
 #include "tests/reference/face_gear.hpp"
 #include "tests/reference/face_gear_tables.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/calibration/rigid_fit.hpp"
+#include "comp/metrology/fits/rigid_fit.hpp"
 
 namespace volcomp::test {
 namespace {

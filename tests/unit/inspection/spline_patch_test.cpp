@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/surfaces/spline_patch.hpp"
+#include "comp/metrology/faces/spline_patch.hpp"
 #include "tests/reference/face_gear.hpp"
 #include "tests/reference/face_gear_tables.hpp"
 

@@ -2,8 +2,8 @@
 // The gear of the paper's Table 3.
 
 #include <gtest/gtest.h>
-#include "comp/surfaces/involute_gear.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/involute_gear.hpp"
 
 namespace volcomp::test {
 

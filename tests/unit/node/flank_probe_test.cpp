@@ -4,8 +4,8 @@
 #include <limits>
 #include <string>
 
-#include "comp/surfaces/face_flank.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/probe/face_flank.hpp"
 #include "tests/unit/node/probe_bench.hpp"
 
 namespace volcomp::node {

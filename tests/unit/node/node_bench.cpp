@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "comp/tables/image.hpp"
 #include "firmware/canopen/bytes.hpp"
 

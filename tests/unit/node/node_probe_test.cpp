@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "comp/realtime/touch.hpp"
+#include "comp/tick/touch.hpp"
 #include "firmware/node/point_fifo.hpp"
 #include "tests/unit/node/probe_bench.hpp"
 

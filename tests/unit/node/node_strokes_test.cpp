@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "firmware/node/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
 #include "tests/unit/node/stroke_bench.hpp"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/realtime/touch.hpp"
+#include "comp/tick/touch.hpp"
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/node/point_fifo.hpp"
 #include "tests/unit/node/node_bench.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "tests/unit/node/record_store_support.hpp"
 
 namespace volcomp::node {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "tests/unit/node/stroke_bench.hpp"
 
 namespace volcomp::node {

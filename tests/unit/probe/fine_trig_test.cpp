@@ -1,6 +1,6 @@
 // Sine, cosine, square root and arc tangent, beside those of the C library.
 
-#include "comp/geometry/fine_trig.hpp"
+#include "comp/machine/fine_trig.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <cstring>
 
-#include "comp/surfaces/face_touch.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/probe/face_touch.hpp"
 #include "tests/unit/realtime/fixed_numbers.hpp"
 
 namespace volcomp::test {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "comp/calibration/lobing_fit.hpp"
-#include "comp/calibration/sphere_fit.hpp"
+#include "comp/metrology/fits/lobing_fit.hpp"
+#include "comp/metrology/fits/sphere_fit.hpp"
 #include "tests/unit/probe/support.hpp"
 
 namespace volcomp::test {

@@ -1,9 +1,9 @@
 // The ideal machine in double beside the chain of commissioning and beside finite differences.
 
-#include "comp/realtime/nominal_chain.hpp"
+#include "comp/probe/nominal_chain.hpp"
 
-#include "comp/geometry/inverse.hpp"
-#include "comp/geometry/volumetric.hpp"
+#include "comp/machine/inverse.hpp"
+#include "comp/metrology/tables/volumetric.hpp"
 #include "tests/unit/probe/support.hpp"
 
 namespace volcomp::test {

@@ -1,6 +1,6 @@
 // Points beside an independent long double model of the machine, its tables and its probe.
 
-#include "comp/realtime/probe_corrector.hpp"
+#include "comp/probe/probe_corrector.hpp"
 
 #include "tests/unit/probe/support.hpp"
 

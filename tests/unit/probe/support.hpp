@@ -2,9 +2,9 @@
 // The L300G as a machine that probes, with random errors of all axes, and touches whose latches are
 // those of a straight motion.
 
-#include "comp/geometry/l300g.hpp"
-#include "comp/realtime/probe_corrector.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/metrology/gears/l300g.hpp"
+#include "comp/probe/probe_corrector.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

@@ -1,7 +1,7 @@
 // Every way an edge can reach the node, in order or not: complete touches are numbered and timed,
 // the others are told by name (seed 000, "Bad input", rows probe and probe latch skew).
 
-#include "comp/realtime/touch_collector.hpp"
+#include "comp/probe/touch_collector.hpp"
 
 #include <functional>
 #include <memory>

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/artefacts/gear.hpp"
 
 namespace volcomp::sim {

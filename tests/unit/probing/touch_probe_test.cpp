@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
 #include "host_sim/artefacts/plane.hpp"
 #include "host_sim/instruments/touch_probe.hpp"
 #include "host_sim/machine/machine_file.hpp"

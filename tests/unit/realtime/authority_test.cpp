@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "comp/realtime/motion_inverse.hpp"
+#include "comp/tick/motion_inverse.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

@@ -1,6 +1,6 @@
 // Direction of travel: which of the two tables is in force, and that noise never changes it.
 
-#include "comp/realtime/direction.hpp"
+#include "comp/tables/direction.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

@@ -1,7 +1,7 @@
 #pragma once
 // Numbers that are the same everywhere and always, and a digest of what is computed from them.
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

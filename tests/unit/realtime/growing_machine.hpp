@@ -1,7 +1,7 @@
 #pragma once
 // Machines that grow with temperature.
 
-#include "comp/tables/volumetric_model.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "tests/unit/realtime/table_table.hpp"
 
 namespace volcomp::test {

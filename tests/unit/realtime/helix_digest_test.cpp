@@ -4,8 +4,8 @@
 #include <cstring>
 #include <memory>
 
-#include "comp/realtime/helix_instances.hpp"
-#include "comp/tables/learning_guard.hpp"
+#include "comp/strokes/helix_instances.hpp"
+#include "comp/strokes/learning_guard.hpp"
 #include "tests/unit/realtime/fixed_numbers.hpp"
 
 namespace volcomp::test {

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "comp/tables/crc32.hpp"
+#include "comp/core/crc32.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/image_layout.hpp"
 #include "tests/unit/realtime/support.hpp"

@@ -1,7 +1,7 @@
 // Quantised tables at the edge of what the integer lookup can represent: accepted means usable.
 
+#include "comp/core/units.hpp"
 #include "comp/tables/image.hpp"
-#include "comp/units.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

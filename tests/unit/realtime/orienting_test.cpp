@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "comp/geometry/pose_offset.hpp"
-#include "comp/geometry/tilt.hpp"
+#include "comp/core/units.hpp"
+#include "comp/machine/tilt.hpp"
+#include "comp/metrology/tables/pose_offset.hpp"
 #include "comp/tables/image.hpp"
-#include "comp/units.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {
@@ -95,7 +95,7 @@ Left left_at(MachineModel& model, const Positions& q, const OrientingRunner& run
   return {distance(found.point, wanted.point), distance(found.axis, wanted.axis)};
 }
 
-// The smaller of the two turns by which the tool answers, as in comp/geometry/tilt.hpp.
+// The smaller of the two turns by which the tool answers, as in comp/machine/tilt.hpp.
 double grip_at(const MachineChain& chain, const Pose& q) {
   const Vec3 tool = tool_axis(chain, q);
   const Vec3 a = turning_column(chain, q, kA).cross(tool);

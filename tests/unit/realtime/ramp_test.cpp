@@ -1,6 +1,6 @@
 // Changes are ramped along s(u) = 6u⁵ − 15u⁴ + 10u³ from where the output is to where it should be.
 
-#include "comp/realtime/limiter.hpp"
+#include "comp/tick/limiter.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include "comp/status.hpp"
+#include "comp/core/status.hpp"
 
 namespace volcomp::test {
 namespace {

@@ -14,8 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/realtime/instances.hpp"
-#include "comp/units.hpp"
+#include "comp/core/units.hpp"
+#include "comp/tick/instances.hpp"
 
 namespace volcomp::test {
 

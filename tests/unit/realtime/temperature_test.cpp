@@ -1,8 +1,8 @@
 // Temperatures on their way into the tables in force: which are believed, what is refused, and how
 // the offsets follow.
 
-#include "comp/realtime/temperature_input.hpp"
 #include "comp/tables/image.hpp"
+#include "comp/tick/temperature_input.hpp"
 #include "tests/unit/realtime/growing_machine.hpp"
 
 namespace volcomp::test {

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "comp/realtime/fixed_trig.hpp"
+#include "comp/machine/fixed_trig.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

@@ -2,7 +2,7 @@
 // after rounding as long as S ≤ 1 mm, whichever model plays the oracle and whichever way the
 // machine was built.
 
-#include "comp/tables/volumetric_model.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
 #include "tests/unit/realtime/support.hpp"
 
 namespace volcomp::test {

@@ -1,0 +1,44 @@
+#pragma once
+// The point of a patch nearest to a given one, and the signed distance from it. Seed 002 section 6.
+//
+// Newton's method is the one to use. The paper's subdivision stands beside it for comparison: it
+// takes ten times as many evaluations, returns a distance without sign, and may lose the nearest
+// point: in the nodes of the paper's Table 3 it is up to 0.14 µm off with 10 × 10 cells, 20 µm with
+// 4 × 4.
+
+#include "comp/metrology/faces/spline_patch.hpp"
+
+namespace volcomp {
+
+struct ClosestPoint {
+  double u = 0.0;
+  double v = 0.0;
+  Vec3 foot = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  // unit, at the foot, on the side of `outward`
+  double distance = 0.0;       // along the normal, positive on the side of `outward`, mm
+  int iterations = 0;
+};
+
+// Newton with the second derivatives of the patch, kept within it: beyond an edge the foot is on
+// the edge. Starts at the node nearest to `q` (105 evaluations); 3 to 6 iterations to 1e-12 of u
+// and v. Refused: not_finite, zero_normal, not_converged (count) after 30.
+Status closest_point(const SplinePatch& patch, const Vec3& q, const Vec3& outward,
+                     ClosestPoint& out);
+
+struct SubdivisionSearch {
+  double u = 0.0;
+  double v = 0.0;
+  Vec3 foot = Vec3::Zero();
+  double distance = 0.0;  // without sign; too large by up to the last step where q is on the patch
+  int levels = 0;
+  int evaluations = 0;
+};
+
+// The paper's search: evaluate the corners of cells × cells, keep the cells around the nearest
+// corner, repeat until a cell is narrower than `accuracy` in u and v. A window shrinks to 2/cells,
+// so fewer than 4 cells are refused (2 never shrink it): bad_setting 'cells' unless 4…100,
+// 'accuracy' unless 1e-12…1, not_finite.
+Status closest_point_by_subdivision(const SplinePatch& patch, const Vec3& q, int cells,
+                                    double accuracy, SubdivisionSearch& out);
+
+}  // namespace volcomp

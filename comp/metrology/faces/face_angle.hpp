@@ -1,0 +1,67 @@
+#pragma once
+// Where a face gear stands on the turntable, from one ball that touches one flank. Seed 002
+// section 5.
+
+#include "comp/probe/face_kernel.hpp"
+
+namespace volcomp {
+
+// The workpiece frame of a machine whose Z points out of the table, opposite to that of the gear:
+// p_machine = origin + diag(1, −1, −1) Rz(angle) p_gear, mm and rad. Corrected eq. 19 to 24.
+struct FacePlacement {
+  Vec3 origin = Vec3::Zero();  // of the gear frame, in the machine
+  double angle = 0.0;
+};
+[[nodiscard]] Vec3 to_machine(const FacePlacement& placement, const Vec3& p);
+[[nodiscard]] Vec3 to_gear(const FacePlacement& placement, const Vec3& p);
+[[nodiscard]] Vec3 direction_to_machine(const FacePlacement& placement, const Vec3& direction);
+
+// Centre of a ball of radius `ball_radius` that touches at `point` with the outward normal
+// `normal`, both in the gear frame; machine coordinates.
+[[nodiscard]] Vec3 ball_target(const FacePlacement& placement, const Vec3& point,
+                               const Vec3& normal, double ball_radius);
+
+// A touch of the commanded flank: `centre` of the ball in a frame that is turned about the gear
+// axis by an unknown angle γ, p_gear = Rz(γ) p.
+struct FaceContact {
+  FaceFlank flank;
+  double ball_radius = 0.0;  // mm, > 0
+  Vec3 centre = Vec3::Zero();
+};
+
+// γ from the generated flank, in closed form; not wrapped: between −π and π minus or plus half a
+// slot for slot 0. Refused: not_finite, bad_point (radius), and what distance_from_face refuses
+// the turned centre for.
+Status face_angle(const FaceGear& gear, const FaceContact& contact, double& gamma);
+
+struct FaceAngle {
+  double gamma = 0.0;
+  double rest = 0.0;    // distance − radius there, mm
+  int evaluations = 0;  // of the distance
+};
+
+inline constexpr int kMaxAngleSteps = 20;
+
+// γ from the relieved flank: γ += side (distance − radius)/C, which is one step for a generated
+// flank and gains two digits each for a relieved one. From `start`, at most half a pitch off, to
+// |rest| ≤ `tolerance` (mm, ≥ 1e-12). Refused as above; bad_setting (tolerance);
+// residuals_too_large where that is not reached in kMaxAngleSteps.
+Status relieved_face_angle(const FaceGear& gear, const FaceContact& contact, double start,
+                           double tolerance, FaceAngle& out);
+
+// The search printed in the paper (eq. 27 and 28), to show what it costs: the gear is turned by
+// step (d/range)² towards contact, at most by `step`.
+struct PrintedFaceSearch {
+  double step = 0.0;             // θ_0, rad
+  double range = 0.0;            // l_max, mm
+  bool radius_taken_off = true;  // d = distance − radius; false: d = distance, as printed
+  double tolerance = 1e-4;       // of the distance from contact, mm
+  int most_evaluations = 60000;
+};
+
+// As relieved_face_angle; residuals_too_large (count of evaluations, deviation) where the search
+// does not end in time. `out` then holds where it stands.
+Status printed_face_angle(const FaceGear& gear, const FaceContact& contact, double start,
+                          const PrintedFaceSearch& search, FaceAngle& out);
+
+}  // namespace volcomp

@@ -1,0 +1,45 @@
+#pragma once
+// The L300G gear grinder as a measuring machine (Yang et al.; seed 000 section 0): X, Y and the
+// swing B carry the probe, A carries the gear. NC axes 0 = X, 1 = Y, 2 = B, 3 = A.
+//
+// Base frame: origin on the axis of A, +X along it, +Y towards the probe, +Z up. The arm points to
+// −X at B = zero and swings about +Y.
+
+#include "comp/machine/machine_chain.hpp"
+
+namespace volcomp {
+
+struct SwingArm {
+  double length = 173.7135;  // L_R, pivot to ball centre, mm
+  double zero = 0.0;         // Bc: encoder angle with the arm horizontal, rad
+};
+
+struct L300gDatum {
+  double x = 0.0;  // X0 and Y0: readings with the ball centre at x = 0 and on the axis of A, mm
+  double y = 0.0;
+};
+
+[[nodiscard]] MachineDescription l300g(const SwingArm& arm, const L300gDatum& datum);
+
+// --- the arm by itself
+
+// Height of the ball centre above the axis of A, mm.
+[[nodiscard]] double arm_height(const SwingArm& arm, double B);
+// What the ball centre moves along +X from where it is at B = zero, mm; never negative.
+[[nodiscard]] double arm_foreshortening(const SwingArm& arm, double B);
+// dZ/dB, mm per rad.
+[[nodiscard]] double arm_lift(const SwingArm& arm, double B);
+// The angle near zero at which the arm has this height. out_of_reach (value).
+Status arm_angle(const SwingArm& arm, double height, double& B);
+
+struct ArmOffset {
+  double X = 0.0;  // mm
+  double Y = 0.0;  // mm
+  double B = 0.0;  // rad
+};
+
+// What X, Y and B have to move to take away a position error in base, to first order. Refused where
+// the arm is within 6° of upright: no_z_authority (value = cosine). Seed 000 section 6.
+Status arm_offset(const SwingArm& arm, double B, const Vec3& error_base, ArmOffset& out);
+
+}  // namespace volcomp

@@ -1,0 +1,299 @@
+#pragma once
+// The compensator: positions in, offsets out, once per tick.
+//
+//   error → inverse Jacobian → clamp → ramp → round → slew → output
+//
+// Where axes orient the tool, they come first, and what their offsets do to the tool point is
+// part of the error that the others take away.
+//
+// The slew limit comes last because it is the promise made to the drive: whatever happened before,
+// including a change of tables in the middle of a ramp, no output moves by more than `rate` in one
+// tick.
+//
+// Two contexts use it. The interrupt calls tick() only. The background calls everything else; it
+// writes into the spare half of a double buffer and hands it over by one atomic flag, which tick()
+// honours at its start. No locks, no heap, every loop bounded; on anything wrong the last good
+// tables stay active.
+
+#include <atomic>
+
+#include "comp/tables/direction.hpp"
+#include "comp/tick/everyday_tally.hpp"
+#include "comp/tick/limiter.hpp"
+#include "comp/tick/motion_inverse.hpp"
+#include "comp/tick/tick_types.hpp"
+#include "comp/tick/tool_turning.hpp"
+#include "comp/tick/touch.hpp"
+
+namespace volcomp {
+
+// Knots per axis table; one more costs a five-axis compensator 960 bytes.
+inline constexpr std::size_t kDefaultKnots = 128;
+
+namespace detail {
+
+// Compensator::tick_unusual in the place of tick(). With internal linkage: GCC calls what the
+// linker may replace, and instances of templates are such, but jumps to this one; nothing of the
+// usual tick is then left on the stack.
+template <class Unit>
+static void tick_unusual(Unit& unit, const typename Unit::Input& in, float ramp,
+                         typename Unit::Output& out);
+
+}  // namespace detail
+
+template <class Machine, std::size_t Knots = kDefaultKnots>
+class Compensator {
+ public:
+  static constexpr std::size_t kAxes = Machine::kAxes;
+  static constexpr bool kOrients = Machine::kOrienting != 0;
+  using Input = TickInput<kAxes>;
+  using Output = TickOutput<kAxes>;
+  using Settings = CompensatorSettings<kAxes>;
+  using Tables = TableSet<kAxes, Knots>;
+
+  Compensator() : Compensator(Machine{}) {}
+  // A machine with more axes than fit is treated as none: every stage() is then refused, as is one
+  // whose axes orient the tool where Machine has no room for that.
+  explicit Compensator(const Machine& machine)
+      : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {
+    next_.ramp.restart(settings_.ramp_ticks);
+    take_machine();
+  }
+
+  // --- background; cold: for size where the tick is compiled for speed
+
+  // Before the first tick or while stopped. Refuses bad_setting with the field named.
+  [[gnu::cold]] Status configure(const Settings& settings);
+
+  // As if constructed anew for this machine; the settings stay, tables and diagnostics go. Only
+  // while no tick can come.
+  [[gnu::cold]] void restart(const Machine& machine);
+
+  // Offsets the drives hold at start-up (read back): the first tick continues from them instead of
+  // jumping to 0. Refuses bad_setting beyond ±2^30 units (1.07 m): no drive stands there.
+  [[gnu::cold]] Status start_from(const std::array<std::int32_t, kAxes>& offsets);
+
+  // Folds tables for a functional point and axes as grown as the view says into the spare buffer.
+  // Used for new tables, for a change of the tool and for axes that have become warmer alike. On
+  // refusal the active tables go on. `image_crc` is what diagnostics will report. Not while a
+  // hand-over is pending. A node stages the view of an image (check_image); tables in memory are
+  // for the host: their view takes 4 KB of stack.
+  Status stage(const TablesView& tables, const Vec3& tool_point, std::uint32_t image_crc);
+  Status stage(const MachineTables& tables, const Vec3& tool_point, std::uint32_t image_crc,
+               const Temperatures& temperatures = kUnknownTemperatures);
+
+  // Folds tables of another machine: whatever becomes of it, this one and its tables go on. When it
+  // is ok, adopt() that machine, or stage() again.
+  [[gnu::cold]] Status stage_for(const RuntimeChain& chain, const TablesView& tables,
+                                 const Vec3& tool_point, std::uint32_t image_crc);
+
+  // restart() for the machine of stage_for(), with the tables it staged. Only while no tick can
+  // come.
+  [[gnu::cold]] void adopt(const Machine& machine);
+
+  // No change is being ramped in: time for the next one.
+  [[nodiscard]] bool at_rest() const { return (ramps_ & 1U) == 0 && !pending(); }
+
+  // Hands the staged set over: active from the next tick, ramped in. Refuses not_staged.
+  Status activate();
+
+  // Corrections ramp to 0 and stay there until the next activate().
+  void deactivate();
+
+  // Does at once what the next tick would begin with. Only while no tick can come.
+  void settle() {
+    if (pending()) take_request();
+  }
+
+  // Recomputes the checksum of the active tables; call it from time to time. A bit that changed in
+  // memory means: crc_mismatch, corrections ramp to 0, every axis shows kTableDamaged until new
+  // tables are activated.
+  [[gnu::cold]] Status scrub();
+
+  [[nodiscard]] bool pending() const {
+    return request_.load(std::memory_order_acquire) != Request::none;
+  }
+  [[nodiscard]] bool active() const { return now_.active != nullptr; }
+  [[nodiscard]] const FoldReport& fold_report() const { return report_; }
+  [[nodiscard, gnu::cold]] Diagnostics<kAxes> diagnostics() const;
+  [[nodiscard]] const Machine& machine() const { return machine_; }
+
+  // The error of the active tables at a latched pose (comp/tick/touch.hpp): positions of
+  // encoders, so no offset is added to them. The tick may come meanwhile. Not pending().
+  [[nodiscard]] PoseError error_at(const std::array<LatchedAxis, kMaxAxes>& latched) const;
+
+  // --- interrupt
+
+  // The direction in which an axis arrived where it is.
+  [[nodiscard]] Direction direction(std::size_t axis) const {
+    return axis_[axis].direction.direction();
+  }
+
+  void tick(const Input& in, Output& out);
+
+  // The uncorrected, unlimited error of the last tick in base (nm), for telemetry.
+  [[nodiscard]] const Float3& last_error_nm() const { return error_nm_; }
+
+ private:
+  enum class Request : std::uint8_t { none, activate, deactivate };
+
+  // No two accepted positions of a linear axis are further apart.
+  static constexpr std::int64_t kAnyStep = 2 * kMaxPosition;
+  static constexpr std::int64_t kAnyTurn = std::int64_t{1} << 62;  // half of what wraps
+  static constexpr std::uint16_t kNoStatusYet = 1U << 15U;
+
+  struct AxisState {
+    // what a usual tick reads and writes, in its order
+    std::int64_t seen = 0;    // position given last, good or implausible
+    std::uint64_t reach = 0;  // usual_step while a usual sample may come, else 0: none can
+    std::int32_t hysteresis = 0;
+    DirectionTracker direction;
+    Magnitude limit;
+    float ramp_from = 0.0F;  // 0 unless a ramp is under way
+    std::int32_t output = 0;
+    std::int32_t rate = 1;
+    std::int32_t largest = 0;
+
+    // what only the exceptions need
+    std::uint64_t usual_step = 0;        // usual samples are closer to the last one
+    std::uint64_t most_step = kAnyStep;  // largest plausible |Δposition|
+    std::int64_t position = 0;           // last good one, unless steady: then it is the one seen
+    std::int32_t soft_rate = 1;
+    std::uint16_t stale_ticks = 0;
+    std::uint16_t status = kNoStatusYet;  // of the last tick, 0 if it was an everyday one
+    std::uint16_t exception = 0;          // what was unusual about the sample of this tick
+    bool known = false;                   // has ever had a valid position
+    bool steady = false;                  // known, and the last sample was good
+    bool soft = false;  // dropped, not homed or coming back: soft_rate instead of rate
+    Knot mean{};        // row in use until a direction is known
+  };
+
+  // What a change brings. The background prepares it, the tick takes it over in one piece.
+  struct Change {
+    const Tables* active = nullptr;
+    Ramp ramp{};                     // of the last change
+    const Tables* latest = nullptr;  // ever active
+    std::uint32_t activations = 0;
+  };
+
+  // What an orienting axis may turn in this tick, 2^-32 turn.
+  struct TurnRange {
+    float low;
+    float high;
+  };
+  struct Orienting {
+    std::array<TurnRange, kMaxOrienting> range;
+    std::array<float, kMaxOrienting> excess;  // found within it
+  };
+  struct NotOrienting {};
+
+  using Places = std::array<Located, kAxes>;
+  // What a tick works on. A compiled-in machine keeps it in registers as long as all is as usual.
+  struct Work {
+    Places at;
+    kernel::Columns column;
+    kernel::Excess excess;
+    std::conditional_t<kOrients, Orienting, NotOrienting> turns;
+  };
+
+  // The state of a correcting axis; that of a loaded machine has been looked up once.
+  AxisState& corrected(std::size_t correcting) {
+    if constexpr (Machine::kCompiledIn) {
+      return axis_[machine_.chain.correcting[correcting]];
+    } else {
+      return *corrected_[correcting];
+    }
+  }
+
+  // compensator_tick.inl
+  template <class Visit>
+  void for_each_axis(const Visit& visit) const;
+  template <class Visit>
+  void for_each_correcting(const Visit& visit) const;
+  template <bool Turns>
+  static bool within_reach(const AxisState& s, std::int64_t position);
+  template <bool Turns>
+  bool is_usual(std::size_t axis, const AxisSample& sample, const Tables& set,
+                std::uint32_t& place) const;
+  template <bool Turns>
+  bool follow(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
+  bool follow_one(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
+  bool follow_usual(const Input& in, const Tables& set, std::uint32_t status, Places& at,
+                    Output& out);
+  bool find_excess(const Tables& set, Work& work, Float3& error_nm) const;
+  bool find_kept_excess(const Tables& set, Work& work, Float3& error_nm) const;
+
+  // compensator_orienting.inl; nothing where the machine does not orient
+  static Status check_orienting(const MachineChain& chain);
+  void allow_turns(Work& work) const;
+  void take_turns(const Tables& set, Work& work, Float3& error_nm) const;
+  [[nodiscard]] float* excess_of(std::size_t axis);
+  template <class Visit>
+  void for_each_orienting(const Visit& visit);
+  void put_out_turns(const Work& work, float ramp, std::uint32_t usual, Output& out);
+
+  void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t usual,
+               EverydayBits& changed, Output& out);
+
+  // compensator_exceptions.inl
+  void take_request();
+  void begin_change();
+  void end_change();
+  bool all_known(const Input& in);
+  std::uint32_t take_sample(std::size_t axis, const AxisSample& sample);
+  void place(std::size_t axis, const Tables& set, Located& at, std::uint32_t& status);
+  bool follow_unusual(const Input& in);
+  void put_out_unusual(AxisState& s, float excess, float ramp, std::uint32_t& status);
+  std::uint32_t idle(const Input& in);
+  void finish_unusual(std::uint32_t gate, float ramp, Output& out);
+  void tick_unusual(const Input& in, float ramp, Output& out);
+  template <class Unit>
+  friend void detail::tick_unusual(Unit& unit, const typename Unit::Input& in, float ramp,
+                                   typename Unit::Output& out);
+  bool count_changes(std::size_t axis, std::uint32_t status);
+
+  // compensator_background.inl
+  void take_machine();
+  void apply_limits(std::size_t axis);
+  Status open_spare(const Provenance& provenance);
+  [[gnu::cold]] Status fold_into_spare(const RuntimeChain& chain, const TablesView& tables,
+                                       const Vec3& tool_point, std::uint32_t image_crc);
+  Status reject(const Status& status);
+  static std::uint32_t checksum(const Tables& set);
+  [[nodiscard]] bool rotary(std::size_t axis) const {
+    return machine_.chain.kind[axis] == JointKind::rotary;
+  }
+
+  // what a usual tick needs comes first: short offsets are short instructions
+  std::atomic<Request> request_{Request::none};
+  std::int32_t target_mask_ = -1;   // all ones where the offset is to be added to the position
+  std::uint32_t guarded_axes_ = 0;  // bit per axis: its next output takes the long way
+  std::uint32_t ticks_ = 0;
+  Change now_{};
+  Float3 error_nm_{};
+  std::array<AxisState*, kMaxCorrecting> corrected_{};
+  Work work_{};
+  std::array<AxisState, kAxes> axis_{};
+  EverydayTally tally_{};
+
+  Change next_{};                   // handed over with a request; its ramp has not begun
+  std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
+  std::uint32_t ramps_ = 0;         // begun and come to rest: odd while one is under way
+  bool ticks_wrapped_ = false;
+  std::int8_t spare_ = 0;  // index of the buffer that may be written
+  bool staged_ = false;
+  std::atomic<bool> damaged_{false};
+  FoldReport report_{};
+  Diagnostics<kAxes> diagnostics_{};
+  Settings settings_{};
+  Machine machine_{};
+  std::array<Tables, 2> buffer_{};
+};
+
+}  // namespace volcomp
+
+#include "comp/tick/compensator_background.inl"
+#include "comp/tick/compensator_exceptions.inl"
+#include "comp/tick/compensator_latch.inl"
+#include "comp/tick/compensator_orienting.inl"
+#include "comp/tick/compensator_tick.inl"

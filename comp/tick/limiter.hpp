@@ -1,0 +1,140 @@
+#pragma once
+// Clamp, slew and ramp: what stands between a computed correction and a drive.
+
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+#include "comp/core/inline.hpp"
+
+namespace volcomp {
+
+// One template for the tick (float, int32) and the double reference. A double is given a dead zone
+// of 1e-12 so that a value exactly at the limit is not reported as limited.
+template <class T>
+struct Limiter {
+  T limit{};  // |value| ≤ limit
+  T rate{};   // |value − previous| ≤ rate
+
+  static constexpr T kDeadZone =
+      std::is_same_v<T, double> ? static_cast<T>(1e-12) : static_cast<T>(0);
+
+  VOLCOMP_INLINE T clamp(T wanted, bool& hit) const { return between(-limit, limit, wanted, hit); }
+
+  VOLCOMP_INLINE T slew(T wanted, T previous, bool& hit) const {
+    return between(previous - rate, previous + rate, wanted, hit);
+  }
+
+ private:
+  // Branches, not selections: what is limited is the exception.
+  VOLCOMP_INLINE static T between(T lo, T hi, T wanted, bool& hit) {
+    hit = false;
+    if (wanted > hi) {
+      hit = wanted > hi + kDeadZone;
+      return hi;
+    }
+    if (wanted < lo) {
+      hit = wanted < lo - kDeadZone;
+      return lo;
+    }
+    return wanted;
+  }
+};
+
+// |a − b| > most, most ≥ 0; a − b must be representable.
+VOLCOMP_INLINE bool further(std::int32_t a, std::int32_t b, std::int32_t most) {
+  const auto span = static_cast<std::uint32_t>(most);
+  return static_cast<std::uint32_t>(a - b) + span > 2U * span;
+}
+
+// A largest magnitude, ≥ 0, in the form it is compared in: magnitudes of floats compare like
+// integers (IEEE 754).
+class Magnitude {
+ public:
+  constexpr Magnitude() = default;
+  explicit Magnitude(float most) : twice_(bits_of(most) << 1U) {}
+
+  [[nodiscard]] float value() const {
+    const std::uint32_t bits = twice_ >> 1U;
+    float most = 0.0F;
+    std::memcpy(&most, &bits, sizeof most);
+    return most;
+  }
+  // The same magnitude with the sign of `x`.
+  VOLCOMP_INLINE float signed_like(float x) const {
+    const std::uint32_t bits = (bits_of(x) & 0x80000000U) | twice_ >> 1U;
+    float most = 0.0F;
+    std::memcpy(&most, &bits, sizeof most);
+    return most;
+  }
+  // NaN exceeds all.
+  VOLCOMP_INLINE friend bool exceeds(float x, Magnitude most) {
+    return bits_of(x) << 1U > most.twice_;
+  }
+
+ private:
+  VOLCOMP_INLINE static std::uint32_t bits_of(float x) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    return bits;
+  }
+
+  std::uint32_t twice_ = 0;
+};
+
+// Nearest integer, half to even, |x| < 2^22: adding 1.5·2^23 leaves the integer in the low mantissa
+// bits (conventions, section 5). No library call, the same on every target.
+VOLCOMP_INLINE std::int32_t round_half_even(float x) {
+  const float shifted = x + 12582912.0F;
+  std::int32_t bits = 0;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return bits - 0x4B400000;
+}
+
+inline constexpr std::int32_t kMostRounded = 4'194'303;
+inline constexpr float kMaxRounded = 4194303.0F;
+
+// Smooth step from 0 to 1: s(u) = u³ (10 − 15u + 6u²), zero slope and curvature at both ends.
+class Ramp {
+ public:
+  void restart(std::uint32_t ticks) {
+    ticks_ = ticks;
+    next_ = ticks == 0 ? 0 : 1;
+    per_tick_ = ticks == 0 ? 0.0F : 1.0F / static_cast<float>(ticks);
+    first_ = ticks <= 1 ? 1.0F : smooth(per_tick_);
+  }
+
+  // Has steps to take.
+  [[nodiscard]] bool running() const { return next_ - 1U < ticks_; }
+  // From the second tick after its last step on. A ramp that begins before that continues this one.
+  [[nodiscard]] bool at_rest() const { return next_ == 0; }
+
+  // Factor of the first tick. It is known beforehand: this tick, the one of an exchange of tables,
+  // has enough to do.
+  VOLCOMP_INLINE float begin() {
+    next_ = 2;
+    return first_;
+  }
+
+  // Factor of one more tick. Not at rest.
+  VOLCOMP_INLINE float advance() {
+    const std::uint32_t step = next_;
+    next_ = step + 1U;
+    if (step < ticks_)
+      return smooth(static_cast<float>(static_cast<std::int32_t>(step)) * per_tick_);
+    if (step > ticks_) next_ = 0;
+    return 1.0F;
+  }
+
+ private:
+  VOLCOMP_INLINE static float smooth(float u) {
+    return u * u * u * (10.0F + u * (6.0F * u - 15.0F));
+  }
+
+  std::uint32_t next_ = 0;  // step, 1…ticks; ticks + 1 in the tick after the last; 0 at rest
+  std::uint32_t ticks_ = 0;
+  float per_tick_ = 0.0F;
+  float first_ = 1.0F;
+};
+
+}  // namespace volcomp

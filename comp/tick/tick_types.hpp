@@ -1,0 +1,100 @@
+#pragma once
+// What goes into a tick, what comes out, and how it is set up.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "comp/core/status.hpp"
+
+namespace volcomp {
+
+// One axis at one instant. Linear: nm; rotary: 2^-40 turn, counted through (not wrapped).
+struct AxisSample {
+  std::int64_t position = 0;
+  bool valid = false;  // false: frame lost, encoder fault, not a number
+  bool homed = false;  // referenced and enabled
+
+  // Both, by one comparison.
+  [[nodiscard]] bool good() const {
+    std::uint16_t both = 0;
+    std::memcpy(&both, reinterpret_cast<const unsigned char*>(this) + offsetof(AxisSample, valid),
+                sizeof both);
+    return both == 0x0101U;
+  }
+};
+static_assert(offsetof(AxisSample, homed) == offsetof(AxisSample, valid) + 1);
+
+// Status word per axis.
+enum StatusBit : std::uint16_t {
+  kValid = 1U << 0U,             // corrected as configured, nothing to report
+  kNotHomed = 1U << 1U,          // correction goes to 0
+  kStale = 1U << 2U,             // no valid position: last correction held
+  kDropped = 1U << 3U,           // stale for too long: correction ramps to 0
+  kImplausible = 1U << 4U,       // position jumped faster than the axis can move: treated as stale
+  kOutOfRange = 1U << 5U,        // beyond its table: stands at the end
+  kFarOutOfRange = 1U << 6U,     // by more than half a pitch
+  kClamped = 1U << 7U,           // limited to ±limit
+  kRateLimited = 1U << 8U,       // limited to ±rate per tick
+  kDirectionUnknown = 1U << 9U,  // not moved yet: mean of both directions
+  kRamping = 1U << 10U,          // a change is being ramped in
+  kNoAuthority = 1U << 11U,      // the correcting axes cannot act here: last correction held
+  kNoTables = 1U << 12U,         // nothing active: correction 0
+  kTableDamaged = 1U << 13U,     // the active tables changed in memory: correction ramped to 0
+};
+inline constexpr int kStatusBits = 14;
+
+constexpr std::size_t bit_of(StatusBit status) {
+  return static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(status)));
+}
+
+template <std::size_t Axes>
+struct TickInput {
+  std::array<AxisSample, Axes> axis{};
+};
+
+template <std::size_t Axes>
+struct TickOutput {
+  std::array<std::int32_t, Axes> offset{};  // to add to the command: nm, or 2^-32 turn
+  std::array<std::uint16_t, Axes> status{};
+};
+
+enum class PositionSource : std::uint8_t {
+  target,  // 607Ah: the encoder will show target + offset, so E is taken there
+  actual,  // 6064h or a latch: already contains the offset, nothing is added
+};
+
+// Units: nm (linear) or 2^-32 turn (rotary), per tick where it says so.
+struct AxisLimits {
+  std::int32_t limit = 200'000;  // largest |offset|, 1…4 194 303 (4.19 mm, 6.1 mrad)
+  std::int32_t rate = 10'000;    // largest change per tick, 1…1e9
+  std::int32_t soft_rate =
+      1'000;  // the same while an axis is dropped, not homed, or coming back; 1…rate
+  std::int32_t hysteresis = 2'000;  // of the direction, ≥ 0
+  std::int64_t max_step =
+      0;  // largest plausible |Δposition| per tick, run-time units; 0 = not checked
+};
+
+template <std::size_t Axes>
+struct CompensatorSettings {
+  std::array<AxisLimits, Axes> axis{};
+  PositionSource source = PositionSource::target;
+  std::uint32_t machine_id = 0;         // tables of another machine are refused; 0 = any
+  std::uint32_t ramp_ticks = 200;       // of every change of tables or state, 1…2^24
+  std::uint16_t stale_drop_ticks = 10;  // stale for more ticks than this: dropped
+};
+
+// Saturating counters; each counts how often a condition began. Written by the tick, read any time.
+template <std::size_t Axes>
+struct Diagnostics {
+  std::uint32_t ticks = 0;
+  std::uint32_t activations = 0;
+  std::uint32_t rejections = 0;  // tables refused since start
+  Status last_rejection{};       // why, and where
+  std::uint32_t active_crc = 0;  // of the image behind the active tables
+  std::array<std::array<std::uint16_t, kStatusBits>, Axes> began{};
+  std::array<std::int32_t, Axes> largest{};  // largest |offset| put out
+};
+
+}  // namespace volcomp

@@ -1,0 +1,63 @@
+#pragma once
+// A touch of the probe: what the drives latched, what was made of it.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "comp/machine/error_motion.hpp"
+#include "comp/machine/machine_description.hpp"
+#include "comp/tables/direction.hpp"
+
+namespace volcomp {
+
+// What became of an edge of the probe signal. The numbers are those of 2400h:03.
+enum class TouchVerdict : std::uint8_t {
+  point = 0,         // corrected
+  centre = 1,        // corrected, but the feature has no normal: the centre of the ball
+  uncertified = 2,   // an axis stood outside its table: corrected as at its end
+  uncorrected = 3,   // no tables are active: nominal
+  bounce = 4,        // too soon after the edge before
+  double_edge = 5,   // two or more edges within one cycle: which one was latched is unknown
+  axis_missing = 6,  // an axis has not reported the edge
+  no_position = 7,   // an edge was counted, but no latched position came with it
+  stale_latch = 8,   // a latched position came, but no edge was counted
+  late_latch = 9,    // the latch is older than a cycle
+  skew = 10,         // the axes have latched different edges
+  no_velocity = 11,  // an axis has not reported two positions in a row
+  not_homed = 12,    // an axis was not referenced
+  retracting = 13,   // the ball was moving away from the part
+  no_machine = 14,   // no tables have been active since the start: the chain is unknown
+};
+inline constexpr std::uint8_t kTouchVerdicts = 15;
+[[nodiscard]] constexpr bool accepted(TouchVerdict verdict) {
+  return verdict <= TouchVerdict::uncorrected;
+}
+// Stable machine-readable name, for instance "axis_missing".
+[[nodiscard]] const char* code(TouchVerdict verdict);
+// One plain sentence for a person.
+[[nodiscard]] const char* sentence(TouchVerdict verdict);
+
+// Run-time units: nm, or 2^-40 turn of a rotary axis.
+struct LatchedAxis {
+  std::int64_t position = 0;
+  double velocity = 0.0;                     // at the latch, per second
+  Direction direction = Direction::unknown;  // the axis arrived in
+};
+
+// One edge of the probe signal, seen by every axis in use. Unused axes are left at 0.
+struct Touch {
+  std::uint32_t sequence = 0;  // counts edges, rejected ones included
+  TouchVerdict verdict = TouchVerdict::point;
+  std::uint8_t axis = 0;  // NC axis the verdict is about
+  std::array<LatchedAxis, kMaxAxes> latched{};
+};
+
+// The error of the machine at a pose.
+struct PoseError {
+  Vec3 base = Vec3::Zero();  // nm
+  bool known = false;        // false: no tables
+  bool within = true;        // false: an axis stands outside its table
+};
+
+}  // namespace volcomp
