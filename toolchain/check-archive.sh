@@ -225,7 +225,7 @@ case "${1:-}" in
     build=${1:-build/host}
     check "$build/comp/libvolcomp_comp.a" "$build/comp/CMakeFiles/volcomp_comp.dir/realtime" ||
       die "the library comp breaks a promise, see FOUND above."
-    for library in firmware/c_interface/libvolcomp_c firmware/canopen/libvolcomp_canopen firmware/node/libvolcomp_node \
+    for library in firmware/embed/c/libvolcomp_c firmware/canopen/libvolcomp_canopen firmware/node/libvolcomp_node \
       hal/libvolcomp_hal_linux; do
       check "$build/$library.a" || die "$library breaks a promise, see FOUND above."
     done

@@ -20,7 +20,7 @@ build_preset package --target volcomp volcomp_c
 make_root
 in_root apt-get install -y -qq --no-install-recommends linuxcnc-uspace linuxcnc-uspace-dev gcc make pkg-config \
   > build/log/linuxcnc.txt 2>&1 || { tail -n 5 build/log/linuxcnc.txt; die "LinuxCNC could not be installed."; }
-copy_to_root firmware/integrated/xyfz.vct tests/system/linuxcnc
+copy_to_root firmware/embed/cpp/xyfz.vct tests/system/linuxcnc
 (cd "$root/source" && awk -f tests/system/linuxcnc/gear_runs.awk)
 build/package/host_sim/volcomp build-tables --machine host_sim/machines/l300g.toml --model abbe \
   --runs "$root"/source/{X,Y,B,A}.csv --out "$root/source/gear.vct" > build/log/gear.txt

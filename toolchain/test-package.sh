@@ -22,7 +22,7 @@ build_preset package
 rm -rf build/package/packages
 cpack --config build/package/CPackConfig.cmake > build/log/cpack.txt 2>&1 || { cat build/log/cpack.txt; exit 1; }
 make_root
-copy_to_root tests/system/packages firmware/c_interface/example.c firmware/integrated/xyfz.vct
+copy_to_root tests/system/packages firmware/embed/c/example.c firmware/embed/cpp/xyfz.vct
 cp build/package/packages/*.deb "$root/source"
-build/host/firmware/volcomp-servo firmware/integrated/xyfz.vct > "$root/source/reference"
+build/host/firmware/volcomp-servo firmware/embed/cpp/xyfz.vct > "$root/source/reference"
 in_root bash /source/tests/system/packages/deb_test.sh /source /source /source/reference

@@ -142,7 +142,7 @@ step_tidy() {
 step_cppcheck() {
   local files
   need cppcheck
-  mapfile -t files < <(sources '*.[ch]pp' comp hal firmware/c_interface firmware/canopen firmware/node)
+  mapfile -t files < <(sources '*.[ch]pp' comp hal firmware/embed/c firmware/canopen firmware/node)
   [ ${#files[@]} -gt 0 ] || die "there is no C++ file of the target to check."
   cppcheck --quiet --std=c++17 --language=c++ --enable=warning,performance,portability --inline-suppr \
     --inconclusive --suppress=missingInclude --suppress=missingIncludeSystem --suppress=unmatchedSuppression \

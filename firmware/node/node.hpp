@@ -27,15 +27,15 @@
 //     background, and the tick finds a device that neither hears nor says anything.
 
 #include "firmware/canopen/device.hpp"
-#include "firmware/node/node_compensator.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "firmware/node/preemption.hpp"
-#include "firmware/node/probe_path.hpp"
-#include "firmware/node/storage.hpp"
-#include "firmware/node/stroke_service.hpp"
-#include "firmware/node/table_download.hpp"
-#include "firmware/node/thermal_service.hpp"
+#include "firmware/node/probe/probe_path.hpp"
+#include "firmware/node/store/storage.hpp"
+#include "firmware/node/strokes/stroke_service.hpp"
+#include "firmware/node/tables/node_compensator.hpp"
+#include "firmware/node/tables/table_download.hpp"
+#include "firmware/node/thermal/thermal_service.hpp"
 #include "firmware/node/wire_scale.hpp"
 #include "hal/reset_cause.hpp"
 

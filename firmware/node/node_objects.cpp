@@ -4,8 +4,8 @@
 
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/pdo.hpp"
-#include "firmware/node/stroke_rows.hpp"
-#include "firmware/node/thermal_rows.hpp"
+#include "firmware/node/strokes/stroke_rows.hpp"
+#include "firmware/node/thermal/thermal_rows.hpp"
 
 namespace volcomp::node {
 namespace {

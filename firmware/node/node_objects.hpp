@@ -17,11 +17,11 @@
 
 #include "firmware/canopen/communication_objects.hpp"
 #include "firmware/canopen/pdo.hpp"
-#include "firmware/node/node_compensator.hpp"
 #include "firmware/node/node_features.hpp"
-#include "firmware/node/probe_objects.hpp"
-#include "firmware/node/stroke_objects.hpp"
-#include "firmware/node/thermal_objects.hpp"
+#include "firmware/node/probe/probe_objects.hpp"
+#include "firmware/node/strokes/stroke_objects.hpp"
+#include "firmware/node/tables/node_compensator.hpp"
+#include "firmware/node/thermal/thermal_objects.hpp"
 
 namespace volcomp::node {
 

@@ -12,7 +12,7 @@
 
 #include "firmware/canopen/exchange.hpp"
 #include "firmware/node/node.hpp"
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/linux/file_blocks.hpp"
 #include "hal/linux/node_pipe.hpp"
 #include "hal/linux/socket_can.hpp"

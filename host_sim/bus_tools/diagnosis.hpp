@@ -10,7 +10,7 @@
 
 #include "comp/tick/tick_types.hpp"
 #include "firmware/node/node_objects.hpp"
-#include "firmware/node/storage.hpp"
+#include "firmware/node/store/storage.hpp"
 #include "hal/reset_cause.hpp"
 #include "host_sim/bus_tools/node_client.hpp"
 #include "host_sim/bus_tools/stroke_diagnosis.hpp"

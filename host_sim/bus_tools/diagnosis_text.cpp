@@ -4,7 +4,7 @@
 
 #include "comp/tick/status_text.hpp"
 #include "firmware/canopen/emergency.hpp"
-#include "firmware/node/storage.hpp"
+#include "firmware/node/store/storage.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"
 #include "host_sim/drives/cia402_state_machine.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // What a node of a helical grinder says of the strokes it watches and of what it has learned from
-// them (firmware/node/stroke_objects.hpp), in words.
+// them (firmware/node/strokes/stroke_objects.hpp), in words.
 
 #include <array>
 #include <optional>
@@ -10,7 +10,7 @@
 
 #include "comp/core/status.hpp"
 #include "comp/strokes/learning_guard.hpp"
-#include "firmware/node/stroke_objects.hpp"
+#include "firmware/node/strokes/stroke_objects.hpp"
 #include "host_sim/bus_tools/node_client.hpp"
 
 namespace volcomp::sim {

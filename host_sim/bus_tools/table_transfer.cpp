@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "firmware/node/storage.hpp"
-#include "firmware/node/table_download.hpp"
+#include "firmware/node/store/storage.hpp"
+#include "firmware/node/tables/table_download.hpp"
 #include "host_sim/data/input_file.hpp"
 #include "host_sim/data/user_error.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "firmware/node/thermal_objects.hpp"
+#include "firmware/node/thermal/thermal_objects.hpp"
 #include "host_sim/bus_tools/node_client.hpp"
 
 namespace volcomp::sim {

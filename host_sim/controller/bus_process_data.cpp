@@ -4,7 +4,7 @@
 
 #include "comp/tick/temperature_input.hpp"
 #include "firmware/canopen/cob_id.hpp"
-#include "firmware/node/stroke_objects.hpp"
+#include "firmware/node/strokes/stroke_objects.hpp"
 #include "host_sim/controller/bus_controller.hpp"
 
 namespace volcomp::sim {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "comp/tick/instances.hpp"
-#include "firmware/integrated/servo_loop.hpp"
+#include "firmware/embed/cpp/servo_loop.hpp"
 #include "host_sim/controller/axis_group.hpp"
 #include "host_sim/controller/motion_cell.hpp"
 #include "host_sim/controller/simulated_axes.hpp"

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "comp/core/units.hpp"
-#include "firmware/node/probe_objects.hpp"
+#include "firmware/node/probe/probe_objects.hpp"
 #include "host_sim/data/user_error.hpp"
 
 namespace volcomp::sim {

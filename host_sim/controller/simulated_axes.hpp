@@ -27,7 +27,7 @@ class SimulatedAxes {
       drive_[a].stand_at(drive_units(a, target_[a]));
   }
 
-  // --- the compensation's side (hal/axis_port.hpp)
+  // --- the compensation's side (firmware/embed/cpp/axis_port.hpp)
   void sample(TickInput<kSlots>& in) const {
     for (std::size_t a = 0; a < drive_.size(); ++a)
       in.axis[a] = {target_[a], true, true};

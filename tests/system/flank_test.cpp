@@ -5,7 +5,7 @@
 
 #include "comp/metrology/faces/face_grid.hpp"
 #include "comp/probe/face_touch.hpp"
-#include "firmware/node/flank_probe.hpp"
+#include "firmware/node/probe/flank_probe.hpp"
 #include "host_sim/commissioning/commission.hpp"
 #include "host_sim/commissioning/identification.hpp"
 #include "host_sim/scenarios/face_gear/station.hpp"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware/canopen/emergency.hpp"
-#include "firmware/node/thermal_objects.hpp"
+#include "firmware/node/thermal/thermal_objects.hpp"
 #include "tests/system/bus_world.hpp"
 
 namespace volcomp::sim {

@@ -19,11 +19,11 @@ install(EXPORT volcomp NAMESPACE volcomp:: FILE volcomp-targets.cmake DESTINATIO
 # The headers lie in folders of the names they are included by; volcomp.h beside them.
 install(DIRECTORY comp DESTINATION "${volcomp_headers}" COMPONENT dev
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inl")
-install(FILES hal/axis_port.hpp DESTINATION "${volcomp_headers}/hal" COMPONENT dev)
-install(FILES firmware/integrated/servo_loop.hpp DESTINATION "${volcomp_headers}/firmware/integrated" COMPONENT dev)
-install(FILES firmware/c_interface/volcomp.h DESTINATION "${volcomp_headers}" COMPONENT dev)
+install(FILES firmware/embed/cpp/axis_port.hpp DESTINATION "${volcomp_headers}/hal" COMPONENT dev)
+install(FILES firmware/embed/cpp/servo_loop.hpp DESTINATION "${volcomp_headers}/firmware/embed/cpp" COMPONENT dev)
+install(FILES firmware/embed/c/volcomp.h DESTINATION "${volcomp_headers}" COMPONENT dev)
 # LinuxCNC's components are built on the machine they run on.
-install(FILES firmware/linuxcnc/volcomp.c firmware/linuxcnc/Makefile
+install(FILES firmware/embed/linuxcnc/volcomp.c firmware/embed/linuxcnc/Makefile
   DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp/linuxcnc" COMPONENT dev)
 
 configure_package_config_file(toolchain/cmake/volcomp-config.cmake.in "${volcomp_made}/volcomp-config.cmake"
@@ -42,7 +42,7 @@ endforeach()
 if(VOLCOMP_BUILD_HOST_SIM)
   install(TARGETS volcomp volcomp-node RUNTIME COMPONENT tools)
   install(DIRECTORY host_sim/machines DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp" COMPONENT tools)
-  install(FILES firmware/integrated/xyfz.vct firmware/volcomp.eds firmware/volcomp.dbc
+  install(FILES firmware/embed/cpp/xyfz.vct firmware/volcomp.eds firmware/volcomp.dbc
     DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp" COMPONENT tools)
 endif()
 

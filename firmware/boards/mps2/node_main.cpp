@@ -10,7 +10,7 @@
 #include "firmware/boards/mps2/reset_cause.hpp"
 #include "firmware/boards/mps2/stack.hpp"
 #include "firmware/node/node_task.hpp"
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/mps2/console.hpp"
 #include "hal/mps2/flash_blocks.hpp"
 #include "hal/mps2/nvic.hpp"

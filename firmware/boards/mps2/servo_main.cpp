@@ -1,10 +1,10 @@
 // volcomp-servo: the integrated form on a board. Two timers of 10 kHz: one turns the simulated
 // encoders, half a period later the other runs the servo loop. Prints what the offsets were, which
-// a PC prints to the last bit the same (firmware/integrated/servo_host.cpp).
+// a PC prints to the last bit the same (firmware/embed/cpp/servo_host.cpp).
 
 #include "firmware/boards/mps2/exit_code.hpp"
 #include "firmware/boards/mps2/stack.hpp"
-#include "firmware/integrated/servo_example.hpp"
+#include "firmware/embed/cpp/servo_example.hpp"
 #include "hal/mps2/clock.hpp"
 #include "hal/mps2/console.hpp"
 #include "hal/mps2/instruction_counter.hpp"

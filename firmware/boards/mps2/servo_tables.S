@@ -5,5 +5,5 @@
     .global servo_tables_begin
     .global servo_tables_end
 servo_tables_begin:
-    .incbin "firmware/integrated/xyfz.vct"
+    .incbin "firmware/embed/cpp/xyfz.vct"
 servo_tables_end:

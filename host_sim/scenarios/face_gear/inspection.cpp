@@ -10,7 +10,7 @@
 #include "comp/metrology/faces/face_angle.hpp"
 #include "comp/probe/face_relief.hpp"
 #include "comp/probe/face_touch.hpp"
-#include "firmware/node/flank_probe.hpp"
+#include "firmware/node/probe/flank_probe.hpp"
 #include "host_sim/data/user_error.hpp"
 #include "host_sim/scenarios/face_gear/truth.hpp"
 

@@ -203,7 +203,7 @@ MonitorView BusGrinder::view() {
   return view;
 }
 
-// 2526h:01, see firmware/node/stroke_objects.hpp.
+// 2526h:01, see firmware/node/strokes/stroke_objects.hpp.
 LearnedTables BusGrinder::tables() {
   const SdoChannel::Bytes image = read({0x2526, 1}, node::kMostLearnedBytes, "learned tables");
   const auto damaged = [] { return UserError("the node's learned tables are damaged on the way"); };

@@ -7,7 +7,7 @@
 set -euo pipefail
 source_dir=$1
 gear_image=$2
-image=$source_dir/firmware/integrated/xyfz.vct
+image=$source_dir/firmware/embed/cpp/xyfz.vct
 periods=5000
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

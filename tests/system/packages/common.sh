@@ -1,12 +1,12 @@
 # Sourced by the tests of the packages: users' programs, and what they have to put out.
 #
-# Needs source_dir, and reference: what volcomp-servo prints for the image of firmware/integrated.
+# Needs source_dir, and reference: what volcomp-servo prints for the image of firmware/embed/cpp.
 # shellcheck shell=bash disable=SC2034,SC2154
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-example=$source_dir/firmware/c_interface/example.c
-image=$source_dir/firmware/integrated/xyfz.vct
+example=$source_dir/firmware/embed/c/example.c
+image=$source_dir/firmware/embed/cpp/xyfz.vct
 users=$source_dir/tests/system/packages
 
 fail() {

@@ -1,4 +1,4 @@
-// A user's program in C++ with comp alone: the servo loop of firmware/integrated/servo_example.cpp,
+// A user's program in C++ with comp alone: the servo loop of firmware/embed/cpp/servo_example.cpp,
 // and the same fingerprint.
 //
 //   consumer TABLE_IMAGE

@@ -6,7 +6,7 @@
 
 #include "firmware/boards/mps2/exit_code.hpp"
 #include "firmware/boards/mps2/reset_cause.hpp"
-#include "firmware/node/record_store.hpp"
+#include "firmware/node/store/record_store.hpp"
 #include "hal/mps2/console.hpp"
 #include "tests/target/flash/lives.hpp"
 

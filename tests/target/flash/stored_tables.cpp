@@ -6,7 +6,7 @@
 #include "firmware/boards/mps2/reset_cause.hpp"
 #include "firmware/canopen/sdo_client.hpp"
 #include "firmware/node/node.hpp"
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/mps2/console.hpp"
 #include "tests/target/flash/lives.hpp"
 

@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "comp/core/units.hpp"
-#include "firmware/node/stroke_service.hpp"
+#include "firmware/node/strokes/stroke_service.hpp"
 #include "tests/target/text.hpp"
 #include "tests/target/ticks/cost.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "comp/tables/image.hpp"
-#include "firmware/c_interface/volcomp.h"
+#include "firmware/embed/c/volcomp.h"
 #include "tests/unit/probe/support.hpp"
 
 namespace volcomp::test {

@@ -11,7 +11,7 @@
 #include "comp/tables/image.hpp"
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/emergency.hpp"
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
 #include "host_sim/bus_tools/bus_load.hpp"
 #include "host_sim/bus_tools/diagnosis.hpp"

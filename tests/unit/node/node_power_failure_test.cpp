@@ -2,7 +2,7 @@
 // that starts afterwards has the old parameters and tables or the new ones, never some of each,
 // says which, and can save again.
 
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
 #include "tests/unit/node/node_bench.hpp"
 

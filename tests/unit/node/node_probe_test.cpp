@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "comp/tick/touch.hpp"
-#include "firmware/node/point_fifo.hpp"
+#include "firmware/node/probe/point_fifo.hpp"
 #include "tests/unit/node/probe_bench.hpp"
 
 namespace volcomp::node {

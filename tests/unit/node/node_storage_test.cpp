@@ -1,7 +1,7 @@
 // Save, power failure, restart: settings and tables come back, and the machine is compensated
 // without a download (CiA 301, 1010h and 1011h).
 
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
 #include "tests/unit/node/node_bench.hpp"
 

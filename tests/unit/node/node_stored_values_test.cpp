@@ -9,7 +9,7 @@ namespace {
 
 using canopen::AbortCode;
 
-constexpr std::uint8_t kWholePdo = 0xFF;  // firmware/node/node_store.cpp: a record of a PDO
+constexpr std::uint8_t kWholePdo = 0xFF;  // firmware/node/store/node_store.cpp: a record of a PDO
 constexpr std::uint16_t kLearned = 0x2526;
 
 // Bytes in place of a memory.

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "comp/core/crc32.hpp"
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
 #include "tests/unit/node/stroke_bench.hpp"
 

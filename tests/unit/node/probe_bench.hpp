@@ -7,7 +7,7 @@
 
 #include "comp/tick/touch.hpp"
 #include "firmware/canopen/bytes.hpp"
-#include "firmware/node/point_fifo.hpp"
+#include "firmware/node/probe/point_fifo.hpp"
 #include "tests/unit/node/node_bench.hpp"
 
 namespace volcomp::node {

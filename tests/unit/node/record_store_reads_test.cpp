@@ -1,6 +1,6 @@
 // A memory whose reads fail now and then: what is loaded is what was saved, or is said not to be.
 
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "tests/unit/node/record_store_support.hpp"
 
 namespace volcomp::node {

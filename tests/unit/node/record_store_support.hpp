@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "firmware/node/record_storage.hpp"
+#include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
 
 namespace volcomp::node {

@@ -1,0 +1,190 @@
+#include "firmware/node/probe/probe_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace volcomp::node {
+namespace {
+
+constexpr double kSecondsPerNs = 1e-9;
+constexpr double kMostRadius_nm = 2e7;  // seed 000, limits: r_c below 20 mm
+
+bool finite(Span<const double> values) {
+  for (const double v : values) {  // NOLINT(readability-use-anyofallof) the library unrolls it
+    if (!std::isfinite(v)) return false;
+  }
+  return true;
+}
+
+Frame frame_of(const std::array<double, 12>& v) {
+  Frame frame;
+  const double* next = v.data();
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c)
+      frame.R(r, c) = *next++;
+  }
+  for (int r = 0; r < 3; ++r)
+    frame.t[r] = *next++;
+  return frame;
+}
+
+// Without a cycle period nobody knows how fast an axis was.
+Status check(const ProbeObjects& o, std::uint32_t period_us) {
+  if (period_us == 0) return refuse(Reason::bad_setting);
+  const bool all_finite = finite(o.lobing) && finite(o.workpiece) && finite(o.uncertainty) &&
+                          finite(o.position_uncertainty) && finite(o.latch_delay_uncertainty_ns);
+  if (!all_finite) return refuse(Reason::not_finite);
+  const bool plausible = o.lobing[0] >= 0.0 && o.lobing[0] <= kMostRadius_nm;
+  if (!plausible || std::abs(o.uncertainty[2]) > 1.0) return refuse(Reason::bad_setting);
+  if (!is_rotation(frame_of(o.workpiece).R)) return refuse(Reason::not_a_rotation);
+  return {};
+}
+
+ProbeSettings settings_of(const ProbeObjects& o) {
+  ProbeSettings s;
+  s.probe_delay_s = o.delay_ns * kSecondsPerNs;
+  s.radius.coefficient = o.lobing;
+  s.workpiece = frame_of(o.workpiece);
+  ProbeUncertainty& u = s.uncertainty;
+  u.radius = o.uncertainty[0];
+  u.tool_length = o.uncertainty[1];
+  u.correlation = o.uncertainty[2];
+  u.repeatability = o.uncertainty[3];
+  u.tables = o.uncertainty[4];
+  u.normal = o.uncertainty[5];
+  u.probe_delay_s = o.uncertainty[6] * kSecondsPerNs;
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    s.latch_delay_s[a] = o.latch_delay_ns[a] * kSecondsPerNs;
+    u.position[a] = o.position_uncertainty[a];
+    u.latch_delay_s[a] = o.latch_delay_uncertainty_ns[a] * kSecondsPerNs;
+  }
+  return s;
+}
+
+std::int32_t saturated(std::int64_t nm) {
+  return static_cast<std::int32_t>(
+      std::max<std::int64_t>(INT32_MIN, std::min<std::int64_t>(INT32_MAX, nm)));
+}
+
+std::array<std::int32_t, 3> saturated(const std::array<std::int64_t, 3>& nm) {
+  return {saturated(nm[0]), saturated(nm[1]), saturated(nm[2])};
+}
+
+std::uint32_t largest(const std::array<float, 3>& nm) {
+  const float most = std::max(nm[0], std::max(nm[1], nm[2]));
+  return most < 4e9F ? static_cast<std::uint32_t>(most) + 1U : UINT32_MAX;
+}
+
+}  // namespace
+
+void ProbePath::reset() {
+  on_ = has_machine_ = losing_ = false;
+  feature_ = {};
+  flank_.reset();
+  points_.clear();
+  collector_ = {};
+  Touch forgotten;
+  while (touches_.pop(forgotten)) {
+  }
+  overrun_ = 0;
+}
+
+// --- settings
+
+void ProbePath::set_machine(const MachineDescription& machine) {
+  corrector_.set_machine(machine);
+  has_machine_ = true;
+}
+
+Status ProbePath::apply(std::uint32_t axes, std::uint32_t period_us) {
+  const Status status = check(objects_, period_us);
+  objects_.reason = static_cast<std::uint8_t>(status.reason);
+  if (!status.ok()) return status;
+  corrector_.settings = settings_of(objects_);
+  TouchRules rules;
+  rules.axes = axes;
+  rules.period_ns = std::int64_t{period_us} * 1000;
+  rules.bounce_ns = std::int64_t{objects_.bounce_us} * 1000;
+  rules.skew_ns = objects_.skew_ns;
+  for (std::size_t a = 0; a < kNodeAxes; ++a)
+    rules.delay_ns[a] = objects_.latch_delay_ns[a];
+  collector_.configure(rules);
+  on_ = true;
+  return {};
+}
+
+Reason ProbePath::take_feature(std::uint32_t index) {
+  const Vec3 n(objects_.normal[0], objects_.normal[1], objects_.normal[2]);
+  const double square = n.squaredNorm();
+  const bool unit = std::abs(square - 1.0) < 1e-9;
+  if (!unit && !(square <= 0.0)) return Reason::bad_setting;
+  if (const Reason reason = flank_.take(); reason != Reason::ok) return reason;
+  feature_ = {index, flank_.announced() ? Vec3::Zero() : n};
+  return Reason::ok;
+}
+
+// --- tick
+
+void ProbePath::end_cycle() {
+  const Touch* const touch = collector_.finish_cycle();
+  if (touch != nullptr && !touches_.push(*touch)) ++overrun_;
+}
+
+// --- background
+
+ProbePoint ProbePath::point_of(const Touch& touch, JudgedTouch& judged) const {
+  const Preemptible preemptible(preemption_);
+  ProbePoint point;
+  if (has_machine_ && accepted(touch.verdict))
+    point = corrector_.correct(touch, feature_, compensator_.error_at(touch.latched));
+  point.sequence = touch.sequence;
+  point.feature = feature_.index;
+  point.axis = touch.axis;
+  if (!accepted(touch.verdict)) point.verdict = touch.verdict;
+  if (!has_machine_) point.verdict = TouchVerdict::no_machine;
+  if (!accepted(point.verdict))
+    point.machine = point.workpiece = {};
+  else if (flank_.announced())
+    judged = flank_.judge(saturated(point.workpiece));
+  return point;
+}
+
+bool ProbePath::work() {
+  objects_.lost += std::exchange(overrun_, 0);
+  if (compensator_.pending()) return false;  // the tables of the point must stay while it is made
+  Touch touch;
+  if (!touches_.pop(touch)) return false;
+  JudgedTouch judged;
+  last_ = point_of(touch, judged);
+  publish(last_, touch, judged);
+  return true;
+}
+
+void ProbePath::publish(const ProbePoint& point, const Touch& touch, const JudgedTouch& judged) {
+  ++objects_.touches;
+  if (!accepted(point.verdict)) ++objects_.rejected;
+  losing_ = !points_.push(encode_point(point, touch, judged));
+  if (losing_) ++objects_.lost;
+  released();
+  objects_.sequence = point.sequence;
+  objects_.verdict = static_cast<std::uint8_t>(point.verdict);
+  objects_.axis =
+      accepted(point.verdict) ? std::uint8_t{0} : static_cast<std::uint8_t>(point.axis + 1);
+  objects_.feature_low = static_cast<std::uint16_t>(point.feature);
+  objects_.workpiece_nm = saturated(point.workpiece);
+  objects_.machine_nm = point.machine;
+  objects_.uncertainty_nm = largest(point.uncertainty);
+  if (judged.flank.gear != 0) publish(judged, point.sequence);
+}
+
+void ProbePath::publish(const JudgedTouch& judged, std::uint32_t sequence) {
+  objects_.distance_nm = distance_nm(judged.touch.distance);
+  objects_.flank_verdict = static_cast<std::uint8_t>(judged.touch.verdict);
+  objects_.foot = static_cast<std::uint8_t>(judged.touch.foot.reason);
+  objects_.judged = sequence;
+}
+
+void ProbePath::released() { objects_.waiting = static_cast<std::uint16_t>(points_.waiting()); }
+
+}  // namespace volcomp::node
