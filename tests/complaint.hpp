@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_sim/data/user_error.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
 

@@ -3,13 +3,13 @@
 # diagonals without and with compensation. Results go to build/demo.
 #
 #   toolchain/demo.sh                    run the demonstration
-#   toolchain/demo.sh --update-picture   and refresh host_sim/report/xyfz-diagonals.svg
+#   toolchain/demo.sh --update-picture   and refresh host_sim/host/report/page/xyfz-diagonals.svg
 script_folder=$(dirname "${BASH_SOURCE[0]}")
 # shellcheck source=toolchain/common.sh
 . "$script_folder/common.sh"
 
 readonly output=build/demo
-readonly committed_picture=host_sim/report/xyfz-diagonals.svg
+readonly committed_picture=host_sim/host/report/page/xyfz-diagonals.svg
 
 update_picture=no
 case "${1:-}" in
@@ -47,7 +47,7 @@ build/host/host_sim/volcomp run xyfz --draws 50 --seed 1 --report "$output" --js
   die "the simulation failed."
 
 step 4 'Drawing the picture'
-node host_sim/report/render-svg.mjs "$output/report.json" diagonals > "$output/xyfz-diagonals.svg" ||
+node host_sim/host/report/page/render-svg.mjs "$output/report.json" diagonals > "$output/xyfz-diagonals.svg" ||
   die "the picture could not be drawn."
 if [ "$update_picture" = yes ]; then
   cp "$output/xyfz-diagonals.svg" "$committed_picture"

@@ -15,7 +15,7 @@ bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
 board_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib g++-aarch64-linux-gnu
   qemu-system-arm gdb-multiarch)
 vm_packages=(qemu-system-x86 busybox-static cpio kmod xz-utils)
-report_folder=host_sim/report
+report_folder=host_sim/host/report/page
 eds_parser_folder=tests/system/eds_parser
 
 installed() {

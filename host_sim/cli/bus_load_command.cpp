@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/bus_tools/bus_load.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
+#include "host_sim/host/bus/bus_load.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "comp/tables/image.hpp"
-#include "host_sim/bus_tools/diagnosis.hpp"
-#include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
 namespace {

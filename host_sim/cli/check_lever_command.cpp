@@ -8,7 +8,7 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/commissioning/lever_check.hpp"
+#include "host_sim/host/tables/lever_check.hpp"
 
 namespace volcomp::sim {
 namespace {

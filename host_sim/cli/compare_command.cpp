@@ -8,8 +8,8 @@
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/flank_maps/comparison.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/flank_comparison.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -7,10 +7,10 @@
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/device_files/dbc.hpp"
-#include "host_sim/device_files/eds.hpp"
-#include "host_sim/explain/catalogue.hpp"
+#include "host_sim/host/bus/device_files/dbc.hpp"
+#include "host_sim/host/bus/device_files/eds.hpp"
+#include "host_sim/host/bus/explain/catalogue.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/explain/meaning_json.hpp"
+#include "host_sim/host/bus/explain/meaning_json.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -9,10 +9,10 @@
 #include "comp/tables/image.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/commissioning/commission.hpp"
-#include "host_sim/data/input_file.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/exchange/controller_export.hpp"
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/host/tables/controller_export.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -7,9 +7,9 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/data/map_csv.hpp"
-#include "host_sim/scenarios/face_gear/figures.hpp"
-#include "host_sim/scenarios/face_gear/report.hpp"
+#include "host_sim/experiments/face_gear/figures.hpp"
+#include "host_sim/experiments/face_gear/report.hpp"
+#include "host_sim/host/measure/map_csv.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -9,14 +9,14 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_files.hpp"
-#include "host_sim/controller_tables/linuxcnc_comp.hpp"
-#include "host_sim/data/input_file.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
-#include "host_sim/exchange/etalon_text.hpp"
-#include "host_sim/exchange/foreign_errors.hpp"
-#include "host_sim/exchange/isg_csv.hpp"
-#include "host_sim/machine/chain_string.hpp"
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/io/whole_file.hpp"
+#include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/tables/formats/etalon_text.hpp"
+#include "host_sim/host/tables/formats/foreign_errors.hpp"
+#include "host_sim/host/tables/formats/isg_csv.hpp"
+#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
 
 namespace volcomp::sim {
 namespace {

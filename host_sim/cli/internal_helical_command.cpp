@@ -6,9 +6,9 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/scenarios/internal_helical/controller_files.hpp"
-#include "host_sim/scenarios/internal_helical/figures.hpp"
-#include "host_sim/scenarios/internal_helical/report.hpp"
+#include "host_sim/experiments/internal_helical/controller_files.hpp"
+#include "host_sim/experiments/internal_helical/figures.hpp"
+#include "host_sim/experiments/internal_helical/report.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -7,8 +7,8 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/scenarios/l300g/figures.hpp"
-#include "host_sim/scenarios/l300g/report.hpp"
+#include "host_sim/experiments/l300g/figures.hpp"
+#include "host_sim/experiments/l300g/report.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
-#include "host_sim/machine/chain_string.hpp"
-#include "host_sim/machine/machine_facts.hpp"
-#include "host_sim/machine/machine_summary.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/io/whole_file.hpp"
+#include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/machine/machine_facts.hpp"
+#include "host_sim/host/machine/machine_summary.hpp"
 
 namespace volcomp::sim {
 namespace {

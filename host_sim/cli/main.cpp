@@ -13,8 +13,8 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/data/interruption.hpp"
-#include "host_sim/version.hpp"
+#include "host_sim/host/io/interruption.hpp"
+#include "host_sim/host/io/version.hpp"
 
 namespace volcomp::sim {
 namespace {

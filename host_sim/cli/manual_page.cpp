@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/exit_codes.hpp"
-#include "host_sim/version.hpp"
+#include "host_sim/host/io/version.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,16 +6,16 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/bus_tools/bus_monitor.hpp"
-#include "host_sim/bus_tools/can_log.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/data/csv_cells.hpp"
-#include "host_sim/data/input_file.hpp"
-#include "host_sim/data/interruption.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/links/frame_link.hpp"
+#include "host_sim/host/bus/bus_monitor.hpp"
+#include "host_sim/host/bus/can_log.hpp"
+#include "host_sim/host/bus/links/frame_link.hpp"
+#include "host_sim/host/io/csv_cells.hpp"
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/interruption.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
 namespace {

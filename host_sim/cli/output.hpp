@@ -10,8 +10,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "host_sim/data/input_file.hpp"
-#include "host_sim/data/whole_file.hpp"
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/whole_file.hpp"
 
 namespace volcomp::sim {
 

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "host_sim/boards/emulated_node.hpp"
-#include "host_sim/bus_tools/replay.hpp"
-#include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/firmware_options.hpp"
 #include "host_sim/cli/output.hpp"
+#include "host_sim/host/bus/replay/replay.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/sim/boards/emulated_node.hpp"
 
 namespace volcomp::sim {
 namespace {

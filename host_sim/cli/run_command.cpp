@@ -9,9 +9,9 @@
 #include "host_sim/cli/firmware_options.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/xyfz/one_diagonal.hpp"
-#include "host_sim/scenarios/xyfz/report.hpp"
+#include "host_sim/experiments/xyfz/one_diagonal.hpp"
+#include "host_sim/experiments/xyfz/report.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
 namespace {

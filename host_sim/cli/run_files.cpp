@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host_sim/machine/chain_string.hpp"
+#include "host_sim/host/machine/chain_string.hpp"
 
 namespace volcomp::sim {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host_sim/data/runs_csv.hpp"
+#include "host_sim/host/tables/runs_csv.hpp"
 
 namespace volcomp::sim {
 

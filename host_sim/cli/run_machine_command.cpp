@@ -7,8 +7,8 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/scenarios/machine/figures.hpp"
-#include "host_sim/scenarios/machine/report.hpp"
+#include "host_sim/experiments/any_machine/figures.hpp"
+#include "host_sim/experiments/any_machine/report.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/number_check.hpp"
-#include "host_sim/report/report.hpp"
+#include "host_sim/host/report/page/report.hpp"
 
 namespace volcomp::sim {
 namespace {

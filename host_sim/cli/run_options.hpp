@@ -14,7 +14,7 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_view.hpp"
 #include "host_sim/cli/scenario_bus.hpp"
-#include "host_sim/scenarios/report/document.hpp"
+#include "host_sim/host/report/document.hpp"
 
 namespace volcomp::sim {
 

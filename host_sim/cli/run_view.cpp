@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/report/report.hpp"
+#include "host_sim/host/report/page/report.hpp"
 
 namespace volcomp::sim {
 namespace {

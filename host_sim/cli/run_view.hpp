@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "host_sim/data/interruption.hpp"
-#include "host_sim/live/live_feed.hpp"
-#include "host_sim/live/live_server.hpp"
+#include "host_sim/host/io/interruption.hpp"
+#include "host_sim/sim/live/live_feed.hpp"
+#include "host_sim/sim/live/live_server.hpp"
 
 namespace volcomp::sim {
 

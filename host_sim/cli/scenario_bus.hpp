@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "host_sim/boards/emulated_node.hpp"
-#include "host_sim/bus_tools/bus_recorder.hpp"
 #include "host_sim/cli/firmware_options.hpp"
+#include "host_sim/sim/boards/emulated_node.hpp"
+#include "host_sim/sim/controller/bus_recorder.hpp"
 
 namespace volcomp::sim {
 

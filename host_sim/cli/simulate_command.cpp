@@ -5,14 +5,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "host_sim/bus_tools/table_transfer.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_files.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/xyfz/simulated_measurement.hpp"
+#include "host_sim/experiments/xyfz/simulated_measurement.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
 namespace {

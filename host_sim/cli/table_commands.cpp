@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "comp/tables/image.hpp"
-#include "host_sim/bus_tools/thermal_diagnosis.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/commissioning/commission.hpp"
+#include "host_sim/host/bus/thermal_diagnosis.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
 
 namespace volcomp::sim {
 namespace {

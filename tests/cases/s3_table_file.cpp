@@ -2,10 +2,10 @@
 
 #include <sstream>
 
-#include "host_sim/controller_tables/isg_ssfk.hpp"
-#include "host_sim/controller_tables/linuxcnc_comp.hpp"
-#include "host_sim/controller_tables/siemens_cec.hpp"
-#include "host_sim/controller_tables/siemens_enc_comp.hpp"
+#include "host_sim/host/tables/formats/isg_ssfk.hpp"
+#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
+#include "host_sim/host/tables/formats/siemens_cec.hpp"
+#include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
 

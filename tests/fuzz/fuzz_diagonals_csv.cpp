@@ -3,9 +3,9 @@
 
 #include <sstream>
 
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/verification/diagonal_csv.hpp"
-#include "host_sim/verification/volume.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/diagonal_csv.hpp"
+#include "host_sim/host/measure/volume_csv.hpp"
 
 using volcomp::sim::UserError;
 

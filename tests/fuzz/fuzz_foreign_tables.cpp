@@ -3,13 +3,13 @@
 
 #include <sstream>
 
-#include "host_sim/controller_tables/isg_ssfk.hpp"
-#include "host_sim/controller_tables/linuxcnc_comp.hpp"
-#include "host_sim/controller_tables/siemens_cec.hpp"
-#include "host_sim/controller_tables/siemens_enc_comp.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/exchange/etalon_text.hpp"
-#include "host_sim/exchange/isg_csv.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/formats/etalon_text.hpp"
+#include "host_sim/host/tables/formats/isg_csv.hpp"
+#include "host_sim/host/tables/formats/isg_ssfk.hpp"
+#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
+#include "host_sim/host/tables/formats/siemens_cec.hpp"
+#include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Any bytes as a machine file: a valid chain or a UserError, never anything else.
 
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/machine/machine_file.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

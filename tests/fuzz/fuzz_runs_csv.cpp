@@ -3,8 +3,8 @@
 
 #include <sstream>
 
-#include "host_sim/data/runs_csv.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/runs_csv.hpp"
 
 using volcomp::sim::RunsFile;
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "comp/metrology/tables/compensated_command.hpp"
-#include "host_sim/controller/integrated_axes.hpp"
-#include "host_sim/scenarios/xyfz/dynamics.hpp"
+#include "host_sim/experiments/xyfz/dynamics.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
 #include "tests/system/bus_world.hpp"
 
 namespace volcomp::sim {

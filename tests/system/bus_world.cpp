@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/controller/integrated_axes.hpp"
-#include "host_sim/scenarios/xyfz/campaign.hpp"
-#include "host_sim/scenarios/xyfz/scenario.hpp"
+#include "host_sim/experiments/xyfz/scenario.hpp"
+#include "host_sim/sim/campaign/campaign.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/commissioning/commission.hpp"
-#include "host_sim/controller/bus_axes.hpp"
-#include "host_sim/controller/sdo_channel.hpp"
-#include "host_sim/instruments/noise.hpp"
+#include "host_sim/host/bus/sdo_channel.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+#include "host_sim/sim/truth/noise.hpp"
 
 namespace volcomp::sim {
 

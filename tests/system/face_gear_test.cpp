@@ -9,11 +9,11 @@
 #include "comp/metrology/faces/face_frame.hpp"
 #include "comp/metrology/faces/face_grid.hpp"
 #include "comp/metrology/faces/map_comparison.hpp"
-#include "host_sim/commissioning/identification.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/instruments/noise.hpp"
-#include "host_sim/scenarios/face_gear/figures.hpp"
-#include "host_sim/scenarios/face_gear/published_maps.hpp"
+#include "host_sim/experiments/face_gear/figures.hpp"
+#include "host_sim/experiments/face_gear/published_maps.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
+#include "host_sim/sim/truth/noise.hpp"
 
 namespace volcomp::sim {
 namespace {

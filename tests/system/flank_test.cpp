@@ -6,10 +6,10 @@
 #include "comp/metrology/faces/face_grid.hpp"
 #include "comp/probe/face_touch.hpp"
 #include "firmware/node/probe/flank_probe.hpp"
-#include "host_sim/commissioning/commission.hpp"
-#include "host_sim/commissioning/identification.hpp"
-#include "host_sim/scenarios/face_gear/station.hpp"
-#include "host_sim/scenarios/face_gear/truth.hpp"
+#include "host_sim/experiments/face_gear/station.hpp"
+#include "host_sim/experiments/face_gear/truth.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
 
 namespace volcomp::sim {
 namespace {

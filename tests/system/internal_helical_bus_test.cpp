@@ -9,13 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "firmware/canopen/cob_id.hpp"
-#include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/toml_text.hpp"
-#include "host_sim/data/whole_file.hpp"
-#include "host_sim/scenarios/internal_helical/bus_grinder.hpp"
-#include "host_sim/scenarios/internal_helical/grinding_job.hpp"
-#include "host_sim/scenarios/internal_helical/integrated_grinder.hpp"
-#include "host_sim/scenarios/internal_helical/scenario.hpp"
+#include "host_sim/experiments/internal_helical/bus_grinder.hpp"
+#include "host_sim/experiments/internal_helical/grinding_job.hpp"
+#include "host_sim/experiments/internal_helical/integrated_grinder.hpp"
+#include "host_sim/experiments/internal_helical/scenario.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/host/io/toml_text.hpp"
+#include "host_sim/host/io/whole_file.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/controller_tables/isg_ssfk.hpp"
-#include "host_sim/controller_tables/linuxcnc_comp.hpp"
-#include "host_sim/controller_tables/siemens_cec.hpp"
-#include "host_sim/controller_tables/siemens_enc_comp.hpp"
-#include "host_sim/scenarios/internal_helical/controller_files.hpp"
-#include "host_sim/scenarios/internal_helical/figures.hpp"
-#include "host_sim/scenarios/internal_helical/report.hpp"
+#include "host_sim/experiments/internal_helical/controller_files.hpp"
+#include "host_sim/experiments/internal_helical/figures.hpp"
+#include "host_sim/experiments/internal_helical/report.hpp"
+#include "host_sim/host/tables/formats/isg_ssfk.hpp"
+#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
+#include "host_sim/host/tables/formats/siemens_cec.hpp"
+#include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
 
 namespace volcomp::sim {
 namespace {

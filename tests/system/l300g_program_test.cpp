@@ -7,8 +7,8 @@
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
-#include "host_sim/commissioning/identification.hpp"
-#include "host_sim/scenarios/l300g/inspection_program.hpp"
+#include "host_sim/experiments/l300g/inspection_program.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/scenarios/l300g/figures.hpp"
+#include "host_sim/experiments/l300g/figures.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/controller/bus_axes.hpp"
-#include "host_sim/scenarios/machine/campaign.hpp"
-#include "host_sim/scenarios/machine/figures.hpp"
-#include "host_sim/scenarios/machine/truth.hpp"
+#include "host_sim/experiments/any_machine/campaign.hpp"
+#include "host_sim/experiments/any_machine/figures.hpp"
+#include "host_sim/experiments/any_machine/truth.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
 
 namespace volcomp::sim {
 namespace {

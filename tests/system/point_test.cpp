@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/artefacts/plane.hpp"
-#include "host_sim/commissioning/commission.hpp"
-#include "host_sim/commissioning/identification.hpp"
-#include "host_sim/controller/prober.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/l300g/truth.hpp"
+#include "host_sim/experiments/l300g/truth.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/artefacts/plane.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
+#include "host_sim/sim/controller/prober.hpp"
 
 namespace volcomp::sim {
 namespace {

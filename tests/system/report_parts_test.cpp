@@ -7,15 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "comp/core/units.hpp"
-#include "host_sim/controller/tick_statistics.hpp"
-#include "host_sim/data/hashed_input.hpp"
-#include "host_sim/live/host_header.hpp"
-#include "host_sim/live/live_feed.hpp"
-#include "host_sim/scenarios/report/before_after.hpp"
-#include "host_sim/scenarios/report/document.hpp"
-#include "host_sim/scenarios/report/positioning.hpp"
-#include "host_sim/scenarios/report/provenance.hpp"
-#include "host_sim/scenarios/report/volume.hpp"
+#include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/report/before_after.hpp"
+#include "host_sim/host/report/document.hpp"
+#include "host_sim/host/report/positioning.hpp"
+#include "host_sim/host/report/provenance.hpp"
+#include "host_sim/host/report/volume_map.hpp"
+#include "host_sim/sim/controller/tick_statistics.hpp"
+#include "host_sim/sim/live/host_header.hpp"
+#include "host_sim/sim/live/live_feed.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "comp/core/units.hpp"
 #include "firmware/canopen/bytes.hpp"
-#include "host_sim/artefacts/plane.hpp"
-#include "host_sim/controller/bus_axes.hpp"
-#include "host_sim/controller/straight_move.hpp"
+#include "host_sim/sim/artefacts/plane.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+#include "host_sim/sim/controller/straight_move.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host_sim/scenarios/xyfz/campaign.hpp"
-#include "host_sim/scenarios/xyfz/scenario.hpp"
+#include "host_sim/experiments/xyfz/scenario.hpp"
+#include "host_sim/sim/campaign/campaign.hpp"
 
 namespace volcomp::sim {
 namespace {

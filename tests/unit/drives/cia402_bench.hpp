@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host_sim/drives/cia402_drive.hpp"
+#include "host_sim/sim/drives/cia402_drive.hpp"
 
 namespace volcomp::sim {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "comp/machine/xyfz.hpp"
-#include "host_sim/controller_tables/isg_ssfk.hpp"
-#include "host_sim/controller_tables/linuxcnc_comp.hpp"
-#include "host_sim/controller_tables/volumetric_files.hpp"
-#include "host_sim/data/user_error.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/formats/isg_ssfk.hpp"
+#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
+#include "host_sim/host/tables/formats/volumetric_files.hpp"
 #include "tests/unit/helical/support.hpp"
 
 namespace volcomp::test {

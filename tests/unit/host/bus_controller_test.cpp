@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/status.hpp"
-#include "host_sim/controller/bus_axes.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

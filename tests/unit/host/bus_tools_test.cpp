@@ -13,12 +13,12 @@
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
-#include "host_sim/bus_tools/bus_load.hpp"
-#include "host_sim/bus_tools/diagnosis.hpp"
-#include "host_sim/bus_tools/table_transfer.hpp"
-#include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
+#include "host_sim/host/bus/bus_load.hpp"
+#include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/io/whole_file.hpp"
 #include "tests/unit/host/service_bench.hpp"
 
 namespace volcomp::sim {

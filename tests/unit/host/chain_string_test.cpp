@@ -5,8 +5,8 @@
 
 #include "comp/core/units.hpp"
 #include "comp/tick/instances.hpp"
-#include "host_sim/machine/chain_string.hpp"
-#include "host_sim/machine/machine_file.hpp"
+#include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
 #include "tests/unit/host/changed_machine.hpp"
 
 namespace volcomp::sim {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_sim/machine/machine_file.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

@@ -1,6 +1,6 @@
 // Programs started by this one: QEMU, and here the shell.
 
-#include "host_sim/boards/child_process.hpp"
+#include "host_sim/sim/boards/child_process.hpp"
 
 #include <csignal>
 #include <fstream>
@@ -9,9 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "host_sim/boards/emulated_node.hpp"
-#include "host_sim/data/interruption.hpp"
-#include "host_sim/data/temporary_folder.hpp"
+#include "host_sim/host/io/interruption.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/sim/boards/emulated_node.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

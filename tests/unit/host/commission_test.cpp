@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "comp/tables/image.hpp"
-#include "host_sim/commissioning/commission.hpp"
-#include "host_sim/scenarios/machine/campaign.hpp"
-#include "host_sim/scenarios/machine/truth.hpp"
-#include "host_sim/scenarios/xyfz/campaign.hpp"
-#include "host_sim/scenarios/xyfz/truth.hpp"
+#include "host_sim/experiments/any_machine/campaign.hpp"
+#include "host_sim/experiments/any_machine/truth.hpp"
+#include "host_sim/experiments/xyfz/truth.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/campaign.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

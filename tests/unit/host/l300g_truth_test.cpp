@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/commissioning/identification.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/l300g/printed_procedure.hpp"
-#include "host_sim/scenarios/l300g/truth.hpp"
+#include "host_sim/experiments/l300g/printed_procedure.hpp"
+#include "host_sim/experiments/l300g/truth.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "host_sim/bus_tools/diagnosis.hpp"
-#include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/data/whole_file.hpp"
-#include "host_sim/links/paced_link.hpp"
-#include "host_sim/links/pipe_link.hpp"
-#include "host_sim/links/slcan_link.hpp"
+#include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/bus/links/paced_link.hpp"
+#include "host_sim/host/bus/links/pipe_link.hpp"
+#include "host_sim/host/bus/links/slcan_link.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/io/whole_file.hpp"
 #include "tests/complaint.hpp"
 #include "tests/unit/host/linux_node.hpp"
 

@@ -20,7 +20,7 @@
 #include "hal/linux/node_pipe.hpp"
 #include "hal/linux/steady_clock.hpp"
 #include "hal/slcan.hpp"
-#include "host_sim/links/descriptor.hpp"
+#include "host_sim/host/bus/links/descriptor.hpp"
 
 namespace volcomp::sim {
 

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/controller/bus_axes.hpp"
-#include "host_sim/controller/integrated_axes.hpp"
-#include "host_sim/data/toml_text.hpp"
-#include "host_sim/data/whole_file.hpp"
+#include "host_sim/host/io/toml_text.hpp"
+#include "host_sim/host/io/whole_file.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
 #include "tests/unit/host/changed_machine.hpp"
 
 namespace volcomp::sim {

@@ -7,7 +7,7 @@
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/pose_offset.hpp"
-#include "host_sim/machine/machine_facts.hpp"
+#include "host_sim/host/machine/machine_facts.hpp"
 
 namespace volcomp::sim {
 namespace {

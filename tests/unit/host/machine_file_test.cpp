@@ -6,7 +6,7 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/gears/l300g.hpp"
 #include "comp/tick/instances.hpp"
-#include "host_sim/machine/machine_file.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
 #include "tests/unit/host/changed_machine.hpp"
 
 namespace volcomp::sim {

@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "host_sim/commissioning/commission.hpp"
-#include "host_sim/controller/integrated_axes.hpp"
-#include "host_sim/controller/motion_cell.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/scenarios/xyfz/campaign.hpp"
-#include "host_sim/scenarios/xyfz/truth.hpp"
+#include "host_sim/experiments/xyfz/truth.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/campaign.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
+#include "host_sim/sim/controller/motion_cell.hpp"
 
 namespace volcomp::sim {
 namespace {

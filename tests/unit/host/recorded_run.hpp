@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_sim/controller/bus_axes.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
 #include "tests/unit/host/service_bench.hpp"
 
 namespace volcomp::sim {

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "host_sim/bus_tools/replay.hpp"
-#include "host_sim/bus_tools/table_transfer.hpp"
-#include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/links/boot_up.hpp"
+#include "host_sim/host/bus/links/boot_up.hpp"
+#include "host_sim/host/bus/replay/replay.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/host/io/user_error.hpp"
 #include "tests/unit/host/linux_node.hpp"
 #include "tests/unit/host/recorded_run.hpp"
 

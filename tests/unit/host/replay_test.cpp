@@ -14,11 +14,11 @@
 #include <gtest/gtest.h>
 
 #include "comp/tables/image.hpp"
-#include "host_sim/bus_tools/replay.hpp"
-#include "host_sim/bus_tools/replayed_node.hpp"
-#include "host_sim/bus_tools/table_transfer.hpp"
-#include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/whole_file.hpp"
+#include "host_sim/host/bus/replay/replay.hpp"
+#include "host_sim/host/bus/replay/replayed_node.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/host/io/whole_file.hpp"
 #include "tests/complaint.hpp"
 #include "tests/unit/host/recorded_run.hpp"
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/controller/bus_axes.hpp"
-#include "host_sim/controller/integrated_axes.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "comp/core/units.hpp"
-#include "host_sim/data/runs_csv.hpp"
+#include "host_sim/host/tables/runs_csv.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

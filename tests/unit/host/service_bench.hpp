@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "firmware/node/node.hpp"
-#include "host_sim/bus_tools/can_log.hpp"
-#include "host_sim/bus_tools/node_client.hpp"
-#include "host_sim/commissioning/commission.hpp"
-#include "host_sim/controller/simulated_bus.hpp"
-#include "host_sim/scenarios/xyfz/campaign.hpp"
-#include "host_sim/scenarios/xyfz/scenario.hpp"
+#include "host_sim/experiments/xyfz/scenario.hpp"
+#include "host_sim/host/bus/can_log.hpp"
+#include "host_sim/host/bus/node_client.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/campaign.hpp"
+#include "host_sim/sim/controller/simulated_bus.hpp"
 
 namespace volcomp::sim {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/controller/straight_move.hpp"
+#include "host_sim/sim/controller/straight_move.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "comp/strokes/stroke_offsets.hpp"
-#include "host_sim/bus_tools/diagnosis.hpp"
+#include "host_sim/host/bus/diagnosis.hpp"
 #include "tests/unit/host/service_bench.hpp"
 
 namespace volcomp::sim {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "host_sim/artefacts/plane.hpp"
-#include "host_sim/controller/bus_axes.hpp"
-#include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/links/pipe_link.hpp"
+#include "host_sim/host/bus/links/pipe_link.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/sim/artefacts/plane.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
 #include "tests/unit/host/linux_node.hpp"
 
 namespace volcomp::sim {

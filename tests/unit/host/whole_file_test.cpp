@@ -9,10 +9,10 @@
 
 #include <gmock/gmock.h>
 
-#include "host_sim/bus_tools/table_transfer.hpp"
-#include "host_sim/data/temporary_folder.hpp"
-#include "host_sim/data/toml_text.hpp"
-#include "host_sim/data/whole_file.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/temporary_folder.hpp"
+#include "host_sim/host/io/toml_text.hpp"
+#include "host_sim/host/io/whole_file.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

@@ -6,9 +6,9 @@
 
 #include <regex>
 
-#include "host_sim/data/user_error.hpp"
-#include "host_sim/device_files/bus_messages.hpp"
-#include "host_sim/device_files/dbc.hpp"
+#include "host_sim/host/bus/device_files/bus_messages.hpp"
+#include "host_sim/host/bus/device_files/dbc.hpp"
+#include "host_sim/host/io/user_error.hpp"
 #include "tests/unit/node/device_files_support.hpp"
 
 namespace volcomp::node::test {

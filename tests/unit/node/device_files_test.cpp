@@ -7,7 +7,7 @@
 #include <regex>
 #include <set>
 
-#include "host_sim/device_files/eds.hpp"
+#include "host_sim/host/bus/device_files/eds.hpp"
 #include "tests/unit/node/device_files_support.hpp"
 
 namespace volcomp::node::test {

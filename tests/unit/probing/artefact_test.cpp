@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/artefacts/mandrel.hpp"
-#include "host_sim/artefacts/plane.hpp"
-#include "host_sim/artefacts/sphere.hpp"
+#include "host_sim/sim/artefacts/mandrel.hpp"
+#include "host_sim/sim/artefacts/plane.hpp"
+#include "host_sim/sim/artefacts/sphere.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/artefacts/gear.hpp"
+#include "host_sim/sim/artefacts/gear.hpp"
 
 namespace volcomp::sim {
 namespace {

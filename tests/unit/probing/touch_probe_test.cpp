@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/artefacts/plane.hpp"
-#include "host_sim/instruments/touch_probe.hpp"
-#include "host_sim/machine/machine_file.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
+#include "host_sim/sim/artefacts/plane.hpp"
+#include "host_sim/sim/instruments/touch_probe.hpp"
 
 namespace volcomp::sim {
 namespace {

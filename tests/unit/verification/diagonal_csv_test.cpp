@@ -5,8 +5,8 @@
 
 #include <sstream>
 
-#include "host_sim/verification/diagonal_csv.hpp"
-#include "host_sim/verification/volume.hpp"
+#include "host_sim/host/measure/diagonal_csv.hpp"
+#include "host_sim/host/measure/volume_csv.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

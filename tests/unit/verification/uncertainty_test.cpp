@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "host_sim/instruments/noise.hpp"
-#include "host_sim/verification/uncertainty.hpp"
+#include "host_sim/host/measure/uncertainty.hpp"
+#include "host_sim/sim/truth/noise.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {

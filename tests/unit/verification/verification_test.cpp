@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "host_sim/verification/verification.hpp"
+#include "host_sim/host/measure/verification.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/experiments/any_machine/scenario.hpp"
+
+namespace volcomp::sim {
+
+// The figures of a run under the names docs/machine-file.md documents.
+[[nodiscard]] nlohmann::json machine_figures(const MachineResult& result);
+
+// The same for a terminal.
+[[nodiscard]] std::string machine_summary(const MachineResult& result);
+
+// Good when what was off by micrometres is off by a tenth or a micrometre; with noise by half or
+// five.
+[[nodiscard]] Verdict machine_verdict(const MachineResult& result);
+
+// "X Y Z", and "A C" of those that orient the tool
+[[nodiscard]] std::string correcting_letters(const MachineFile& machine);
+[[nodiscard]] std::string orienting_letters(const MachineFile& machine);
+
+}  // namespace volcomp::sim

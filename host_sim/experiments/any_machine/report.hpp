@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/experiments/any_machine/scenario.hpp"
+#include "host_sim/host/report/document.hpp"
+
+namespace volcomp::sim {
+
+// A run as a report document (host_sim/host/report/page/README.md).
+[[nodiscard]] nlohmann::json machine_document(const MachineResult& result, const RunContext& run);
+
+}  // namespace volcomp::sim

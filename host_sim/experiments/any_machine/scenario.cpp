@@ -1,0 +1,151 @@
+#include "host_sim/experiments/any_machine/scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/experiments/any_machine/campaign.hpp"
+#include "host_sim/experiments/any_machine/truth.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+struct Verification {
+  const MachineFile& file;
+  const TrueMachine& truth;
+  const MachineOptions& options;
+  std::vector<LinePlan> lines;
+  std::vector<Pose> poses;
+  SpherePlan sphere;
+};
+
+VolumeFigures figures_of(const MachineChain& chain, const std::vector<PlaceReading>& readings) {
+  std::vector<VolumePoint> points;
+  points.reserve(readings.size());
+  for (const PlaceReading& r : readings)
+    points.push_back({ideal_points(chain, r.pose, chain.tool_point()).work, r.deviation_mm});
+  return points.empty() ? VolumeFigures{} : aligned_volume_figures(std::move(points));
+}
+
+MachineState verify(const Verification& v, const std::vector<std::uint8_t>& image) {
+  const auto cell = v.options.make_cell(v.truth, v.file.correction, image);
+  Pose start{};
+  for (std::size_t a = 0; a < v.file.axes.size(); ++a)
+    start[a] = v.file.axes[a].reference;
+  cell->place(start);
+  MachineState state;
+  for (const LinePlan& line : v.lines)
+    state.line.push_back(measure_line(*cell, v.file.chain, line, kLinePoints));
+  state.sphere = measure_sphere(*cell, v.file.chain, v.sphere);
+  state.place = measure_places(*cell, v.file.chain, v.poses);
+  state.volume = figures_of(v.file.chain, state.place);
+  return state;
+}
+
+// Slopes are kept: the place of rotary axes counts from the axes as they are, and the closure takes
+// out of the squareness what the straightness already holds.
+std::unique_ptr<Commissioned> build(const Campaign& campaign, const MachineOptions& options) {
+  CommissionOptions how = tables_only(ModelKind::abbe_closed, options.knots);
+  how.slope = SlopeFit::keep;
+  return commission(campaign.machine, campaign.runs, how);
+}
+
+template <class Visit>
+void for_each_reading(const MachineState& state, const Visit& visit) {
+  for (const auto* readings : {&state.place, &state.sphere}) {
+    for (const PlaceReading& r : *readings)
+      visit(r);
+  }
+}
+
+}  // namespace
+
+double MachineState::lines_max_um() const {
+  double worst = 0.0;
+  for (const MeasuredDiagonal& d : line)
+    worst = std::max(worst, d.max_abs_um);
+  return worst;
+}
+
+VolumeFigures MachineState::sphere_um() const {
+  VolumeFigures f;
+  double squares = 0.0;
+  for (const PlaceReading& r : sphere) {
+    const double um = kUmPerMm * r.deviation_mm.norm();
+    f.max_um = std::max(f.max_um, um);
+    squares += um * um;
+  }
+  if (!sphere.empty()) f.rms_um = std::sqrt(squares / static_cast<double>(sphere.size()));
+  return f;
+}
+
+double MachineState::tilt_max_rad() const {
+  double worst = 0.0;
+  for_each_reading(*this, [&](const PlaceReading& r) { worst = std::max(worst, r.tilt_rad); });
+  return worst;
+}
+
+double MachineState::tilt_rms_rad() const {
+  double squares = 0.0;
+  for_each_reading(*this, [&](const PlaceReading& r) { squares += r.tilt_rad * r.tilt_rad; });
+  const std::size_t count = place.size() + sphere.size();
+  return count == 0 ? 0.0 : std::sqrt(squares / static_cast<double>(count));
+}
+
+double MachineState::steerable_max_rad() const {
+  double worst = 0.0;
+  for_each_reading(*this, [&](const PlaceReading& r) { worst = std::max(worst, r.steerable_rad); });
+  return worst;
+}
+
+double MachineResult::effect_um(const MachineState& state) const {
+  return kUmPerMm * options.tool_length_mm * state.tilt_max_rad();
+}
+
+double MachineResult::steerable_um(const MachineState& state) const {
+  return kUmPerMm * options.tool_length_mm * state.steerable_max_rad();
+}
+
+MachineResult run_machine_with(const MachineFile& file, const TrueMachine& truth,
+                               const MachineOptions& options, const Progress& progress) {
+  MachineResult result;
+  result.options = options;
+  result.machine = file;
+  result.authority = least_authority(file);
+  result.lines = diagonals_of(file);
+  progress(0.0, "choosing a place for the ball");
+  result.sphere = plan_sphere_test(file);
+
+  const NoiseClasses classes = options.noise ? NoiseClasses{} : no_noise();
+  Random random(options.seed);
+  const Campaign campaign =
+      measure_any_machine(truth, file, classes, options.noise ? options.runs : 1, random);
+  const auto tables = build(campaign, options);
+  result.warnings = tables->warnings;
+  const std::vector<std::uint8_t> image = make_image(tables->tables);
+  result.inputs = {hashed_bytes("table image made for it", "tables.vct", image)};
+
+  TrueMachine at_check = truth;
+  at_check.temperature_offset_K = random.normal(classes.temperature_K);
+  const Verification verification{file,
+                                  at_check,
+                                  options,
+                                  result.lines,
+                                  random_poses(file, options.places, options.seed),
+                                  result.sphere};
+  progress(0.1, "the machine as it is");
+  result.before = verify(verification, {});
+  progress(0.55, "the machine compensated");
+  result.after = verify(verification, image);
+  progress(1.0, "done");
+  return result;
+}
+
+MachineResult run_machine(const MachineOptions& options, const Progress& progress) {
+  const MachineFile file = read_machine_file(options.machine);
+  MachineResult result =
+      run_machine_with(file, draw_machine(file, options.seed), options, progress);
+  result.inputs.insert(result.inputs.begin(), hashed_file("machine file", options.machine));
+  return result;
+}
+
+}  // namespace volcomp::sim

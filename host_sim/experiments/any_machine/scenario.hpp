@@ -1,0 +1,70 @@
+#pragma once
+// Any machine there is a file of: drawn at random with errors, measured, compensated, measured
+// again along its diagonals, all over its travel and with a ball on its table.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host_sim/experiments/any_machine/sphere_test.hpp"
+#include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/machine/machine_facts.hpp"
+#include "host_sim/host/measure/volume_csv.hpp"
+#include "host_sim/host/report/progress.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
+
+namespace volcomp::sim {
+
+struct MachineOptions {
+  std::filesystem::path machine;
+  std::uint64_t seed = 1;             // of the machine, its places and the noise
+  bool noise = false;                 // realistic instruments
+  std::size_t runs = 5;               // bidirectional, per axis, with noise
+  std::size_t places = 100;           // all over the travel
+  std::size_t knots = kDefaultKnots;  // per table: what the node has room for
+  double tool_length_mm = 100.0;      // for the effect of orientation errors
+  CellFactory make_cell = make_integrated_cell;
+};
+
+inline constexpr std::size_t kLinePoints = 21;
+
+struct MachineState {
+  std::vector<MeasuredDiagonal> line;
+  std::vector<PlaceReading> place;
+  VolumeFigures volume;  // of the places, beside the best rigid motion; um
+  std::vector<PlaceReading> sphere;
+
+  [[nodiscard]] double lines_max_um() const;
+  [[nodiscard]] VolumeFigures sphere_um() const;
+  // Of places and ball, rad: how far the axis of the tool is off in direction.
+  [[nodiscard]] double tilt_max_rad() const;
+  [[nodiscard]] double tilt_rms_rad() const;
+  // Of that, what the orienting axes reach.
+  [[nodiscard]] double steerable_max_rad() const;
+};
+
+struct MachineResult {
+  MachineOptions options;
+  MachineFile machine;
+  std::vector<LinePlan> lines;
+  SpherePlan sphere;
+  LeastAuthority authority;
+  MachineState before;
+  MachineState after;
+  std::vector<std::string> warnings;  // of the tables
+  std::vector<HashedInput> inputs;
+
+  // What a tool longer by options.tool_length_mm is off for its orientation alone, and for what of
+  // it the orienting axes reach.
+  [[nodiscard]] double effect_um(const MachineState& state) const;
+  [[nodiscard]] double steerable_um(const MachineState& state) const;
+};
+
+// With errors of one's own. Throws UserError.
+[[nodiscard]] MachineResult run_machine_with(const MachineFile& file, const TrueMachine& truth,
+                                             const MachineOptions& options,
+                                             const Progress& progress);
+[[nodiscard]] MachineResult run_machine(const MachineOptions& options, const Progress& progress);
+
+}  // namespace volcomp::sim

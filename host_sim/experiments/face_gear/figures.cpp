@@ -1,0 +1,215 @@
+#include "host_sim/experiments/face_gear/figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
+#include "comp/metrology/faces/map_comparison.hpp"
+#include "host_sim/experiments/face_gear/published_maps.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/io/version.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using nlohmann::json;
+
+// What the frame, encoders and tables of linear segments may leave of a map, rms.
+constexpr double kMapAgreement_um = 0.6;
+
+constexpr double kArcSeconds = 180.0 * 3600.0 / kPi;
+
+json or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+std::optional<double> worst_profile(const FaceInspection& inspection) {
+  double worst = 0.0;
+  for (const FlankMap& flank : inspection.maps) {
+    if (!flank.profile) return std::nullopt;
+    worst = std::max(worst, *flank.profile);
+  }
+  return worst;
+}
+
+double largest_in(const MapDifference& difference, bool row, std::size_t number) {
+  return row ? difference.row.at(number - 1).largest : difference.column.at(number - 1).largest;
+}
+
+double pitch_disagreement_um(const FaceGearResult& run, FaceStage stage) {
+  double worst = 0.0;
+  for (std::size_t side = 0; side < 2; ++side)
+    worst = std::max(worst, std::abs(run.at(stage).pitch[side].figures.total -
+                                     run.true_pitch[side].figures.total));
+  return worst;
+}
+
+json pitch_figures(const FacePitch& pitch) {
+  return {{"Fp", pitch.figures.total}, {"fpt", pitch.figures.single}, {"Fpk10", pitch.over_10}};
+}
+
+json stage_figures(const FaceGearResult& run, std::size_t stage) {
+  const FaceInspection& inspection = run.inspection.at(stage);
+  const std::optional<double> profile = worst_profile(inspection);
+  json j{{"map", {{"rms_um", run.map_error[stage].rms}, {"max_um", run.map_error[stage].max}}},
+         {"pitch",
+          {{"left", pitch_figures(inspection.pitch[0])},
+           {"right", pitch_figures(inspection.pitch[1])}}},
+         {"profile_um", profile ? json(*profile) : json(nullptr)}};
+  if (inspection.frame.fit) j["frame"]["rms_um"] = kUmPerMm * inspection.frame.fit->rms;
+  return j;
+}
+
+double scale_step_um(const FaceGearResult& run) {
+  return kUmPerMm * kScaleStep_rad * run.gear.r_pitch;
+}
+
+// Largest standard deviations of the frame that a probe of 0.5 µm leaves (seed 002 section 11), µm;
+// turns at the pitch radius.
+json frame_figures(const FaceGearResult& run) {
+  const FaceFrame& fit = *run.at(FaceStage::compensated).frame.fit;
+  constexpr double kProbe_um = 0.5;
+  const Eigen::Matrix<double, 6, 1> sd = kProbe_um * frame_deviations(run.gear, fit.observability);
+  return {{"sd_t", sd.head<3>().maxCoeff()},
+          {"sd_r", sd.tail<3>().maxCoeff()},
+          {"condition", fit.observability.condition},
+          {"touches", run.at(FaceStage::compensated).frame.touches}};
+}
+
+NodeAgreement agreement_of(const FaceGearResult& run) {
+  NodeAgreement all;
+  for (const FaceInspection& inspection : run.inspection) {
+    all.touches += inspection.node.touches;
+    all.verdicts += inspection.node.verdicts;
+    all.largest_nm = std::max(all.largest_nm, inspection.node.largest_nm);
+  }
+  return all;
+}
+
+std::string stage_row(const FaceGearResult& run, std::size_t stage) {
+  const FaceInspection& i = run.inspection.at(stage);
+  return fmt::format("{:14}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}  {}\n",
+                     kFaceStages.at(stage), run.map_error[stage].rms, run.map_error[stage].max,
+                     i.pitch[0].figures.total, i.pitch[0].figures.single, i.pitch[0].over_10,
+                     i.pitch[1].figures.total, i.pitch[1].figures.single, i.pitch[1].over_10,
+                     grade_text(i));
+}
+
+}  // namespace
+
+std::vector<PaperStatement> paper_statements() {
+  std::array<MapDifference, 2> difference;
+  double profile = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const ErrorMap machine = published_map(PublishedMap::machine, side);
+    require(compare_maps(machine, published_map(PublishedMap::centre, side), difference[side]),
+            "Tables 5 to 8");
+    ProfileDeviation deviation;
+    require(profile_deviation(machine, kProfileRows, deviation), "Tables 5 and 6");
+    profile = std::max(profile, deviation.value);
+  }
+  const MapDifference& left = difference[0];
+  const MapDifference& right = difference[1];
+  return {{"left_row2", "left flank, row 2", 3.0, largest_in(left, true, 2)},
+          {"left_row5", "left flank, row 5", 4.5, largest_in(left, true, 5)},
+          {"right_row2", "right flank, row 2", 2.8, largest_in(right, true, 2)},
+          {"right_row5", "right flank, row 5", 4.5, largest_in(right, true, 5)},
+          {"left_col5", "left flank, column 5", 4.6, largest_in(left, false, 5)},
+          {"left_col10", "left flank, column 10", 2.4, largest_in(left, false, 10)},
+          {"right_col5", "right flank, column 5", 3.0, largest_in(right, false, 5)},
+          {"right_col10", "right flank, column 10", 2.2, largest_in(right, false, 10)},
+          {"largest", "largest difference of all", 5.0,
+           std::max(left.overall.largest, right.overall.largest)},
+          {"profile", "profile on the machine, rows 2 to 6", 5.8, profile}};
+}
+
+std::string grade_text(const FaceInspection& inspection) {
+  const std::optional<double> profile = worst_profile(inspection);
+  if (!profile) return "no grade: cells of the map are missing";
+  const std::optional<int> grade = face_gear_grade(*profile);
+  const int last = kFaceGearLimits.back().grade;
+  return fmt::format("{:.1f} µm, {}", *profile,
+                     grade ? fmt::format("grade {}", *grade) : fmt::format("worse than {}", last));
+}
+
+Verdict face_gear_verdict(const FaceGearResult& run) {
+  const MapError& one = run.map_error[0];
+  const MapError& frame = run.map_error[1];
+  const MapError& all = run.map_error[2];
+  const double pitch = pitch_disagreement_um(run, FaceStage::compensated);
+  Verdict v;
+  const NodeAgreement node = agreement_of(run);
+  v.ok = node.largest_nm <= 1 && node.verdicts == 0 && all.rms <= kMapAgreement_um &&
+         all.rms <= std::min(one.rms, frame.rms) &&
+         pitch <= 2.0 * scale_step_um(run);  // of the highest tooth and of the lowest
+  v.text = fmt::format(
+      "Maps are {:.2f} µm rms from the gear with the frame of one ball, {:.2f} with that of {} "
+      "touches, {:.2f} with the machine compensated as well; F_p then differs by {:.1f} µm from "
+      "that of the gear, of which the scale of the table may be {:.1f}.",
+      one.rms, frame.rms, run.at(FaceStage::frame).frame.touches, all.rms, pitch,
+      2.0 * scale_step_um(run));
+  return v;
+}
+
+json face_gear_figures(const FaceGearResult& run) {
+  json j = stage_figures(run, static_cast<std::size_t>(FaceStage::compensated));
+  j["frame"] = frame_figures(run);
+  j["frame_angle_deg"] = or_null(run.worked_example_deg);
+  for (const PaperStatement& s : paper_statements())
+    j["paper"][s.key] = s.found;
+  for (std::size_t s = 0; s < kFaceStages.size(); ++s)
+    j["stages"].push_back(stage_figures(run, s));
+  j["truth"]["pitch"] = {{"left", pitch_figures(run.true_pitch[0])},
+                         {"right", pitch_figures(run.true_pitch[1])}};
+  j["kernel_ns"] = run.kernel_ns;
+  const NodeAgreement node = agreement_of(run);
+  j["node_touches"] = node.touches;
+  j["node_agreement_nm"] = node.largest_nm;
+  j["node_other_verdicts"] = node.verdicts;
+  j["gear"] = run.options.gear;
+  j["form"] = kFormTruths.at(static_cast<std::size_t>(run.options.form));
+  j["seed"] = run.options.seed;
+  j["version"] = kVersion;
+  return j;
+}
+
+std::string face_gear_summary(const FaceGearResult& run) {
+  std::string text = fmt::format(
+      "\ngear: {} teeth, module {:g}, shaper of {} teeth; flanks whole outside {:.3f} mm, pointed "
+      "from {:.3f} mm; moment arm of the normals {:.3f} mm\n",
+      run.gear.teeth, run.gear.module, run.gear.shaper_teeth, run.gear.undercut_radius,
+      run.gear.pointing_radius, run.gear.arm);
+  text += std::isfinite(run.worked_example_deg)
+              ? fmt::format("frame angle of the paper's ball: {:.4f} deg\n", run.worked_example_deg)
+              : "frame angle of the paper's ball: it does not touch this gear\n";
+  const FaceFrame& fit = *run.at(FaceStage::compensated).frame.fit;
+  const Eigen::Matrix<double, 6, 1> sd = frame_deviations(run.gear, fit.observability);
+  text += fmt::format(
+      "frame of {} touches: condition {:.1f}; per µm of noise {:.2f} {:.2f} {:.2f} µm along, "
+      "{:.2f} "
+      "{:.2f} {:.2f} µm about X, Y, Z\n\n",
+      run.at(FaceStage::compensated).frame.touches, fit.observability.condition, sd(0), sd(1),
+      sd(2), sd(3), sd(4), sd(5));
+  text +=
+      fmt::format("{:14}{:^16}  {:^26}{:^26}\n", "µm", "map - gear", "left flanks", "right flanks");
+  text += fmt::format("{:14}{:>8}{:>8}{:>10}{:>8}{:>8}{:>10}{:>8}{:>8}  profile\n", "", "rms",
+                      "max", "F_p", "f_pt", "F_p10", "F_p", "f_pt", "F_p10");
+  for (std::size_t s = 0; s < kFaceStages.size(); ++s)
+    text += stage_row(run, s);
+  const auto& truth = run.true_pitch;
+  text += fmt::format("{:14}{:16}{:10.2f}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}\n", "the gear", "",
+                      truth[0].figures.total, truth[0].figures.single, truth[0].over_10,
+                      truth[1].figures.total, truth[1].figures.single, truth[1].over_10);
+  text += fmt::format("grades: {}\n", kFaceGearLimitsSource);
+  text += fmt::format("scale of the table {:.1f}\", swing arm ±{:.0f} µm; one distance {:.0f} ns\n",
+                      kScaleStep_rad * kArcSeconds, kUmPerMm * kArmRepeatability_mm, run.kernel_ns);
+  const NodeAgreement node = agreement_of(run);
+  text +=
+      fmt::format("{} touches judged by the node: distances as here to {} nm, {} other verdicts\n",
+                  node.touches, node.largest_nm, node.verdicts);
+  const Verdict verdict = face_gear_verdict(run);
+  return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
+}
+
+}  // namespace volcomp::sim

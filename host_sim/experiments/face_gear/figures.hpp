@@ -1,0 +1,29 @@
+#pragma once
+// What a run on the YK7280 has found, as numbers and as text.
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/experiments/face_gear/scenario.hpp"
+#include "host_sim/host/report/progress.hpp"
+
+namespace volcomp::sim {
+
+// What the paper says of its Tables 5 to 8, and what the tables say (seed 002 section 10); µm.
+struct PaperStatement {
+  const char* key;
+  const char* what;
+  double stated;
+  double found;
+};
+[[nodiscard]] std::vector<PaperStatement> paper_statements();
+
+// The worst profile of an inspection as a grade, or why there is none.
+[[nodiscard]] std::string grade_text(const FaceInspection& inspection);
+
+[[nodiscard]] Verdict face_gear_verdict(const FaceGearResult& run);
+[[nodiscard]] nlohmann::json face_gear_figures(const FaceGearResult& run);
+[[nodiscard]] std::string face_gear_summary(const FaceGearResult& run);
+
+}  // namespace volcomp::sim

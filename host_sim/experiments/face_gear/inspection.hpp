@@ -1,0 +1,87 @@
+#pragma once
+// Measuring a face gear: its frame, maps of chosen flanks, the pitch of all teeth (seed 002
+// sections 5 to 8).
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "comp/metrology/faces/error_map.hpp"
+#include "comp/metrology/faces/face_frame.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
+#include "comp/metrology/gears/pitch.hpp"
+#include "host_sim/experiments/face_gear/station.hpp"
+
+namespace volcomp::sim {
+
+// A frame, and the deployment of the arm it holds for.
+struct KnownFrame {
+  Frame mounting;
+  unsigned deployment = 0;
+  std::optional<FaceFrame> fit;  // none: from one ball
+  int touches = 0;
+};
+
+// One flank over the grid; µm, zeroed at the centre.
+struct FlankMap {
+  FlankName flank;
+  ErrorMap map;
+  std::optional<double> profile;  // largest range of a column over rows 2…6; none: cells missing
+  std::vector<std::string> missing;  // why, a line for each missing cell
+};
+
+// All flanks of one side; µm along the pitch circle.
+struct FacePitch {
+  std::vector<double> position;  // of each tooth
+  PitchDeviations figures;
+  double over_10 = 0.0;  // F_pk, k = 10
+};
+
+// The node judges every touch with its own kernel; here the same is done on this computer.
+struct NodeAgreement {
+  int touches = 0;
+  std::int64_t largest_nm = 0;  // between the distances from the flank
+  int verdicts = 0;             // that were not the same
+};
+
+struct FaceInspection {
+  NodeAgreement node;
+  KnownFrame frame;
+  std::vector<FlankMap> maps;      // left and right of the first chosen slot, then of the next
+  std::array<FacePitch, 2> pitch;  // left, right
+};
+
+inline constexpr std::size_t kPitchSpan = 10;
+
+class FaceInspector {
+ public:
+  FaceInspector(FaceStation& station, const FaceGear& gear, const FaceGrid& grid,
+                double ball_radius);
+
+  // The turn of the gear about its axis from one touch at the centre of a flank, everything else
+  // as believed: the paper's procedure.
+  [[nodiscard]] KnownFrame frame_from_one_ball();
+  // All six coordinates from five points of both flanks of three slots.
+  [[nodiscard]] KnownFrame frame_from_many();
+  void use(const KnownFrame& frame);
+  [[nodiscard]] const NodeAgreement& agreement() const { return agreement_; }
+
+  // Throws UserError when the arm was deployed since the frame was found, or nothing was touched.
+  [[nodiscard]] FlankMap map(const FlankName& name);
+  [[nodiscard]] FacePitch pitch(int side);
+
+ private:
+  [[nodiscard]] FaceStationTouch touch(const FlankName& name, std::size_t row, std::size_t column);
+  [[nodiscard]] FaceFlank flank_of(const FlankName& name) const;
+  void check_fresh() const;
+
+  FaceStation& station_;
+  const FaceGear& gear_;
+  const FaceGrid& grid_;
+  double radius_;
+  KnownFrame frame_;
+  NodeAgreement agreement_;
+};
+
+}  // namespace volcomp::sim

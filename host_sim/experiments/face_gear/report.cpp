@@ -1,0 +1,179 @@
+#include "host_sim/experiments/face_gear/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_gear_grade.hpp"
+#include "host_sim/experiments/face_gear/figures.hpp"
+#include "host_sim/experiments/face_gear/flank_charts.hpp"
+#include "host_sim/experiments/face_gear/published_maps.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/report/before_after.hpp"
+#include "host_sim/host/report/provenance.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMicro = 1e6;
+constexpr double kDegreesPerRad = 180.0 / kPi;
+
+json stage_table(const FaceGearResult& run) {
+  json rows = json::array();
+  for (std::size_t s = 0; s < kFaceStages.size(); ++s) {
+    const FaceInspection& i = run.inspection.at(s);
+    rows.push_back({kFaceStages.at(s), run.map_error.at(s).rms, run.map_error.at(s).max,
+                    i.pitch[0].figures.total, i.pitch[0].figures.single, i.pitch[1].figures.total,
+                    i.pitch[1].figures.single, grade_text(i)});
+  }
+  rows.push_back({"the gear itself", nullptr, nullptr, run.true_pitch[0].figures.total,
+                  run.true_pitch[0].figures.single, run.true_pitch[1].figures.total,
+                  run.true_pitch[1].figures.single, ""});
+  return {{"type", "table"},
+          {"id", "stages"},
+          {"title", "Before and after: frame and volumetric compensation"},
+          {"columns",
+           {{{"title", "measured with"}},
+            column("map − gear, rms", "µm", 2),
+            column("largest", "µm", 2),
+            column("F_p left", "µm", 1),
+            column("f_pt left", "µm", 1),
+            column("F_p right", "µm", 1),
+            column("f_pt right", "µm", 1),
+            {{"title", fmt::format("profile, rows {} to {}", kProfileRows.first + 1,
+                                   kProfileRows.last + 1)}}}},
+          {"rows", rows},
+          {"note", fmt::format("Grades: {}.", kFaceGearLimitsSource)}};
+}
+
+double largest_over_all_rows() {
+  double largest = 0.0;
+  for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
+    ProfileDeviation profile;
+    require(
+        profile_deviation(published_map(PublishedMap::machine, side), {0, kGridRows - 1}, profile),
+        "Tables 5 and 6");
+    largest = std::max(largest, profile.value);
+  }
+  return largest;
+}
+
+json statement_table() {
+  json rows = json::array();
+  for (const PaperStatement& s : paper_statements())
+    rows.push_back({s.what, s.stated, s.found});
+  return {{"type", "table"},
+          {"id", "paper"},
+          {"title", "What the paper says of its Tables 5 to 8"},
+          {"columns",
+           {{{"title", "largest difference between machine and measuring centre"}},
+            column("stated", "µm", 1),
+            column("in the tables", "µm", 1)}},
+          {"rows", rows},
+          {"note", fmt::format("The profile is the largest range of a column over rows {} to {}; "
+                               "over all {} rows the largest is {:.1f} µm.",
+                               kProfileRows.first + 1, kProfileRows.last + 1, kGridRows,
+                               largest_over_all_rows())}};
+}
+
+// The paper gives nothing of it.
+json machine_table(const FaceGearResult& run) {
+  json rows = json::array();
+  for (const AxisFile& axis : run.machine.axes) {
+    const double scale = axis.rotary ? kDegreesPerRad : 1.0;
+    rows.push_back({std::string(1, axis.letter), scale * axis.lo, scale * axis.hi,
+                    axis.rotary ? "deg" : "mm",
+                    fmt::format("{:g} µm, {:g} µrad {}", kUmPerMm * kFaceLengthError_mm,
+                                kMicro * kFaceAngleError_rad,
+                                axis.rotary ? "once per turn" : "along the travel")});
+  }
+  const Vec3 off = kUmPerMm * (true_mounting().t - nominal_mounting().t);
+  const Mat3 rotation = nominal_mounting().R.transpose() * true_mounting().R;
+  return {
+      {"type", "table"},
+      {"id", "machine"},
+      {"title", "The machine, as chosen here"},
+      {"columns",
+       {{{"title", "axis"}},
+        {{"title", "from"}, {"digits", 0}},
+        {{"title", "to"}, {"digits", 0}},
+        {{"title", "unit"}},
+        {{"title", "size of its six errors"}}}},
+      {"rows", rows},
+      {"note",
+       fmt::format("Neither chain nor strokes nor errors of the YK7280 are published: all of "
+                   "it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm out of place and {:.1f}' "
+                   "turned; steps of the table's scale {:.1f}\", swing arm within {:g} µm.",
+                   off.x(), off.y(), off.z(),
+                   60.0 * kDegreesPerRad * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
+                   3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)}};
+}
+
+json before_after(const FaceGearResult& run) {
+  const FaceInspection& before = run.at(FaceStage::one_ball);
+  const FaceInspection& after = run.at(FaceStage::compensated);
+  std::vector<BeforeAfter> lines{
+      {"error map from the gear, rms", run.map_error.front().rms, run.map_error.back().rms},
+      {"error map from the gear, largest", run.map_error.front().max, run.map_error.back().max}};
+  for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
+    const PitchDeviations& truth = run.true_pitch[side].figures;
+    lines.push_back({fmt::format("pitch F_p, {} flanks", kFaceSideNames[side]),
+                     before.pitch[side].figures.total, after.pitch[side].figures.total,
+                     truth.total});
+    lines.push_back({fmt::format("pitch f_pt, {} flanks", kFaceSideNames[side]),
+                     before.pitch[side].figures.single, after.pitch[side].figures.single,
+                     truth.single});
+  }
+  return before_after_table(lines,
+                            fmt::format("Before: the frame of the gear from one ball as in the "
+                                        "paper, nothing compensated. After: the frame of {} "
+                                        "touches, the machine compensated.",
+                                        after.frame.touches),
+                            0);
+}
+
+Origins origins(const FaceGearResult& run) {
+  const FaceGearOptions& o = run.options;
+  Origins origins;
+  origins.settings = {{"gear", o.gear},
+                      {"form of the flanks", kFormTruths.at(static_cast<std::size_t>(o.form))},
+                      {"seed", fmt::format("{} (errors of machine and gear)", o.seed)}};
+  origins.inputs = run.inputs;
+  origins.instruments = {
+      "touch probe of the machine: delays and radius of the machine file, corrected by the node",
+      fmt::format("table: steps of its scale {:.1f}\"; swing arm repeats within {:g} µm",
+                  3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)};
+  origins.chosen = {"chain, strokes and errors of the machine: none is published"};
+  origins.untouched = {"maps, pitch and frame as measured"};
+  return origins;
+}
+
+}  // namespace
+
+json face_gear_document(const FaceGearResult& result, const RunContext& run) {
+  ReportParts parts;
+  parts.title = "YK7280: a face gear measured on its machine";
+  parts.subtitle = fmt::format(
+      "{} teeth, module {:g}, shaper of {} teeth; every touch through drives, bus and node",
+      result.gear.teeth, result.gear.module, result.gear.shaper_teeth);
+  parts.verdict = face_gear_verdict(result);
+  parts.before_after = before_after(result);
+  parts.plots.push_back(topography(result, FaceStage::compensated));
+  for (json& map : flank_maps(result, FaceStage::compensated))
+    parts.plots.push_back(std::move(map));
+  parts.plots.push_back(pitch_curves(result));
+  for (std::size_t side = 0; side < kFaceSides.size(); ++side)
+    parts.plots.push_back(single_pitch_bars(result, side));
+  parts.details = {stage_table(result), statement_table(), machine_table(result)};
+  parts.ticks = run.ticks;
+  parts.provenance = provenance(run, origins(result));
+  return report_document(std::move(parts));
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,148 @@
+#include "host_sim/experiments/face_gear/scenario.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "comp/metrology/faces/face_angle.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/gear_choice.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+// Angle of the paper's ball: (20.34, 170.14, 47), radius 0.5 (seed 002 section 5).
+double worked_example_deg(const FaceGear& gear) {
+  FaceContact contact;
+  FaceAngle found;
+  constexpr double kStart_rad = -1.43;
+  if (!choose_flank(gear, 1, 0, contact.flank).ok()) return 0.0;
+  contact.ball_radius = 0.5;
+  contact.centre = {20.34, 170.14, 47.0};
+  if (!relieved_face_angle(gear, contact, kStart_rad, 1e-9, found).ok())
+    return std::numeric_limits<double>::quiet_NaN();
+  return found.gamma * 180.0 / kPi;
+}
+
+// Of the distance from a flank, over the grid, as at a trigger.
+double measure_kernel_ns(const FaceGear& gear, const FaceGrid& grid) {
+  constexpr int kRounds = 200;
+  FaceFlank flank;
+  require(choose_flank(gear, 1, 0, flank), "flank");
+  volatile double sink = 0.0;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < kRounds; ++i) {
+    for (const auto& row : grid) {
+      for (const FaceGridNode& node : row)
+        sink = sink + distance_from_face(gear, flank, node.point + 0.5 * node.normal).distance;
+    }
+  }
+  const std::chrono::duration<double, std::nano> spent = std::chrono::steady_clock::now() - begin;
+  return spent.count() / (kRounds * static_cast<double>(kGridCells));
+}
+
+std::array<FacePitch, 2> true_pitch(const FaceGearErrors& errors) {
+  std::array<FacePitch, 2> pitch;
+  for (std::size_t side = 0; side < pitch.size(); ++side) {
+    pitch[side].position = errors.pitch[side];
+    require(evaluate_pitch(pitch[side].position, pitch[side].figures), "pitch");
+    require(cumulative_pitch(pitch[side].position, kPitchSpan, pitch[side].over_10), "pitch");
+  }
+  return pitch;
+}
+
+MapError map_error(const std::vector<FlankMap>& maps, const FaceGearErrors& errors) {
+  MapError error;
+  double squares = 0.0;
+  int cells = 0;
+  for (const FlankMap& flank : maps) {
+    const ErrorMap& truth = errors.form[flank.flank.side > 0 ? 0 : 1];
+    for (std::size_t r = 0; r < kGridRows; ++r) {
+      for (std::size_t c = 0; c < kGridColumns; ++c) {
+        if (!flank.map.has(r, c)) continue;
+        const double off = flank.map.at(r, c) - truth.at(r, c);
+        squares += off * off;
+        error.max = std::max(error.max, std::abs(off));
+        ++cells;
+      }
+    }
+  }
+  if (cells > 0) error.rms = std::sqrt(squares / cells);
+  return error;
+}
+
+FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStage stage,
+                       const Identification& identification, const Progress& progress) {
+  const TableKind kind = stage == FaceStage::compensated ? TableKind::identified : TableKind::none;
+  const MachineTables tables =
+      tables_of(identification, hall.file, hall.file.chain.description(), kind, run.options.knots);
+  FaceStation station(hall, tables, nominal_mounting());
+  FaceInspector inspector(station, run.gear, run.grid, hall.file.probe->radius_mm);
+  FaceInspection result;
+  const auto share = [&](double part, const std::string& what) {
+    progress((static_cast<double>(stage) + part) / kFaceStages.size(),
+             fmt::format("{}: {}", kFaceStages.at(static_cast<std::size_t>(stage)), what));
+  };
+  share(0.0, "frame");
+  // The many touches begin where one ball has put the gear: nowhere may the ball miss its flank.
+  result.frame = inspector.frame_from_one_ball();
+  inspector.use(result.frame);
+  if (stage != FaceStage::one_ball) {
+    result.frame = inspector.frame_from_many();
+    inspector.use(result.frame);
+  }
+  for (int i = 0; i < run.options.flanks; ++i) {
+    share(0.1 + 0.5 * i / run.options.flanks, "maps");
+    for (const int side : kFaceSides)
+      result.maps.push_back(inspector.map({side, i * run.gear.teeth / run.options.flanks}));
+  }
+  share(0.6, "pitch");
+  for (std::size_t side = 0; side < kFaceSides.size(); ++side)
+    result.pitch[side] = inspector.pitch(kFaceSides[side]);
+  result.node = inspector.agreement();
+  return result;
+}
+
+}  // namespace
+
+FaceGearResult run_face_gear(const FaceGearOptions& options, const Progress& progress) {
+  FaceGearResult run;
+  run.options = options;
+  run.machine = read_machine_file(options.machine);
+  if (!run.machine.probe) throw UserError(run.machine.path + ": the machine has no [probe]");
+  const GearChoice choice = choose_face_gear(options.gear);
+  run.gear = choice.gear;
+  run.inputs = {hashed_file("machine file", options.machine)};
+  if (!is_published_gear(options.gear)) run.inputs.push_back(hashed_file("gear", options.gear));
+  require(make_face_grid(choice.gear, choice.plan, run.grid), options.gear);
+  if (options.flanks < 1 || options.flanks > run.gear.teeth)
+    throw UserError(fmt::format("--flanks: 1 to {}, not {}", run.gear.teeth, options.flanks));
+  run.errors = make_face_errors(run.gear, options.form, options.seed);
+  run.true_pitch = true_pitch(run.errors);
+  run.worked_example_deg = worked_example_deg(run.gear);
+  run.kernel_ns = measure_kernel_ns(run.gear, run.grid);
+
+  const FaceHall hall{run.machine,
+                      make_yk7280_truth(run.machine, options.seed),
+                      run.gear,
+                      true_mounting(),
+                      deviation_of(run.errors, run.gear, run.grid),
+                      options.make_axes,
+                      options.cycle_hz,
+                      options.seed};
+  progress(0.0, "identification of the machine");
+  const Identification identification = identify_axes(hall.truth, run.machine);
+  for (const FaceStage stage : {FaceStage::one_ball, FaceStage::frame, FaceStage::compensated}) {
+    const auto s = static_cast<std::size_t>(stage);
+    run.inspection[s] = inspect(hall, run, stage, identification, progress);
+    run.map_error[s] = map_error(run.inspection[s].maps, run.errors);
+  }
+  progress(1.0, "done");
+  return run;
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,61 @@
+#pragma once
+// A face gear measured on the YK7280: with the frame of one ball as in the paper, with the frame of
+// thirty touches, and with the errors of the machine compensated as well. Every touch goes through
+// drives, bus and node. Seed 002.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host_sim/experiments/face_gear/inspection.hpp"
+#include "host_sim/experiments/face_gear/truth.hpp"
+#include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/report/progress.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
+
+namespace volcomp::sim {
+
+struct FaceGearOptions {
+  std::filesystem::path machine;
+  std::string gear = "table3";  // gear_choice.hpp
+  int flanks = 1;               // pairs of flanks that are mapped, evenly over the gear
+  FormTruth form = FormTruth::tables;
+  std::uint64_t seed = 1;  // of the errors of machine and gear
+  std::size_t knots = kDefaultKnots;
+  double cycle_hz = kBusCycleOfFive_hz;
+  BusAxesFactory make_axes = loopback_axes();
+};
+
+// The three ways to measure, in their order.
+enum class FaceStage : std::uint8_t { one_ball, frame, compensated };
+inline constexpr std::array<const char*, 3> kFaceStages{"one ball", "frame solved", "compensated"};
+
+// How far the maps of an inspection are from what the gear is, µm, zeroed alike.
+struct MapError {
+  double rms = 0.0;
+  double max = 0.0;
+};
+
+struct FaceGearResult {
+  FaceGearOptions options;
+  MachineFile machine;
+  std::vector<HashedInput> inputs;
+  FaceGear gear;
+  FaceGrid grid;
+  FaceGearErrors errors;
+  std::array<FacePitch, 2> true_pitch;
+  std::array<FaceInspection, 3> inspection;  // by FaceStage
+  std::array<MapError, 3> map_error;
+  double worked_example_deg = 0.0;  // frame angle of the paper's ball on this gear; NaN: no flank
+  double kernel_ns = 0.0;           // one distance, on this computer
+
+  [[nodiscard]] const FaceInspection& at(FaceStage stage) const {
+    return inspection.at(static_cast<std::size_t>(stage));
+  }
+};
+
+// Throws UserError.
+[[nodiscard]] FaceGearResult run_face_gear(const FaceGearOptions& options,
+                                           const Progress& progress);
+
+}  // namespace volcomp::sim

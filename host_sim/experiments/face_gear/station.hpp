@@ -1,0 +1,85 @@
+#pragma once
+// The YK7280 on its bus: axes, node with tables, a probe on a swing arm, a face gear on the table.
+
+#include <memory>
+
+#include "comp/metrology/faces/measuring_grid.hpp"
+#include "comp/tables/machine_tables.hpp"
+#include "host_sim/sim/artefacts/face_gear.hpp"
+#include "host_sim/sim/controller/prober.hpp"
+#include "host_sim/sim/truth/noise.hpp"
+
+namespace volcomp::sim {
+
+// What all stations of a run share; outlives them.
+struct FaceHall {
+  MachineFile file;
+  TrueMachine truth;
+  FaceGear gear;         // as drawn
+  Frame mounting;        // of the gear on the table, as it really is
+  FaceDeviation errors;  // of the gear itself
+  BusAxesFactory make_axes;
+  double cycle_hz = kBusCycleOfFive_hz;
+  std::uint64_t seed = 1;
+};
+
+inline constexpr double kScaleStep_rad = 1.8 / 3600.0 * kPi / 180.0;  // of the table (seed 002)
+inline constexpr double kArmRepeatability_mm = 3e-3;                  // of the swing arm (seed 002)
+
+// One flank of one slot.
+struct FlankName {
+  int side = 1;
+  int slot = 0;
+};
+
+inline constexpr std::uint32_t kGearId = 1;  // of the gear on the table, for the node
+inline constexpr double kGate_mm = 0.25;     // more than a frame is off before it was found
+
+// A touch as the node has seen it.
+struct FaceStationTouch {
+  Vec3 ball = Vec3::Zero();  // centre, in the believed gear frame
+  FlankJudgement judgement;
+};
+
+class FaceStation {
+ public:
+  // The arm is deployed once. `believed`: the gear frame in the work frame, until told otherwise.
+  FaceStation(const FaceHall& hall, const MachineTables& tables, const Frame& believed);
+
+  // The arm swings out and back: the ball is up to kArmRepeatability_mm from where it was, and a
+  // frame that was solved before is stale.
+  void deploy_arm();
+  [[nodiscard]] unsigned deployments() const { return deployments_; }
+
+  void believe(const Frame& mounting);
+  [[nodiscard]] const Frame& believed() const { return believed_; }
+
+  // Turns the slot to the arm, touches this point of its flank, given for slot 0, along the normal.
+  // `row` and `column` are told to the node. Throws UserError when nothing was touched.
+  [[nodiscard]] FaceStationTouch touch(const FlankName& flank, const SurfacePoint& at,
+                                       std::size_t row, std::size_t column);
+  void retract();
+
+ private:
+  [[nodiscard]] Pose pose_at(const Vec3& in_gear) const;
+  [[nodiscard]] Pose above_tips(Pose at) const;
+  void turn_to(int slot);
+  void approach(const FlankName& flank, const Pose& from);
+
+  const FaceHall& hall_;
+  MachineChain chain_;
+  TrueMachine truth_;  // with the arm as it has come to stand
+  FaceGearOnTable gear_;
+  Random random_;
+  Frame believed_;
+  BusAxes* axes_ = nullptr;
+  std::unique_ptr<MotionCell> cell_;
+  std::unique_ptr<Prober> prober_;
+  unsigned deployments_ = 0;
+  double table_ = 0.0;  // C, rad
+  bool clear_ = true;   // the ball is above the tips
+  Pose last_{};
+  FlankName last_flank_{0, -1};
+};
+
+}  // namespace volcomp::sim

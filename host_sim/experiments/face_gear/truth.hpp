@@ -1,0 +1,52 @@
+#pragma once
+// The YK7280 as it really is, and the face gear on it: seed 002 gives neither errors of the machine
+// nor pitch deviations, so both are chosen here.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "comp/machine/frame.hpp"
+#include "comp/metrology/faces/error_map.hpp"
+#include "comp/metrology/faces/face_grid.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
+#include "host_sim/sim/artefacts/face_gear.hpp"
+#include "host_sim/sim/truth/true_machine.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr std::array<int, 2> kFaceSides{1, -1};  // left is the flank at y > 0
+inline constexpr std::array<const char*, 2> kFaceSideNames{"left", "right"};
+
+// Amplitudes of the errors of every axis.
+inline constexpr double kFaceLengthError_mm = 3e-3;
+inline constexpr double kFaceAngleError_rad = 10e-6;
+
+// Smooth errors of a few µm and µrad on every axis, phases from `seed`. Throws UserError when the
+// machine has other axes than X Y Z C.
+[[nodiscard]] TrueMachine make_yk7280_truth(const MachineFile& file, std::uint64_t seed);
+
+enum class FormTruth : std::uint8_t {
+  tables,     // of the paper's gear measuring centre (Tables 7 and 8)
+  synthetic,  // a smooth form of 3 µm
+};
+inline constexpr std::array<const char*, 2> kFormTruths{"tables", "synthetic"};
+
+// What is wrong with the gear. Left flank first; µm.
+struct FaceGearErrors {
+  std::array<ErrorMap, 2> form;              // of every slot
+  std::array<std::vector<double>, 2> pitch;  // arc by which the flanks of a slot are displaced
+};
+[[nodiscard]] FaceGearErrors make_face_errors(const FaceGear& gear, FormTruth form,
+                                              std::uint64_t seed);
+// Between the points of the grid the form is interpolated.
+[[nodiscard]] FaceDeviation deviation_of(const FaceGearErrors& errors, const FaceGear& gear,
+                                         const FaceGrid& grid);
+
+// The gear frame in the work frame of the machine: Z points down into the table.
+[[nodiscard]] Frame face_mounting(const Vec3& origin, double angle, const Vec3& tilt);
+// As the drawing of the clamping says, and as the gear really lies.
+[[nodiscard]] Frame nominal_mounting();
+[[nodiscard]] Frame true_mounting();
+
+}  // namespace volcomp::sim

@@ -1,0 +1,233 @@
+#include "host_sim/experiments/internal_helical/bus_grinder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "comp/core/crc32.hpp"
+#include "comp/core/little_endian.hpp"
+#include "comp/strokes/helix_instances.hpp"
+#include "firmware/node/node_objects.hpp"
+#include "firmware/node/offset_gate.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr std::size_t kX = 0;
+constexpr std::size_t kZ = 1;
+constexpr std::size_t kC = 2;
+
+constexpr std::array<Direction, 2> kDirections{Direction::forward, Direction::backward};
+
+// Longer than the longest transfer takes: 1.2 KB in segments.
+constexpr int kMostWaiting = 5000;
+
+// A machine that is as it was drawn.
+std::vector<std::uint8_t> image_without_errors(const MachineFile& machine) {
+  Identification nothing;
+  for (const AxisFile& file : machine.axes) {
+    IdentifiedAxis axis;
+    axis.letter = file.letter;
+    for (std::size_t t = 0; t < file.targets; ++t)
+      axis.nodes.push_back(file.lo + static_cast<double>(t) * (file.hi - file.lo) /
+                                         static_cast<double>(file.targets - 1));
+    axis.motion.assign(file.targets, ErrorMotion::Zero());
+    nothing.axis.push_back(axis);
+  }
+  return make_image(
+      tables_of(nothing, machine, machine.chain.description(), TableKind::none, node::kNodeKnots));
+}
+
+bool corrects(const MachineChain& chain, std::size_t axis) {
+  const MachineDescription& d = chain.description();
+  const auto* const end = d.correcting.begin() + d.correcting_count;
+  return std::find(d.correcting.begin(), end, axis) != end;
+}
+
+// What a node would refuse, said in words of the machine file.
+void check(const MachineFile& machine, const BusSettings& settings, const WatchedStrokes& watched) {
+  machine.expect_axes("XZC");
+  if (!corrects(machine.chain, kC))
+    throw UserError(machine.path +
+                    ": 'axes' of [correction] must contain C: the learned offset is "
+                    "added to that of C");
+  for (const BusAxis& axis : settings.axes) {
+    if (axis.scale_numerator == (axis.rotary ? 512U : 1U) && axis.scale_denominator == 1) continue;
+    throw UserError(
+        fmt::format("{}: the drives of the simulated grinder count in nanometres and "
+                    "2^-31 turn; axis {} has other units",
+                    machine.path, axis.letter));
+  }
+  const std::int32_t slew = settings.limits.axis[kC].rate;
+  constexpr std::uint8_t kLate = 2;  // 2200h:04
+  if (node::OffsetGate::unhindered(slew, kLate) < watched.offsets.rate) {
+    const double rad = watched.offsets.rate * (256.0 / kUnitsPerRad) * (2 * kLate + 3);
+    throw UserError(
+        fmt::format("{}: 'rate_rad_per_s' of [correction] must be at least {:.3f}, so that the "
+                    "learned offset of C can change as fast as its tables need",
+                    machine.path, 1e6 * rad / settings.period_us));
+  }
+  require(std::make_unique<GrinderMonitor>()->configure(watched.monitor), machine.path);
+  require(check_rules(watched.along), machine.path);
+  require(check_rules(watched.around), machine.path);
+}
+
+}  // namespace
+
+std::unique_ptr<BusAxes> grinder_axes(const MachineFile& machine, const WatchedStrokes& watched,
+                                      const BusAxesFactory& make_axes) {
+  BusSettings settings = bus_settings(machine, 1.0 / kStrokeTick_s);
+  settings.strokes = watched;
+  check(machine, settings, watched);
+  return make_axes(settings, image_without_errors(machine));
+}
+
+BusGrinder::BusGrinder(std::unique_ptr<BusAxes> axes, const StrokeStep& standing,
+                       GrinderPlant& plant)
+    : axes_(std::move(axes)), last_(standing) {
+  axes_->stand_at({static_cast<double>(standing.x) / kNmPerMm,
+                   static_cast<double>(standing.z) / kNmPerMm,
+                   static_cast<double>(standing.c) / kWirePerRad});
+  axes_->drive(kX).couple({[&plant] { return plant.read_x(); },
+                           [&plant](std::int64_t demand) { plant.follow_x(demand); }});
+  axes_->drive(kZ).couple({[&plant] { return plant.read_z(); },
+                           [&plant](std::int64_t demand) { plant.follow_z(demand); }});
+  axes_->drive(kC).couple({[&plant] { return plant.read_c(); },
+                           [&plant](std::int64_t demand) { plant.follow_c(demand); }});
+  axes_->bring_up();
+}
+
+void BusGrinder::cycle(const StrokeStep& step) {
+  constexpr std::int64_t kFiner = 512;  // 2^-40 turn
+  last_ = step;
+  axes_->controller().send_process_state(step);
+  axes_->cycle({step.x, step.z, kFiner * step.c});
+}
+
+// Nothing begins while the machine rests.
+void BusGrinder::rest_until_answered() {
+  StrokeStep rest = last_;
+  rest.in_face = rest.stroke_end = false;
+  SdoChannel& sdo = axes_->controller().node_objects();
+  const std::vector<std::int32_t> path{wrapped(rest.x), wrapped(rest.z), wrapped(rest.c)};
+  for (int i = 0; i < kMostWaiting && !sdo.idle() && sdo.failure().empty(); ++i) {
+    axes_->controller().send_process_state(rest);
+    axes_->run_cycle(path);
+  }
+  if (sdo.idle()) return;
+  throw UserError("the compensation node does not answer any more");
+}
+
+SdoChannel::Bytes BusGrinder::read(canopen::ObjectId object, std::size_t most,
+                                   const std::string& what) {
+  SdoChannel& sdo = axes_->controller().node_objects();
+  SdoChannel::Bytes found;
+  sdo.read(object, most, what, [&found](const SdoChannel::Bytes& bytes) { found = bytes; });
+  rest_until_answered();
+  if (!sdo.failure().empty()) throw UserError(sdo.failure());
+  return found;
+}
+
+double BusGrinder::read_real(canopen::ObjectId object, const std::string& what) {
+  const std::uint64_t raw = number(read(object, sizeof(double), what));
+  double value = 0.0;
+  std::memcpy(&value, &raw, sizeof value);
+  return value;
+}
+
+std::vector<double> BusGrinder::read_floats(canopen::ObjectId object, std::size_t most,
+                                            const std::string& what) {
+  const SdoChannel::Bytes bytes = read(object, sizeof(float) * most, what);
+  std::vector<double> values;
+  for (std::size_t at = 0; at + sizeof(float) <= bytes.size(); at += sizeof(float))
+    values.push_back(static_cast<double>(load_f32(&bytes[at])));
+  return values;
+}
+
+std::string BusGrinder::feed_trouble() {
+  const std::uint64_t status = number(read({0x2524, 3}, 2, "status of the learned offset"));
+  if ((status & kOtherFeed) == 0) return {};
+  const std::uint64_t feed = number(read({0x2524, 2}, 4, "feed of the learned tables"));
+  return fmt::format(
+      "the node adds no learned offset: its tables are for F={:g} mm/s, the stroke has F={:g} mm/s",
+      static_cast<double>(feed) / kNmPerMm, last_.feed_nm_per_s / kNmPerMm);
+}
+
+void BusGrinder::learn() {
+  if (const std::string trouble = feed_trouble(); !trouble.empty()) throw UserError(trouble);
+  SdoChannel& sdo = axes_->controller().node_objects();
+  sdo.write_value<std::uint8_t>({0x2520, 1}, static_cast<std::uint8_t>(node::LearnCommand::learn),
+                                "learning");
+  rest_until_answered();
+  if (sdo.failure().empty()) return;
+  sdo.clear();
+  const auto reason = static_cast<Reason>(number(read({0x2520, 4}, 1, "reason")));
+  throw UserError(
+      fmt::format("the node refuses to learn: {} [{}]", sentence(reason), code(reason)));
+}
+
+MonitorView BusGrinder::view() {
+  const WatchedStrokes& watched = *axes_->controller().settings().strokes;
+  const double um_per_rad = kUmPerMm * watched.monitor.flank_per_rad;
+  const auto on_flank = [um_per_rad](std::vector<double> rad) {
+    for (double& value : rad)
+      value *= um_per_rad;
+    return rad;
+  };
+  const auto amplitude = [](const std::vector<double>& values) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return least == values.end() ? 0.0 : 0.5 * (*most - *least);
+  };
+  MonitorView view;
+  for (std::size_t d = 0; d < kDirections.size(); ++d) {
+    const std::vector<double> means =
+        read_floats({0x2516, static_cast<std::uint8_t>(d + 1)}, kStrokeNodes, "means by node");
+    if (kDirections[d] == Direction::forward) view.over_stroke.amplitude = amplitude(means);
+    view.stroke[d] = on_flank(means);
+  }
+  const std::vector<double> slots = read_floats({0x2516, 3}, kGearSlots, "means by slot");
+  view.over_slots.amplitude = amplitude(slots);
+  view.slot = on_flank(slots);
+  view.around = orders_around(view.slot);
+  for (std::size_t k = 0; k < kMostLines; ++k) {
+    const auto line = static_cast<std::uint8_t>(k + 1);
+    view.along.push_back(std::hypot(read_real({0x2514, line}, "line along Z"),
+                                    read_real({0x2515, line}, "line along Z")) /
+                         std::sqrt(2.0));
+  }
+  return view;
+}
+
+// 2526h:01, see firmware/node/strokes/stroke_objects.hpp.
+LearnedTables BusGrinder::tables() {
+  const SdoChannel::Bytes image = read({0x2526, 1}, node::kMostLearnedBytes, "learned tables");
+  const auto damaged = [] { return UserError("the node's learned tables are damaged on the way"); };
+  if (image.size() < node::kLearnedHeader + 4) throw damaged();
+  const std::size_t body = image.size() - 4;
+  if (crc32({image.data(), body}) != load_u32(&image[body])) throw damaged();
+  const auto number_at = [&image](std::size_t at, std::size_t count) {
+    return canopen::load_le(&image[at], count);
+  };
+  const auto nodes = static_cast<std::size_t>(number_at(12, 2));
+  const auto slots = static_cast<std::size_t>(number_at(14, 2));
+  if (body != node::kLearnedHeader + 4 * (2 * nodes + slots)) throw damaged();
+  LearnedTables t;
+  t.z0_mm = static_cast<double>(static_cast<std::int64_t>(number_at(16, 8))) / kNmPerMm;
+  t.pitch_mm = static_cast<double>(number_at(24, 4)) / kNmPerMm;
+  std::size_t at = node::kLearnedHeader;
+  const auto take = [&image, &at](std::size_t count, std::vector<double>& out) {
+    for (std::size_t i = 0; i < count; ++i, at += 4)
+      out.push_back(static_cast<double>(load_f32(&image[at])));
+  };
+  take(nodes, t.stroke[0]);
+  take(nodes, t.stroke[1]);
+  take(slots, t.slot);
+  return t;
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,49 @@
+#pragma once
+// The grinder on a CAN bus: controller, drives with the axes of the grinder behind them, and a
+// compensation node that watches the strokes, learns and adds what it has learned to 60B0h of C.
+
+#include <memory>
+
+#include "host_sim/experiments/internal_helical/grinder_control.hpp"
+#include "host_sim/experiments/internal_helical/grinder_plant.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+
+namespace volcomp::sim {
+
+// Axes X, Z and C of a machine; the node has tables without errors. Throws UserError where the
+// machine has other axes, where C is not among the correcting ones, and for settings that the node
+// would refuse.
+[[nodiscard]] std::unique_ptr<BusAxes> grinder_axes(const MachineFile& machine,
+                                                    const WatchedStrokes& watched,
+                                                    const BusAxesFactory& make_axes);
+
+class BusGrinder final : public GrinderControl {
+ public:
+  // `plant` must outlive it and stands at `standing`.
+  BusGrinder(std::unique_ptr<BusAxes> axes, const StrokeStep& standing, GrinderPlant& plant);
+
+  // All of them throw UserError when the machine stops or the node refuses.
+  void cycle(const StrokeStep& step) override;
+  void learn() override;
+  [[nodiscard]] MonitorView view() override;
+  [[nodiscard]] LearnedTables tables() override;
+
+  // Why the node adds no learned offset although it has tables, in words; empty where it does.
+  [[nodiscard]] std::string feed_trouble();
+
+  // An object of the node; the machine rests until it is there. `most`: bytes it may have.
+  [[nodiscard]] SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,
+                                       const std::string& what);
+  [[nodiscard]] BusAxes& axes() { return *axes_; }
+
+ private:
+  [[nodiscard]] std::vector<double> read_floats(canopen::ObjectId object, std::size_t most,
+                                                const std::string& what);
+  [[nodiscard]] double read_real(canopen::ObjectId object, const std::string& what);
+  void rest_until_answered();
+
+  std::unique_ptr<BusAxes> axes_;
+  StrokeStep last_;
+};
+
+}  // namespace volcomp::sim

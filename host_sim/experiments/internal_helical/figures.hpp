@@ -1,0 +1,58 @@
+#pragma once
+// What a run on the grinder has found, as numbers and as text.
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "comp/metrology/gears/gear_grade.hpp"
+#include "host_sim/experiments/internal_helical/scenario.hpp"
+
+namespace volcomp::sim {
+
+// Over the seeds.
+struct Spread {
+  double median = 0.0;
+  double min = 0.0;
+  double max = 0.0;
+};
+
+// A deviation of the gear before or after: what came out, and what the simulation of the
+// specification and the paper have.
+struct HelicalMeasure {
+  const char* name = "";  // "Fp", "fp", "Fa"
+  const char* side = "";  // "left", "right"; empty for F_α
+  bool after = false;
+  GearDeviation kind = GearDeviation::total_pitch;
+  Spread found;                                   // µm
+  EvaluationRange specified;                      // its lowest and highest of 16 seeds, µm
+  double paper = 0.0;                             // µm
+  bool same_gear = true;                          // as theirs; else the two before say nothing
+  [[nodiscard]] EvaluationRange allowed() const;  // for the median
+  [[nodiscard]] bool ok() const;
+};
+[[nodiscard]] std::vector<HelicalMeasure> helical_measures(const InternalHelicalResult& run);
+
+[[nodiscard]] Spread sync_spread(const InternalHelicalResult& run, bool after);
+// Median over the seeds, round by round.
+[[nodiscard]] std::vector<double> learning_curve(const InternalHelicalResult& run);
+
+// What a wrong way must show to count as wrong.
+struct WrongWay {
+  const char* what = "";
+  double threshold = 0.0;  // µm
+  double found = 0.0;      // median, µm
+  [[nodiscard]] bool beyond() const { return found > threshold; }
+};
+[[nodiscard]] WrongWay wrong_way(const InternalHelicalResult& run);
+
+[[nodiscard]] GearGrade helical_grade(const GrindingFile& job, const HelicalMeasure& measure,
+                                      GearStandard standard);
+
+[[nodiscard]] Verdict internal_helical_verdict(const InternalHelicalResult& run);
+// `tables`: names of the files that were written.
+[[nodiscard]] nlohmann::json internal_helical_figures(const InternalHelicalResult& run,
+                                                      const std::vector<std::string>& tables);
+[[nodiscard]] std::string internal_helical_summary(const InternalHelicalResult& run);
+
+}  // namespace volcomp::sim

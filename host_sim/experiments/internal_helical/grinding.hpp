@@ -1,0 +1,52 @@
+#pragma once
+// What the passes leave on the flanks at mid face: the first order at the instant of contact, cut
+// to the lower envelope over the strokes around it, for the ripple is steeper than the wheel is
+// round. Seed 003 section 5.
+
+#include "comp/metrology/gears/flank_error.hpp"
+#include "comp/metrology/tables/left_error.hpp"
+#include "host_sim/experiments/internal_helical/process.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr std::size_t kProfilePoints = 13;
+inline constexpr std::array<FlankSide, 2> kHelicalSides{FlankSide::left, FlankSide::right};
+inline constexpr std::array<const char*, 2> kHelicalSideNames{"left", "right"};
+
+[[nodiscard]] MachineChain helical_chain();
+
+class FlankGrinding {
+ public:
+  FlankGrinding(const GrindingFile& job, const GrindingTruth& truth);
+
+  // dn in mm of the flank that a pass has left, excess material positive: at the pitch circle, and
+  // from the tip to the form circle.
+  [[nodiscard]] double pitch_point(const StrokeTrace& pass, std::size_t side) const;
+  [[nodiscard]] double profile_point(const StrokeTrace& pass, std::size_t side,
+                                     std::size_t point) const;
+
+  [[nodiscard]] const std::array<double, kProfilePoints>& roll_length() const { return roll_; }
+  // |dn| per error of X at the pitch circle.
+  [[nodiscard]] double flank_per_x() const;
+
+ private:
+  // A point of a flank: when it is touched, what errors do to it, how round the wheel is there.
+  struct Place {
+    double stroke = 0.0;
+    SensitivityRows rows{};
+    double kappa = 0.0;
+    double wheel_form = 0.0;  // mm
+  };
+  [[nodiscard]] Place place_at(std::size_t side, double roll_length) const;
+  [[nodiscard]] double first_order(const Place& place, const LagErrors& errors,
+                                   std::uint16_t slot) const;
+  [[nodiscard]] double ground(const Place& place, const StrokeTrace& pass) const;
+
+  GrindingFile job_;
+  GrindingTruth truth_;
+  std::array<double, kProfilePoints> roll_{};
+  std::array<Place, 2> pitch_{};
+  std::array<std::array<Place, kProfilePoints>, 2> profile_{};
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,14 @@
+#pragma once
+// The report document of a run on the grinder (host_sim/host/report/page/README.md).
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/experiments/internal_helical/scenario.hpp"
+#include "host_sim/host/report/document.hpp"
+
+namespace volcomp::sim {
+
+[[nodiscard]] nlohmann::json internal_helical_document(const InternalHelicalResult& result,
+                                                       const RunContext& run);
+
+}  // namespace volcomp::sim

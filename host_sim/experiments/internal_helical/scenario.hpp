@@ -1,0 +1,68 @@
+#pragma once
+// Form grinding of an internal helical gear: the tracking errors of Z and C are monitored, the
+// offsets of C learned in six updates of two rounds each, and the first and last gear inspected.
+// Seed 003 section 9.
+
+#include <filesystem>
+
+#include "host_sim/experiments/internal_helical/geometry_check.hpp"
+#include "host_sim/experiments/internal_helical/grinder_control.hpp"
+#include "host_sim/experiments/internal_helical/inspection.hpp"
+#include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/report/progress.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr int kLearningUpdates = 6;  // seed 003, addendum
+inline constexpr int kRoundsPerUpdate = 2;
+
+struct InternalHelicalOptions {
+  int seeds = 16;  // 1, 2, …
+  int updates = kLearningUpdates;
+  LearningWay way = LearningWay::right;
+  GrindingTruth truth;
+  std::filesystem::path machine;  // file
+  BusAxesFactory make_axes;       // with the compensation on a bus; empty: integrated
+  MachineWatch* watch = nullptr;  // of the integrated form
+};
+
+// A gear as it was ground and what was seen of it.
+struct GroundGear {
+  HelicalInspection inspection;
+  double sync_rms_um = 0.0;  // of e_s in the face, on the flank
+  double z_peak_mm = 0.0;    // largest |e_Z| in the face
+};
+
+struct SeedResult {
+  GroundGear before;
+  GroundGear after;
+  std::vector<double> learning_um;  // sync_rms_um of all rounds
+};
+
+// What is kept of the first seed, for looking at.
+struct HelicalDetail {
+  MonitorView before;
+  MonitorView after;
+  LearnedTables tables;
+  std::array<StrokeTrace, 2> pass_before;  // one each way
+  std::array<StrokeTrace, 2> pass_after;
+};
+
+struct InternalHelicalResult {
+  InternalHelicalOptions options;
+  std::vector<HashedInput> inputs;
+  GrindingFile job;
+  InternalGear gear;
+  std::vector<double> roll_length;
+  GeometryCheck geometry;
+  HelixEffect lags;  // what the lags of Z and C do one by one, and together
+  std::vector<SeedResult> seed;
+  HelicalDetail detail;
+};
+
+// Throws UserError.
+[[nodiscard]] InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options,
+                                                         const Progress& progress);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,31 @@
+#pragma once
+// What the monitor says of the two signals that C has tables for, before and after. Seed 003
+// section 8.
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/experiments/internal_helical/scenario.hpp"
+
+namespace volcomp::sim {
+
+// Half the range on the flank, how much of it comes back, and whether it is worth a table. A node
+// says no more than the mean of every place: of what comes back nothing is known then.
+struct SignalReport {
+  const char* name = "";
+  double amplitude_um = 0.0;
+  bool knows_repeats = false;  // else the two below say nothing
+  double ratio = 0.0;
+  LearningVerdict verdict = LearningVerdict::too_small;
+};
+[[nodiscard]] std::vector<SignalReport> signal_reports(const InternalHelicalResult& run,
+                                                       const MonitorView& view);
+
+[[nodiscard]] nlohmann::json signal_figures(const InternalHelicalResult& run,
+                                            const MonitorView& view);
+// One line each.
+[[nodiscard]] std::string signal_lines(const InternalHelicalResult& run);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,191 @@
+#include "host_sim/experiments/l300g/gear_charts.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host_sim/experiments/l300g/figures.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using nlohmann::json;
+
+constexpr auto kOld = GearStandard::iso1328_1995;
+constexpr auto kNew = GearStandard::iso1328_2013;
+
+using Traces = std::array<FlankTrace, 2> GearInspection::*;
+
+// What distinguishes profile from lead.
+struct TraceKind {
+  const char* id;
+  const char* title;
+  const char* symbol;  // Greek index of the deviations
+  GearDeviation deviation;
+  json place;  // axis of the chart
+  Traces traces;
+};
+
+const TraceKind& profile_kind() {
+  static const TraceKind kind{"profile",
+                              "Profile",
+                              "α",
+                              GearDeviation::profile,
+                              axis_label("roll length", "mm"),
+                              &GearInspection::profile};
+  return kind;
+}
+
+const TraceKind& lead_kind() {
+  static const TraceKind kind{
+      "lead", "Lead", "β", GearDeviation::lead, axis_label("x", "mm"), &GearInspection::lead};
+  return kind;
+}
+
+// The grade the gear itself has: what a band shows.
+int own_grade(const FlankTrace& truth) { return truth.grade_1995.value_or(last_grade(kOld)); }
+
+// Within the range, halfway between its extremes: so a trace fits into a band as wide as its
+// tolerance exactly when it is within it.
+json trace_series(const char* name, const FlankTrace& trace) {
+  std::vector<double> counted;
+  for (std::size_t i = 0; i < trace.at.size(); ++i) {
+    if (trace.at[i] >= trace.range.low && trace.at[i] <= trace.range.high)
+      counted.push_back(trace.deviation[i]);
+  }
+  const auto [low, high] = std::minmax_element(counted.begin(), counted.end());
+  std::vector<double> x = trace.deviation;
+  for (double& um : x)
+    um -= 0.5 * (*low + *high);
+  json series = series_of(name, x, trace.at);
+  series["emphasis"] = std::string("compensated") == name;
+  return series;
+}
+
+json band_series(const L300gResult& r, const TraceKind& kind, std::size_t side) {
+  const FlankTrace& truth = (r.truth.*kind.traces)[side];
+  const int grade = own_grade(truth);
+  const auto deviation = static_cast<std::size_t>(kind.deviation);
+  const double half = 0.5 * gear_limits(kOld, size_of(r.gear), grade).rounded[deviation];
+  const double low = truth.range.low;
+  const double high = truth.range.high;
+  return {{"name", fmt::format("tolerance, grade {}", grade)},
+          {"style", "dashed"},
+          {"x", {-half, -half, 0.0, half, half}},
+          {"y", {low, high, nullptr, high, low}}};
+}
+
+std::string values(const char* when, const FlankTrace& t, const char* symbol) {
+  return fmt::format("{}: F{} {:.1f} µm (grade {}), ff{} {:.1f}, fH{} {:.1f}. ", when, symbol,
+                     t.figures.total, grade_text(t.grade_1995, kOld), symbol, t.figures.form,
+                     symbol, t.figures.slope);
+}
+
+json trace_chart(const L300gResult& r, const TraceKind& kind, std::size_t side) {
+  const FlankTrace& before = (r.before.*kind.traces)[side];
+  const FlankTrace& after = (r.after.*kind.traces)[side];
+  return {{"type", "lines"},
+          {"id", fmt::format("{}-{}", kind.id, kSideNames[side])},
+          {"title", fmt::format("{} flank", kSideNames[side])},
+          {"x", axis_label("deviation, + = excess", "µm")},
+          {"y", kind.place},
+          {"series",
+           {band_series(r, kind, side), trace_series("uncompensated", before),
+            trace_series("compensated", after)}},
+          {"note", values("Before", before, kind.symbol) + values("After", after, kind.symbol)}};
+}
+
+json trace_group(const L300gResult& r, const TraceKind& kind) {
+  json charts = json::array();
+  for (std::size_t side = 0; side < kSides.size(); ++side)
+    charts.push_back(trace_chart(r, kind, side));
+  return {{"type", "group"},
+          {"id", kind.id},
+          {"title", fmt::format("{} of tooth 1", kind.title)},
+          {"shared_y", true},
+          {"charts", charts},
+          {"note",
+           "Each trace stands halfway between its extremes in the evaluation range. The band is as "
+           "wide as the tolerance of the total deviation in the grade of the gear itself: a trace "
+           "fits into it or has a worse grade."}};
+}
+
+json pitch_chart(const L300gResult& r, std::size_t side) {
+  json series = json::array();
+  std::vector<double> tooth;
+  for (int k = 1; k <= r.gear.teeth; ++k)
+    tooth.push_back(k);
+  const PitchRound& before = r.before.pitch[side];
+  const PitchRound& after = r.after.pitch[side];
+  series.push_back(series_of("uncompensated", tooth, before.position));
+  series.push_back(series_of("compensated", tooth, after.position));
+  const auto values = [](const char* when, const PitchRound& p) {
+    return fmt::format("{}: Fp {:.1f} µm, fpt {:.1f} µm (grade {}). ", when, p.figures.total,
+                       p.figures.single, grade_text(p.grade_1995, kOld));
+  };
+  return {{"type", "lines"},
+          {"id", fmt::format("pitch-{}", kSideNames[side])},
+          {"title", fmt::format("{} flank", kSideNames[side])},
+          {"x", axis_label("tooth", "")},
+          {"y", axis_label("position deviation", "µm")},
+          {"series", series},
+          {"note", values("Before", before) + values("After", after)}};
+}
+
+json trace_row(const std::string& name, const FlankTrace& t) {
+  return {name,
+          t.figures.total,
+          t.figures.form,
+          t.figures.slope,
+          grade_text(t.grade_1995, kOld),
+          grade_text(t.grade_2013, kNew)};
+}
+
+}  // namespace
+
+json profile_charts(const L300gResult& r) { return trace_group(r, profile_kind()); }
+json lead_charts(const L300gResult& r) { return trace_group(r, lead_kind()); }
+
+json pitch_charts(const L300gResult& r) {
+  return {{"type", "group"},
+          {"id", "pitch"},
+          {"title", "Pitch of all teeth"},
+          {"shared_y", true},
+          {"charts", {pitch_chart(r, 0), pitch_chart(r, 1)}},
+          {"note", "The simulated gear has no pitch deviations of its own."}};
+}
+
+json gear_table(const L300gResult& r) {
+  json rows = json::array();
+  for (const TraceKind* kind : {&profile_kind(), &lead_kind()}) {
+    for (std::size_t side = 0; side < kSides.size(); ++side) {
+      const auto add = [&](const char* when, const GearInspection& gear) {
+        rows.push_back(
+            trace_row(fmt::format("{}, {} flank, {}", kind->title, kSideNames[side], when),
+                      (gear.*kind->traces)[side]));
+      };
+      add("before", r.before);
+      add("after", r.after);
+      add("the gear itself", r.truth);
+    }
+  }
+  return {{"type", "table"},
+          {"id", "gear"},
+          {"title", "Deviations and grades"},
+          {"columns",
+           {{{"title", "trace"}},
+            column("F", "µm", 2),
+            column("f_f", "µm", 2),
+            column("f_H", "µm", 2),
+            {{"title", "grade 1995"}},
+            {{"title", "class 2013"}}}},
+          {"rows", rows},
+          {"note",
+           "Grades of the total deviation F. ISO 1328-1:1995 (= GB/T 10095.1-2008): rows d 50 to "
+           "125, m 3.5 to 6, b 20 to 40 mm, geometric means, limits rounded as the standard does; "
+           "profile over 92 % of the active flank. ISO 1328-1:2013: from the sizes themselves, "
+           "profile over 95 %. The formulas were not checked against the printed standards."}};
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,61 @@
+#pragma once
+// The L300G on its bus: axes, node with tables, probe, and whatever artefact stands on A.
+
+#include <functional>
+#include <memory>
+
+#include "comp/metrology/gears/l300g.hpp"
+#include "comp/tables/machine_tables.hpp"
+#include "host_sim/experiments/l300g/truth.hpp"
+#include "host_sim/sim/controller/prober.hpp"
+
+namespace volcomp::sim {
+
+// What of the chain the paths of the probe need.
+struct GrinderGeometry {
+  SwingArm arm;
+  L300gDatum datum;
+};
+[[nodiscard]] GrinderGeometry grinder_geometry(const MachineChain& chain);
+
+// The same machine with the axis of A where the readings of the probe say it is, mm.
+[[nodiscard]] MachineDescription with_origin(const MachineChain& chain, double y0, double z0);
+
+// What all grinders of a run share; outlives them.
+struct GrinderHall {
+  MachineFile file;
+  TrueMachine truth;
+  BusAxesFactory make_axes;
+  double cycle_hz = kBusCycleOfFive_hz;
+};
+
+// From the axis of A: beyond everything that may stand there.
+inline constexpr double kFarAway_mm = 100.0;
+
+class Grinder {
+ public:
+  Grinder(const GrinderHall& hall, const MachineTables& tables);
+
+  // What stands on A from now on; it must outlive the touches. Only while the probe is clear of it.
+  // `lobing_mm`: what the direction of a touch adds to the radius of the ball (touch_probe.hpp).
+  void mount(const Artefact& artefact, std::function<double(const Vec3&)> lobing_mm = {});
+  [[nodiscard]] Prober& prober() { return *prober_; }
+  // Without touching.
+  void go(const Pose& to, double feed) { cell_->move_to(to, feed); }
+
+  // As the node believes the machine to be.
+  [[nodiscard]] const MachineChain& chain() const { return chain_; }
+  [[nodiscard]] const GrinderGeometry& geometry() const { return geometry_; }
+  // Level arm, so far from the axis of A.
+  [[nodiscard]] Pose clear_of_work(double away_mm) const;
+
+ private:
+  const GrinderHall& hall_;
+  MachineChain chain_;
+  GrinderGeometry geometry_;
+  BusAxes* axes_ = nullptr;
+  std::unique_ptr<MotionCell> cell_;
+  std::unique_ptr<Prober> prober_;
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,82 @@
+#include "host_sim/experiments/l300g/inspection_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr int kPoints = 100;  // steps of the range of 1995
+constexpr int kBefore = 3;    // steps before it: errors of the machine shift the foot of a normal
+constexpr int kBeyond = 4;    // steps behind it, as far as the edition of 2013 goes
+constexpr double kPast_mm = 0.2;       // how far a touch may be late
+constexpr double kClearance_mm = 3.0;  // between the gear and the ball beside it
+constexpr double kLeadEnd = 0.05;      // of the width, but not more than a module
+
+std::vector<double> places(const EvaluationRange& range) {
+  std::vector<double> at;
+  for (int i = -kBefore; i <= kPoints + kBeyond; ++i)
+    at.push_back(range.low + i * (range.high - range.low) / kPoints);
+  return at;
+}
+
+}  // namespace
+
+EvaluationRange profile_range(const InvoluteGear& gear, double used) {
+  return {gear.roll_begin, gear.roll_begin + used * (gear.roll_end - gear.roll_begin)};
+}
+
+EvaluationRange lead_range(const InvoluteGear& gear) {
+  const double end = std::min(kLeadEnd * gear.width, gear.module);
+  return {end, gear.width - end};
+}
+
+double pitch_roll(const InvoluteGear& gear) { return gear.r * std::sin(gear.pressure_angle); }
+
+std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, FlankSide side) {
+  std::vector<FlankTouch> touches;
+  for (const double s : places(profile_range(gear, 0.92)))
+    touches.push_back({{side, 0}, s, 0.0});
+  return touches;
+}
+
+// A lead ends with the gear.
+std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, FlankSide side) {
+  std::vector<FlankTouch> touches;
+  for (const double x : places(lead_range(gear))) {
+    if (x >= 0.0 && x <= gear.width) touches.push_back({{side, 0}, pitch_roll(gear), x});
+  }
+  return touches;
+}
+
+std::vector<FlankTouch> pitch_touches(const InvoluteGear& gear, FlankSide side) {
+  std::vector<FlankTouch> touches;
+  touches.reserve(static_cast<std::size_t>(gear.teeth));
+  for (int tooth = 0; tooth < gear.teeth; ++tooth)
+    touches.push_back({{side, tooth}, pitch_roll(gear), 0.5 * gear.width});
+  return touches;
+}
+
+double InspectionSetup::beside() const {
+  return geometry.datum.y + 0.5 * gear.tip_diameter + ball_radius + kClearance_mm;
+}
+
+FlankMove flank_move(const InspectionSetup& setup, const FlankTouch& touch, double stand_off) {
+  const SwingArm& arm = setup.geometry.arm;
+  FlankMove move;
+  require(touch_pose(arm, setup.geometry.datum, setup.gear, setup.style, touch, setup.ball_radius,
+                     move.contact),
+          "touch");
+  move.lift_mm = arm_lift(arm, move.contact[2]);
+  const double outwards = touch.flank.side == FlankSide::left ? 1.0 : -1.0;
+  move.from = move.beyond = move.contact;
+  move.from[2] += outwards * stand_off / move.lift_mm;
+  move.beyond[2] -= outwards * kPast_mm / move.lift_mm;
+  const FlankPoint flank = flank_at(setup.gear, touch.flank, touch.roll_length, touch.x);
+  move.normal = Vec3(0.0, flank.normal.y, flank.normal.z);
+  return move;
+}
+
+}  // namespace volcomp::sim

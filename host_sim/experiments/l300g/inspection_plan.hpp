@@ -1,0 +1,52 @@
+#pragma once
+// What an inspection touches, in which order, and how the machine moves at each touch.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/gear_path.hpp"
+#include "host_sim/experiments/l300g/grinder.hpp"
+
+namespace volcomp::sim {
+
+inline constexpr std::array<FlankSide, 2> kSides{FlankSide::left, FlankSide::right};
+inline constexpr std::array<const char*, 2> kSideNames{"left", "right"};
+
+// Of the roll length: `used` of what lies between its ends, from the root.
+[[nodiscard]] EvaluationRange profile_range(const InvoluteGear& gear, double used);
+[[nodiscard]] EvaluationRange lead_range(const InvoluteGear& gear);
+// Roll length of the middle of the flank, where pitch and lead are taken.
+[[nodiscard]] double pitch_roll(const InvoluteGear& gear);
+
+// Tooth 0, from root to tip; along the width; every tooth once.
+[[nodiscard]] std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, FlankSide side);
+[[nodiscard]] std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, FlankSide side);
+[[nodiscard]] std::vector<FlankTouch> pitch_touches(const InvoluteGear& gear, FlankSide side);
+
+// What the paths of an inspection depend on.
+struct InspectionSetup {
+  GrinderGeometry geometry;
+  InvoluteGear gear;
+  PathStyle style = PathStyle::fixed_a;
+  double ball_radius = 0.0;  // effective, mm
+
+  // Y with the ball beside the gear.
+  [[nodiscard]] double beside() const;
+};
+
+// Only B moves on the way to the flank. NC coordinates.
+struct FlankMove {
+  Pose from{};
+  Pose contact{};
+  Pose beyond{};         // as far as it may go without a touch
+  Vec3 normal;           // of the part, workpiece frame
+  double lift_mm = 0.0;  // of the ball per radian of B
+};
+
+// `stand_off`: from flank to ball before the touch, mm. Throws UserError where B cannot reach.
+[[nodiscard]] FlankMove flank_move(const InspectionSetup& setup, const FlankTouch& touch,
+                                   double stand_off);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,21 @@
+#pragma once
+// What the paper's own readings of an axis can give (seed 000 section 2.1), beside what targets
+// give.
+
+#include <array>
+
+#include "comp/metrology/fits/printed_procedure.hpp"
+#include "host_sim/experiments/l300g/machine_errors.hpp"
+#include "host_sim/sim/campaign/identification.hpp"
+
+namespace volcomp::sim {
+
+struct PrintedProcedure {
+  std::array<ReadingFigures, kGrinderAxes> own;  // of each axis along or about itself
+  PrintedSolution x;                             // eq. 18 with the readings of X
+};
+
+[[nodiscard]] PrintedProcedure printed_procedure(const Identification& found,
+                                                 const MachineFile& file);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,224 @@
+#include "host_sim/experiments/l300g/report.hpp"
+
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "host_sim/experiments/l300g/figures.hpp"
+#include "host_sim/experiments/l300g/gear_charts.hpp"
+#include "host_sim/host/report/before_after.hpp"
+#include "host_sim/host/report/error_functions.hpp"
+#include "host_sim/host/report/provenance.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kCoverage = 2.0;  // of the bands
+
+// --- probe
+
+json residual_chart(const MandrelCalibration& c) {
+  std::array<std::vector<double>, 2> y;
+  std::array<std::vector<double>, 2> residual;
+  for (std::size_t i = 0; i < c.y.size(); ++i) {
+    const std::size_t below = c.z[i] > c.fit.geometric.z ? 0 : 1;
+    y[below].push_back(c.y[i]);
+    residual[below].push_back(kUmPerMm * c.residual(i));
+  }
+  const auto points = [&](const char* name, std::size_t below) {
+    json series = series_of(name, y[below], residual[below]);
+    series["style"] = "points";
+    return series;
+  };
+  return {
+      {"type", "lines"},
+      {"id", "residuals"},
+      {"title", "Probe calibration: residuals on the mandrel"},
+      {"x", axis_label("Y", "mm")},
+      {"y", axis_label("distance from the circle", "µm")},
+      {"series", {points("above the mandrel", 0), points("below the mandrel", 1)}},
+      {"note",
+       fmt::format("{} touches in one half plane, nothing compensated. R_c {:.4f} mm, r_c = R_c "
+                   "- R = {:.4f} mm, Y0 {:.4f} mm, Z0 {:.4f} mm, rms {:.2f} µm.",
+                   c.y.size(), c.fit.geometric.radius, c.rc, c.fit.geometric.y, c.fit.geometric.z,
+                   kUmPerMm * c.fit.rms)}};
+}
+
+json effect_row(const std::string& what, const MandrelEffect& e) {
+  return {what, kUmPerMm * e.radius, kUmPerMm * e.y0, kUmPerMm * e.z0, kUmPerMm * e.rms};
+}
+
+json sensitivities(const L300gResult& r) {
+  json rows = json::array();
+  rows.push_back(effect_row(fmt::format("arm believed {:g} µm too long", kUmPerMm * kLongerArm_mm),
+                            r.longer_arm));
+  for (std::size_t i = 0; i < kHigherPivots_mm.size(); ++i)
+    rows.push_back(
+        effect_row(fmt::format("pivot {:g} mm above the axis of A, ignored", kHigherPivots_mm[i]),
+                   r.higher_pivot[i]));
+  return {
+      {"type", "table"},
+      {"id", "sensitivities"},
+      {"title", "What the calibration cannot tell from the radius"},
+      {"columns",
+       {{{"title", "machine"}},
+        column("R_c", "µm", 3),
+        column("Y0", "µm", 3),
+        column("Z0", "µm", 3),
+        column("rms", "µm", 4)}},
+      {"rows", rows},
+      {"note", fmt::format("The residuals hardly show them. Standard uncertainty of r_c with the "
+                           "assumed inputs: {:.2f} µm.",
+                           kUmPerMm * r.calibration.u_rc)}};
+}
+
+// --- identification
+
+json error_functions(const L300gResult& r) {
+  std::vector<ErrorCurves> axes;
+  for (std::size_t a = 0; a < r.identification.axis.size(); ++a) {
+    const IdentifiedAxis& identified = r.identification.axis[a];
+    ErrorCurves curves{
+        identified.letter, r.machine.axes[a].rotary, identified.nodes, identified.motion, {}};
+    ErrorMotion half;
+    for (Eigen::Index c = 0; c < half.size(); ++c)
+      half(c) = kCoverage * r.identification.spread(c);
+    curves.half_width.assign(curves.at.size(), half);
+    axes.push_back(curves);
+  }
+  return error_functions_group(
+      fmt::format("The {} identified error functions", kChannels.size() * axes.size()), axes,
+      fmt::format("Motion of the body itself, in its moving frame. Largest difference from the "
+                  "simulated truth {:.1e} mm or rad. Bands: ±{:g} standard uncertainties that "
+                  "{:g} µm of each target would leave; condition of the targets {:.2f}.",
+                  r.identification.max_error(), kCoverage, kUmPerMm * kTracker_mm,
+                  r.identification.condition));
+}
+
+json printed_table(const L300gResult& r) {
+  json rows = json::array();
+  for (std::size_t a = 0; a < r.identification.axis.size(); ++a) {
+    const IdentifiedAxis& axis = r.identification.axis[a];
+    const bool rotary = r.machine.axes[a].rotary;
+    const double scale = rotary ? kUradPerRad : kUmPerMm;
+    const ReadingFigures& own = r.printed.own.at(a);
+    rows.push_back({std::string(1, axis.letter), scale * own.mean, scale * own.deviation,
+                    scale * own.range, rotary ? "µrad" : "µm"});
+  }
+  return {{"type", "table"},
+          {"id", "printed"},
+          {"title", "What the procedure as printed can give"},
+          {"columns",
+           {{{"title", "axis"}},
+            {{"title", "mean reading"}, {"digits", 3}},
+            {{"title", "standard deviation"}, {"digits", 3}},
+            {{"title", "range"}, {"digits", 3}},
+            {{"title", "unit"}}}},
+          {"rows", rows},
+          {"note",
+           fmt::format("Eq. 18 of the paper repeats the same three rows for every station: rank {} "
+                       "of 6. Its shortest solution for X is EX {:.4f} µm, EB {:.2e} rad, EC "
+                       "{:.2e} rad: the mean reading, and nothing else.",
+                       r.printed.x.rank, kUmPerMm * r.printed.x.least(0), r.printed.x.least(4),
+                       r.printed.x.least(5))}};
+}
+
+// --- points
+
+json feed_chart(const L300gResult& r) {
+  const auto points = [&](const char* name, const std::vector<double>& nm) {
+    json series = series_of(name, r.feeds.feed_mm_min, nm);
+    series["style"] = "points";
+    return series;
+  };
+  return {{"type", "lines"},
+          {"id", "feeds"},
+          {"title", fmt::format("The same place at {} feeds", r.feeds.feed_mm_min.size())},
+          {"x", axis_label("feed", "mm/min")},
+          {"y", axis_label("normal to the flank, from the mean", "nm")},
+          {"series",
+           {points("as latched", r.feeds.raw_nm),
+            points("corrected by the node", r.feeds.corrected_nm)}},
+          {"note", fmt::format("Spread {:.1f} nm as latched, {:.1f} nm corrected for the delays of "
+                               "probe and axes.",
+                               r.feeds.raw_spread_nm(), r.feeds.corrected_spread_nm())}};
+}
+
+// --- the document
+
+json before_after(const L300gResult& r) {
+  std::vector<BeforeAfter> lines;
+  const auto grade = [](const std::optional<int>& g) {
+    return grade_text(g, GearStandard::iso1328_1995);
+  };
+  const auto traces = [&](const char* what, auto member) {
+    for (std::size_t side = 0; side < kSides.size(); ++side) {
+      const FlankTrace& before = (r.before.*member)[side];
+      const FlankTrace& after = (r.after.*member)[side];
+      lines.push_back({fmt::format("{}, {} flank", what, kSideNames[side]), before.figures.total,
+                       after.figures.total, (r.truth.*member)[side].figures.total,
+                       grade(before.grade_1995), grade(after.grade_1995)});
+    }
+  };
+  traces("profile F_α", &GearInspection::profile);
+  traces("lead F_β", &GearInspection::lead);
+  for (std::size_t side = 0; side < kSides.size(); ++side) {
+    const PitchRound& before = r.before.pitch[side];
+    const PitchRound& after = r.after.pitch[side];
+    const PitchRound& truth = r.truth.pitch[side];
+    lines.push_back({fmt::format("pitch F_p, {} flanks", kSideNames[side]), before.figures.total,
+                     after.figures.total, truth.figures.total, grade(before.grade_1995),
+                     grade(after.grade_1995)});
+    lines.push_back({fmt::format("pitch f_pt, {} flanks", kSideNames[side]), before.figures.single,
+                     after.figures.single, truth.figures.single, "", ""});
+  }
+  return before_after_table(
+      lines,
+      "Deviations of the master gear as the machine finds them, with zero tables and with those of "
+      "the identified error functions. Grades by ISO 1328-1:1995; that of a pitch is the worse of "
+      "F_p and f_pt.");
+}
+
+Origins origins(const L300gResult& r) {
+  const L300gOptions& o = r.options;
+  Origins origins;
+  origins.settings = {
+      {"errors of the machine", o.errors},
+      {"path", o.path == PathStyle::fixed_a ? "A stands still, B touches" : "generating"},
+      {"origin", o.origin == Origin::nominal ? "machine file" : "fit of the mandrel"},
+      {"tables", kTableKinds.at(static_cast<std::size_t>(o.tables))},
+      {"seed", fmt::format("{} (phases of waves, noise of the lobing check)", o.seed)}};
+  origins.inputs = r.inputs;
+  origins.instruments = {
+      fmt::format("laser tracker for the error functions: {:g} µm of each target assumed for the "
+                  "bands, none added",
+                  kUmPerMm * kTracker_mm),
+      "touch probe of the machine: delays and radius of the machine file, corrected by the node"};
+  origins.chosen = {"amounts and signs of the errors, such that they add up"};
+  origins.untouched = {"deviations and grades of the gear"};
+  return origins;
+}
+
+}  // namespace
+
+json l300g_document(const L300gResult& r, const RunContext& run) {
+  ReportParts parts;
+  parts.title = "L300G: gear inspection before and after compensation";
+  parts.subtitle =
+      "Simulated gear grinder after Yang et al.; every touch through drives, bus and node";
+  parts.verdict = l300g_verdict(r);
+  parts.before_after = before_after(r);
+  parts.plots = {profile_charts(r), lead_charts(r), pitch_charts(r), error_functions(r)};
+  parts.details = {gear_table(r), residual_chart(r.calibration), sensitivities(r), printed_table(r),
+                   feed_chart(r)};
+  parts.ticks = run.ticks;
+  parts.provenance = provenance(run, origins(r));
+  return report_document(std::move(parts));
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/experiments/l300g/scenario.hpp"
+#include "host_sim/host/report/document.hpp"
+
+namespace volcomp::sim {
+
+// A run as a report document (host_sim/host/report/page/README.md).
+[[nodiscard]] nlohmann::json l300g_document(const L300gResult& result, const RunContext& run);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,61 @@
+#pragma once
+// The L300G measuring a master gear, before and after the errors of its axes are compensated: the
+// procedure of seed 000 section 6, every touch through drives, bus and node.
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "host_sim/experiments/l300g/checks.hpp"
+#include "host_sim/experiments/l300g/inspection.hpp"
+#include "host_sim/experiments/l300g/lobing_check.hpp"
+#include "host_sim/experiments/l300g/mandrel.hpp"
+#include "host_sim/experiments/l300g/printed_procedure.hpp"
+#include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/report/progress.hpp"
+
+namespace volcomp::sim {
+
+enum class Origin : std::uint8_t {
+  nominal,  // the axis of A is where the machine file says
+  mandrel,  // where the calibration has found it, with the same tables as the gear
+};
+
+struct L300gOptions {
+  std::filesystem::path machine;
+  std::string errors = "p8";  // machine_errors.hpp
+  PathStyle path = PathStyle::fixed_a;
+  Origin origin = Origin::nominal;
+  TableKind tables = TableKind::identified;  // of the compensation
+  std::uint64_t seed = 1;                    // of the phases of waves
+  std::size_t knots = kDefaultKnots;         // per table: what the node has room for
+  double cycle_hz = kBusCycleOfFive_hz;
+  BusAxesFactory make_axes = loopback_axes();
+};
+
+struct L300gResult {
+  L300gOptions options;
+  MachineFile machine;
+  std::vector<HashedInput> inputs;
+  InvoluteGear gear;
+  MandrelCalibration calibration;  // uncompensated: what the machine knows of its probe at first
+  MandrelEffect longer_arm;        // per kLongerArm_mm
+  std::vector<MandrelEffect> higher_pivot;  // by kHigherPivots_mm
+  Identification identification;
+  PrintedProcedure printed;
+  Vec3 orientation;      // of the probe against the gear, at the pitch point, rad: stays
+  GearInspection truth;  // what a perfect machine would find
+  GearInspection before;
+  GearInspection after;
+  FeedCheck feeds;
+  LobingCheck lobing;
+};
+
+inline constexpr double kUradPerRad = 1e6;
+inline constexpr double kLongerArm_mm = 1e-3;
+inline constexpr std::array<double, 3> kHigherPivots_mm{1.0, 5.0, 10.0};
+
+// Throws UserError.
+[[nodiscard]] L300gResult run_l300g(const L300gOptions& options, const Progress& progress);
+
+}  // namespace volcomp::sim

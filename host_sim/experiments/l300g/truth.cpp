@@ -1,0 +1,88 @@
+#include "host_sim/experiments/l300g/truth.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/sim/truth/noise.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+// What repeats with every turn cannot rise for ever. 4/3 sin q − 1/6 sin 2q rises like q where it
+// begins: 0.13 % less at 25°, where the flank of a tooth ends.
+void let_rise_and_return(ErrorFunction& f, double slope) {
+  f.amplitude[1] = 4.0 / 3.0 * slope;
+  f.ripple = -slope / 6.0;
+  f.ripple_period = kPi;
+}
+
+TrueAxis true_axis(const AxisFile& file, const AxisErrors& errors, double sign, Random& random) {
+  TrueAxis axis;
+  axis.lo = file.lo;
+  axis.hi = file.hi;
+  for (std::size_t c = 0; c < 6; ++c) {
+    ErrorFunction& f = axis.channel[c];
+    f.constant = sign * errors.constant[c];
+    const bool sloping = std::abs(errors.slope[c]) > 0.0;
+    if (sloping && file.full_turn()) {
+      if (errors.waves())
+        throw UserError(fmt::format("axis {}: a slope and a wave at once", file.letter));
+      let_rise_and_return(f, sign * errors.slope[c]);
+    } else if (sloping) {
+      f.linear = sign * errors.slope[c] * (file.hi - file.lo);
+      f.constant += sign * errors.slope[c] * file.lo;
+    }
+    if (!errors.waves()) continue;
+    f.ripple = sign * (c < 3 ? errors.wave_mm : errors.wave_rad);
+    f.ripple_period = errors.wave_period;
+    f.ripple_phase = random.uniform(0.0, 2.0 * kPi);
+  }
+  return axis;
+}
+
+MachineChain with_arm(const MachineFile& file, double longer_mm) {
+  MachineDescription description = file.chain.description();
+  description.tool_point[0] -= longer_mm;
+  MachineChain chain;
+  require(MachineChain::build(description, chain), file.path);
+  return chain;
+}
+
+}  // namespace
+
+TrueMachine make_l300g_truth(const MachineFile& file, const GrinderErrors& errors,
+                             std::uint64_t seed) {
+  file.expect_axes("XYBA");
+  Random random(seed);
+  TrueMachine machine;
+  machine.chain = with_arm(file, errors.arm_mm);
+  for (std::size_t a = 0; a < kGrinderAxes; ++a) {
+    // TrueMachine holds relative values.
+    const double sign = branch_sign(machine.chain.axis(a).branch);
+    machine.axis[a] = true_axis(file.axes[a], errors.axis[a], sign, random);
+  }
+  return machine;
+}
+
+InvoluteGear master_gear() {
+  InvoluteGear gear;
+  gear.teeth = 31;
+  gear.module = 4.0;
+  gear.pressure_angle = 20.0 * kPi / 180.0;
+  gear.tip_diameter = 132.0;
+  gear.width = 30.0;
+  require(derive(gear), "master gear");
+  return gear;
+}
+
+double own_deviation(double s, double x) {
+  const double u = (s - 9.510) / 19.781;
+  const double um = 3.4 * u + 2.2 * std::sin(3.0 * kPi * u) + 3.2 * x / 27.0 +
+                    1.85 * std::sin(3.0 * kPi * (x - 1.5) / 27.0);
+  return 1e-3 * um;
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,163 @@
+#include "host_sim/experiments/xyfz/truth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "comp/metrology/tables/diagonals.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/campaign.hpp"
+#include "host_sim/sim/instruments/ball_bar.hpp"
+#include "host_sim/sim/truth/drawn_errors.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+TrueAxis draw_axis(const AxisFile& file, std::size_t own, const XyfzTuning& tuning,
+                   Random& random) {
+  TrueAxis axis;
+  axis.lo = file.lo;
+  axis.hi = file.hi;
+  for (std::size_t c = 0; c < 6; ++c) {
+    const bool angle = c >= 3;
+    const double amplitude = usual_amplitude(c, own) * (angle ? tuning.angle_scale : 1.0);
+    const double rise = angle || c == own ? amplitude * random.uniform(-1.0, 1.0) : 0.0;
+    axis.channel[c] = waves_on_line(rise, amplitude, random);
+  }
+  draw_ripple(axis.channel[own], random);
+  draw_reversal(own, axis, random);
+  return axis;
+}
+
+SquarenessLines lines_of(const SquarenessFile& file,
+                         const std::array<std::vector<double>, 3>& line) {
+  return {file.at, line[0], line[1], line[2]};
+}
+
+// Largest deviation on PNP, mean of both directions, µm: measured − predicted where a model is
+// given.
+double pnp_um(const TrueMachine& machine, const MachineFile& file, const Commissioned* predicted) {
+  const DiagonalBox box = travel_box(file);
+  std::vector<double> deviation(kDiagonalPoints);
+  DiagonalFigures figures;
+  const auto error_at = [&](const Vec3& p) -> Vec3 {
+    const Pose q{p.x(), p.y(), p.z()};
+    Vec3 e = machine.error(q, {}, machine.chain.tool_point()).position_work;
+    if (predicted != nullptr)
+      e -= predicted->model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
+    return e;
+  };
+  require(diagonal_deviations(error_at, body_diagonals(box)[kPnp], deviation, figures), "diagonal");
+  return figures.max_abs * kUmPerMm;
+}
+
+double naive_residual_um(const MachineFile& file, std::uint64_t phase_seed,
+                         const XyfzTuning& tuning) {
+  const TrueMachine machine = make_xyfz_truth(file, phase_seed, tuning);
+  const Campaign campaign = perfect_campaign(machine, file);
+  const auto naive = commission(campaign.machine, campaign.runs, tables_only(ModelKind::naive));
+  return pnp_um(machine, file, naive.get());
+}
+
+double raw_um(const MachineFile& file, std::uint64_t phase_seed, const XyfzTuning& tuning) {
+  return pnp_um(make_xyfz_truth(file, phase_seed, tuning), file, nullptr);
+}
+
+// A function, and a value of it with the place where it was taken.
+using Function = std::function<double(double)>;
+struct Sample {
+  double x = 0.0;
+  double f = 0.0;
+};
+
+// Where f changes sign between two samples, to `tolerance` in x: interpolate, truncate, project
+// (Oliveira and Takahashi, ACM Trans. Math. Softw. 47(1), 2020). Readings are rounded to their
+// resolution, so close up f is a staircase where a secant alone crawls; this stays within one call
+// of bisection. The side nearer to zero is returned.
+double root_between(Sample lo, Sample hi, double tolerance, const Function& f) {
+  const double whole = hi.x - lo.x;
+  double reach = tolerance * std::exp2(std::ceil(std::log2(whole / tolerance)));
+  while (hi.x - lo.x > tolerance) {
+    const double width = hi.x - lo.x;
+    const double middle = 0.5 * (lo.x + hi.x);
+    const double secant = (hi.f * lo.x - lo.f * hi.x) / (hi.f - lo.f);
+    const double inwards = std::min(0.2 * width * width / whole, std::abs(middle - secant));
+    const double aim = secant + std::copysign(inwards, middle - secant);
+    const double room = std::max(0.0, reach - 0.5 * width);
+    const double x = std::clamp(aim, middle - room, middle + room);
+    const Sample next{x, f(x)};
+    ((next.f > 0.0) == (hi.f > 0.0) ? hi : lo) = next;
+    reach *= 0.5;
+  }
+  return std::abs(lo.f) < std::abs(hi.f) ? lo.x : hi.x;
+}
+
+// The root nearest to `start` on a grid of equal steps, then refined; throws if there is none.
+double nearest_root(double start, double step, int steps, const Function& f) {
+  const double tolerance = 1e-8 * step;  // far below what one rounded reading changes
+  Sample up{start, f(start)};
+  Sample down = up;
+  for (int i = 1; i <= steps; ++i) {
+    const Sample above{start + i * step, f(start + i * step)};
+    if ((above.f > 0.0) != (up.f > 0.0)) return root_between(up, above, tolerance, f);
+    const Sample below{start - i * step, f(start - i * step)};
+    if ((below.f > 0.0) != (down.f > 0.0)) return root_between(below, down, tolerance, f);
+    up = above;
+    down = below;
+  }
+  throw UserError(
+      "this phase seed has no machine with the paper's figures; try another --machine-seed");
+}
+
+}  // namespace
+
+TrueMachine make_xyfz_truth(const MachineFile& file, std::uint64_t phase_seed,
+                            const XyfzTuning& tuning) {
+  if (!file.squareness || file.axes.size() != 3) {
+    throw UserError(file.path +
+                    ": the xyfz scenario needs three linear axes and a [squareness] table");
+  }
+  Random random(phase_seed);
+  TrueMachine machine;
+  machine.chain = file.chain;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto own = static_cast<std::size_t>(file.chain.axis(a).axis);
+    machine.axis[a] = draw_axis(file.axes[a], own, tuning, random);
+  }
+  machine.axis[0].channel[0].linear += tuning.scale_error * (file.axes[0].hi - file.axes[0].lo);
+
+  // A ball bar on this machine must read what the machine file says: unit gain, so one step is
+  // exact.
+  const std::array<std::vector<double>, 3> line{file.squareness->line(0), file.squareness->line(1),
+                                                file.squareness->line(2)};
+  const XyfzSquareness own = measure_squareness(machine, machine.chain.tool_point(),
+                                                lines_of(*file.squareness, line), 0.0, random);
+  machine.directions = xyfz_directions(close_squareness(file.squareness->measured, own));
+  return machine;
+}
+
+XyfzTuning tune_xyfz(const MachineFile& file, std::uint64_t phase_seed) {
+  XyfzTuning tuning;
+  constexpr int kRounds = 2;  // the two figures hardly influence each other
+  for (int round = 0; round < kRounds; ++round) {
+    const bool first = round == 0;
+    tuning.angle_scale =
+        nearest_root(tuning.angle_scale, first ? 0.1 : 0.01, first ? 25 : 50, [&](double scale) {
+          return naive_residual_um(file, phase_seed, {scale, tuning.scale_error}) - kPaperNaive_um;
+        });
+    tuning.scale_error = nearest_root(tuning.scale_error, 2e-6, 150, [&](double slope) {
+      return raw_um(file, phase_seed, {tuning.angle_scale, slope}) - kPaperRaw_um;
+    });
+  }
+  if (tuning.angle_scale <= 0.0) {
+    throw UserError(
+        "this phase seed has no machine with the paper's figures; try another --machine-seed");
+  }
+  return tuning;
+}
+
+}  // namespace volcomp::sim

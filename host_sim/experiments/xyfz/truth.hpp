@@ -1,0 +1,28 @@
+#pragma once
+// The XYFZ machine as it really is (seed 001, addendum): amplitudes by class, phases from a seed,
+// two quantities tuned.
+
+#include "host_sim/host/machine/machine_file.hpp"
+#include "host_sim/sim/truth/true_machine.hpp"
+
+namespace volcomp::sim {
+
+// The two quantities tuned so that, noise-free, the PNP diagonal shows the paper's figures. Nothing
+// about the optimised models is tuned.
+struct XyfzTuning {
+  double angle_scale = 1.0;  // of all nine angular error functions
+  double scale_error = 0.0;  // added slope of EXX, mm/mm
+};
+
+inline constexpr double kPaperRaw_um = 41.15;
+inline constexpr double kPaperNaive_um = 16.37;
+
+// The machine of a phase seed. Squareness is chosen so that a perfect ball bar at the place of the
+// machine file reads the values of the machine file (the paper's Table 6).
+[[nodiscard]] TrueMachine make_xyfz_truth(const MachineFile& file, std::uint64_t phase_seed,
+                                          const XyfzTuning& tuning);
+
+// Finds the tuning for a phase seed; throws UserError if this seed cannot show the paper's figures.
+[[nodiscard]] XyfzTuning tune_xyfz(const MachineFile& file, std::uint64_t phase_seed);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,55 @@
+#pragma once
+// How a machine is wired to its CAN bus: who has which node id, how drive units read, how fast the
+// cycle is.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "comp/tick/instances.hpp"
+#include "host_sim/host/bus/watched_strokes.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
+
+namespace volcomp::sim {
+
+// Run-time units (nm or 2^-40 turn) per unit of a drive.
+struct DriveScale {
+  std::uint32_t numerator = 1;
+  std::uint32_t denominator = 1;
+};
+
+struct BusAxis {
+  char letter = '\0';
+  std::uint8_t drive = 0;  // node id
+  bool rotary = false;
+  std::uint32_t scale_numerator = 1;  // run-time units (nm or 2^-40 turn) per drive unit
+  std::uint32_t scale_denominator = 1;
+  std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
+  std::int32_t highest = 0;
+  std::int64_t latch_delay_ns = 0;  // of the touch probe input
+  // How the drive counts where that is not what the controller has been told.
+  std::optional<DriveScale> counts_otherwise;
+};
+
+struct BusSettings {
+  std::uint8_t controller = 127;
+  std::uint8_t node = 32;
+  std::uint32_t period_us = 2000;
+  std::uint32_t deadline_us = 0;    // of the node; 0: 60 % of the period
+  bool status_every_cycle = false;  // of the node: for lock step over a bus without real time
+  std::uint16_t heartbeat_ms = 100;
+  std::uint16_t heartbeat_timeout_ms = 350;
+  std::uint32_t machine_id = 0;
+  std::vector<BusAxis> axes;
+  // A controller that was given no tables waits until the node compensates with those it has
+  // itself, stored or from a service tool; a node without any is accepted as it is.
+  bool node_brings_tables = false;
+  bool probes = false;  // the drives latch the rising edges of a touch probe and report them
+  CompensatorSettings<LoadedCompensator::kAxes> limits{};  // per cycle of this period
+  std::optional<WatchedStrokes> strokes;  // the axes X, Z and C grind a helical gear
+};
+
+// Node ids, units and software limits as the machine file says.
+[[nodiscard]] BusSettings bus_settings(const MachineFile& machine, double cycle_hz);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,170 @@
+#include "host_sim/host/bus/can_log.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+// Frames that two processors handled reach the socket in either order.
+constexpr std::uint64_t kMostDisorder_us = 100'000;
+
+using Text = std::string_view;
+
+// The next word of a line; empty at its end.
+Text take_word(Text& rest) {
+  const std::size_t begin = std::min(rest.find_first_not_of(" \t\r"), rest.size());
+  const std::size_t end = std::min(rest.find_first_of(" \t\r", begin), rest.size());
+  const Text word = rest.substr(begin, end - begin);
+  rest.remove_prefix(end);
+  return word;
+}
+
+template <class T>
+bool parse_whole(Text digits, int base, T& value) {
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value, base);
+  return error == std::errc() && stop == end;
+}
+
+// (seconds.microseconds)
+bool parse_time(Text word, std::uint64_t& time_us) {
+  constexpr std::size_t kDecimals = 6;
+  constexpr std::uint64_t kMostSeconds = 1'000'000'000'000;
+  if (word.size() < 2 || word.front() != '(' || word.back() != ')') return false;
+  word = word.substr(1, word.size() - 2);
+  const std::size_t point = word.find('.');
+  if (point == Text::npos || word.size() - point - 1 != kDecimals) return false;
+  std::uint64_t seconds = 0;
+  std::uint64_t fraction = 0;
+  if (!parse_whole(word.substr(0, point), 10, seconds) || seconds > kMostSeconds) return false;
+  if (!parse_whole(word.substr(point + 1), 10, fraction)) return false;
+  time_us = seconds * 1'000'000U + fraction;
+  return true;
+}
+
+enum class Content : std::uint8_t { frame, of_no_use, nonsense };
+
+// identifier#data: three hexadecimal digits for an 11-bit identifier, eight for 29 bits and error
+// reports; R in place of the data for a remote request; ## for CAN FD.
+Content parse_frame(Text word, hal::CanFrame& frame) {
+  const std::size_t mark = word.find('#');
+  if (mark != 3 && mark != 8) return Content::nonsense;
+  std::uint32_t id = 0;
+  if (!parse_whole(word.substr(0, mark), 16, id)) return Content::nonsense;
+  const Text data = word.substr(mark + 1);
+  if (mark == 8 || (!data.empty() && (data.front() == 'R' || data.front() == '#')))
+    return Content::of_no_use;
+  if (id > hal::kMaxCanId || data.size() % 2 != 0 || data.size() / 2 > frame.data.size())
+    return Content::nonsense;
+  frame.id = static_cast<std::uint16_t>(id);
+  frame.size = static_cast<std::uint8_t>(data.size() / 2);
+  for (std::size_t i = 0; i < frame.size; ++i) {
+    if (!parse_whole(data.substr(2 * i, 2), 16, frame.data[i])) return Content::nonsense;
+  }
+  return Content::frame;
+}
+
+Content parse_line(Text line, LoggedFrame& logged) {
+  const Text time = take_word(line);
+  const Text interface = take_word(line);
+  if (!parse_time(time, logged.time_us) || interface.empty()) return Content::nonsense;
+  return parse_frame(take_word(line), logged.frame);
+}
+
+}  // namespace
+
+std::optional<LoggedFrame> parse_log_line(Text line, const std::string& name, std::size_t number) {
+  if (line.find_first_not_of(" \t\r") == Text::npos) return std::nullopt;
+  LoggedFrame logged;
+  logged.line = number;
+  const Content content = parse_line(line, logged);
+  if (content == Content::nonsense)
+    throw UserError(fmt::format("{}:{}: not a line of candump -L", name, number));
+  if (content == Content::of_no_use) return std::nullopt;
+  return logged;
+}
+
+std::uint64_t latest_time(const LoggedFrame& logged, std::uint64_t last_us,
+                          const std::string& name) {
+  if (logged.time_us + kMostDisorder_us < last_us)
+    throw UserError(fmt::format("{}:{}: time runs backwards", name, logged.line));
+  return std::max(last_us, logged.time_us);
+}
+
+std::vector<LoggedFrame> parse_can_log(Text text, const std::string& name) {
+  std::vector<LoggedFrame> log;
+  std::uint64_t last_us = 0;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const Text line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::optional<LoggedFrame> parsed = parse_log_line(line, name, number);
+    if (!parsed) continue;
+    const LoggedFrame& logged = *parsed;
+    last_us = latest_time(logged, last_us, name);
+    log.push_back(logged);
+  }
+  std::stable_sort(log.begin(), log.end(), [](const LoggedFrame& a, const LoggedFrame& b) {
+    return a.time_us < b.time_us;
+  });
+  if (log.empty()) throw UserError(fmt::format("{}: holds no frames", name));
+  return log;
+}
+
+std::vector<LoggedFrame> read_can_log(const std::filesystem::path& path) {
+  InputFile file(path);
+  const std::string text((std::istreambuf_iterator<char>(file.stream())),
+                         std::istreambuf_iterator<char>());
+  return parse_can_log(text, file.name());
+}
+
+std::string log_line(std::uint64_t time_us, Text interface, const hal::CanFrame& frame) {
+  std::string line = fmt::format("({:010}.{:06}) {} {:03X}#", time_us / 1'000'000U,
+                                 time_us % 1'000'000U, interface, frame.id);
+  for (std::size_t i = 0; i < frame.size; ++i)
+    fmt::format_to(std::back_inserter(line), "{:02X}", frame.data[i]);
+  return line;
+}
+
+CanLogWriter::CanLogWriter(const std::filesystem::path& path, std::string interface)
+    : interface_(std::move(interface)) {
+  if (path == kStandardStream) return;
+  draft_.emplace(path);
+  if (draft_->is_beside()) interruption_.emplace();
+}
+
+void CanLogWriter::check() const {
+  if (interruption_) interruption_->check();
+}
+
+void CanLogWriter::write(std::uint64_t time_us, const hal::CanFrame& frame) {
+  check();
+  const std::string line = log_line(time_us, interface_, frame) + '\n';
+  if (draft_) {
+    draft_->write(line);
+  } else if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size()) {
+    throw UserError("standard output: cannot be written");
+  }
+}
+
+void CanLogWriter::finish() {
+  check();
+  if (draft_) {
+    draft_->complete();
+    draft_->put_in_place();
+  } else if (std::fflush(stdout) != 0) {
+    throw UserError("standard output: cannot be written");
+  }
+  interruption_.reset();
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,66 @@
+#pragma once
+// Recorded CAN traffic in the format of `candump -L` (can-utils): one frame per line,
+//
+//   (1700000000.123456) can0 1A0#1CDF442102000000
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/can_port.hpp"
+#include "host_sim/host/io/file_draft.hpp"
+#include "host_sim/host/io/interruption.hpp"
+
+namespace volcomp::sim {
+
+struct LoggedFrame {
+  std::uint64_t time_us = 0;  // the log's own clock
+  std::size_t line = 0;       // in the file, from 1
+  hal::CanFrame frame{};
+};
+
+// The frames of a log in the order of their time stamps: the kernel takes those when a frame is
+// sent, but may hand two frames to a listener the other way round. Frames a CANopen network does
+// not use are left out: 29-bit identifiers, remote requests, error reports. Throws UserError naming
+// `name` and line for what is no log line, and where time runs backwards by more than 0.1 s.
+[[nodiscard]] std::vector<LoggedFrame> parse_can_log(std::string_view text,
+                                                     const std::string& name);
+[[nodiscard]] std::vector<LoggedFrame> read_can_log(const std::filesystem::path& path);
+
+// One line of a log, the frame it holds: nothing for an empty line and for frames of no use.
+// Throws UserError naming `name` and the line, as parse_can_log.
+[[nodiscard]] std::optional<LoggedFrame> parse_log_line(std::string_view line,
+                                                        const std::string& name,
+                                                        std::size_t number);
+
+// The latest time so far, `last_us` or that of `logged`, which may be 0.1 s earlier at most. Throws
+// as parse_can_log.
+[[nodiscard]] std::uint64_t latest_time(const LoggedFrame& logged, std::uint64_t last_us,
+                                        const std::string& name);
+
+// One line, without its end.
+[[nodiscard]] std::string log_line(std::uint64_t time_us, std::string_view interface,
+                                   const hal::CanFrame& frame);
+
+// Appears whole, as every result: a run that is interrupted or fails leaves the earlier log. What
+// is no file, a pipe for instance, and standard output ("-") get it while it grows.
+class CanLogWriter {
+ public:
+  // All throw UserError when it cannot be written, and Interrupted where there is a file to remove.
+  CanLogWriter(const std::filesystem::path& path, std::string interface);
+
+  void write(std::uint64_t time_us, const hal::CanFrame& frame);
+  void finish();
+
+ private:
+  void check() const;
+
+  std::optional<FileDraft> draft_;            // none: standard output
+  std::optional<Interruption> interruption_;  // while there is a file to remove
+  std::string interface_;
+};
+
+}  // namespace volcomp::sim

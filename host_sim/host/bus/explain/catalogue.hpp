@@ -1,0 +1,42 @@
+#pragma once
+// Everything that a volcomp machine may say by a name or a number, in one list; and the pages of
+// the documentation that are made from it.
+
+#include <string>
+#include <vector>
+
+#include "host_sim/host/bus/device_files/eds_objects.hpp"
+
+namespace volcomp::sim {
+
+enum class CodeKind { reason, status_bit, emergency, verdict, abort };
+
+struct CodeEntry {
+  CodeKind kind = CodeKind::reason;
+  unsigned number = 0;
+  std::string label;   // the number as it is written: 7, bit 3, FF10h, 0601 0002h
+  std::string name;    // machine-readable; empty where there is none
+  std::string what;    // what happened
+  std::string why;     // may be empty
+  std::string remedy;  // likewise
+};
+
+[[nodiscard]] std::vector<CodeEntry> code_catalogue();
+
+[[nodiscard]] const char* title(CodeKind kind);
+
+// Markdown.
+[[nodiscard]] std::string reason_page();
+[[nodiscard]] std::string object_page();
+
+struct Meaning {
+  std::vector<CodeEntry> codes;
+  std::vector<EdsObject> objects;
+};
+
+// What is known of a word: a name ("crc_mismatch"), the number of a reason or verdict ("20"), an
+// emergency code or object ("FF10h", "0x2202"), an abort code ("06010002"). Empty if nothing is.
+[[nodiscard]] Meaning meaning_of(const std::string& typed);
+[[nodiscard]] std::string meaning_text(const Meaning& meaning);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,23 @@
+#pragma once
+// Objects of the node for people: as a section of a page, and for a terminal.
+
+#include <string>
+#include <vector>
+
+#include "host_sim/host/bus/device_files/eds_objects.hpp"
+
+namespace volcomp::sim {
+
+// Neighbours that differ by nothing but a number stand together: PDO parameters, learned tables,
+// counters of the axes.
+[[nodiscard]] std::vector<std::vector<EdsObject>> objects_alike();
+
+[[nodiscard]] std::string object_section(const std::vector<EdsObject>& group);
+[[nodiscard]] std::string object_text(const EdsObject& object);
+
+// "u16"
+[[nodiscard]] const char* type_name(canopen::DataType type);
+// Empty where there is nothing to tell.
+[[nodiscard]] const char* purpose_of(const EdsObject& object);
+
+}  // namespace volcomp::sim

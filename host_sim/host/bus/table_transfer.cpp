@@ -1,0 +1,108 @@
+#include "host_sim/host/bus/table_transfer.hpp"
+
+#include <array>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "firmware/node/store/storage.hpp"
+#include "firmware/node/tables/table_download.hpp"
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::sim {
+
+using canopen::AbortCode;
+using node::table_verdict;
+using node::TableCommand;
+
+namespace {
+
+// The node's reason says more than the abort code, where there is one.
+void command(NodeClient& client, TableCommand what, const char* name) {
+  try {
+    client.write(node::kTableCommand, {static_cast<std::uint8_t>(what)}, name);
+  } catch (const NodeRefused& refused) {
+    if (refused.code == AbortCode::general)
+      throw NodeRefused(fmt::format("node {}: {}: {} [abort {:08X}h]", client.node_id(), name,
+                                    refusal(client), static_cast<std::uint32_t>(refused.code)),
+                        refused.code);
+    throw;
+  }
+}
+
+std::string why_not_saved(NodeClient& client) {
+  const auto result = static_cast<node::StoreResult>(
+      client.read_value<std::uint8_t>({0x2600, 12}, "result of the save"));
+  return result == node::StoreResult::nothing_stored ? "the node has no store" : sentence(result);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> read_image_file(const std::filesystem::path& path) {
+  InputFile file(path);
+  const std::string image = file.beginning(node::kImageCapacity + 1);
+  if (image.empty()) throw UserError(fmt::format("{}: is empty", file.name()));
+  if (image.size() > node::kImageCapacity)
+    throw UserError(fmt::format("{}: is larger than any table image ({} bytes)", file.name(),
+                                node::kImageCapacity));
+  return {image.begin(), image.end()};
+}
+
+void send_image(NodeClient& client, const std::vector<std::uint8_t>& image,
+                const NodeClient::Progress& progress) {
+  client.write(node::kTableImage, image, "table image", progress);
+}
+
+std::vector<std::uint8_t> fetch_image(NodeClient& client) {
+  return client.read(node::kTableImage, node::kImageCapacity, "table image");
+}
+
+void arm_tables(NodeClient& client) {
+  command(client, TableCommand::validate, "check of the tables");
+  command(client, TableCommand::arm, "preparation of the tables");
+}
+
+void activate_tables(NodeClient& client) {
+  command(client, TableCommand::activate, "activation of the tables");
+}
+
+void store_all(NodeClient& client) {
+  try {
+    client.write({0x1010, 1}, {'s', 'a', 'v', 'e'}, "saving");
+  } catch (const NodeRefused& refused) {
+    if (refused.code == AbortCode::device_state)
+      throw NodeRefused(fmt::format("node {}: saving: only while the machine stands and the node "
+                                    "is not OPERATIONAL",
+                                    client.node_id()),
+                        refused.code);
+    if (refused.code == AbortCode::hardware)
+      throw NodeRefused(fmt::format("node {}: saving: {}", client.node_id(), why_not_saved(client)),
+                        refused.code);
+    throw;
+  }
+}
+
+ActiveTables active_tables(NodeClient& client) {
+  return {
+      client.read_value<std::uint32_t>(table_verdict(7), "CRC of the active tables"),
+      client.read_value<std::uint32_t>(table_verdict(8), "sequence number of the active tables")};
+}
+
+std::string refusal(NodeClient& client) {
+  static constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
+  if (client.read_value<std::uint8_t>(table_verdict(2), "reason") == 0) return {};
+  const auto axis = client.read_value<std::uint8_t>(table_verdict(3), "axis of the refusal");
+  const auto index = client.read_value<std::int16_t>(table_verdict(4), "place of the refusal");
+  // -1, as all bits set, is beyond every channel.
+  const auto channel = client.read_value<std::uint8_t>(table_verdict(5), "channel of the refusal");
+  std::vector<std::string> place;
+  if (axis != 0) place.push_back(fmt::format("axis {}", static_cast<char>(axis)));
+  if (index >= 0) place.push_back(fmt::format("entry {}", index + 1));
+  if (channel < kChannels.size()) place.push_back(fmt::format("channel {}", kChannels[channel]));
+  const std::string text =
+      client.read_text(table_verdict(6), node::kMostReasonText, "reason in words");
+  return place.empty() ? text : fmt::format("{}: {}", fmt::join(place, ", "), text);
+}
+
+}  // namespace volcomp::sim

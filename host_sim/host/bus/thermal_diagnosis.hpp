@@ -1,0 +1,40 @@
+#pragma once
+// What a node says about temperatures, expansion of the axes and the expiry of its tables (2700h).
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "firmware/node/thermal/thermal_objects.hpp"
+#include "host_sim/host/bus/node_client.hpp"
+
+namespace volcomp::sim {
+
+struct TemperatureDiagnosis {
+  double latest_C = 0.0;  // as it came, believed or not
+  bool connected = false;
+  TemperatureState state{};
+};
+
+struct ThermalDiagnosis {
+  node::ThermalState state{};
+  double behind_um = 0.0;
+  std::uint32_t followed = 0;  // times the tables did
+  std::array<TemperatureDiagnosis, kTemperatureInputs> input{};
+  std::uint32_t unix_s = 0;          // 0: the node was not told
+  std::uint32_t expires_unix_s = 0;  // 0: never
+  bool expired = false;
+};
+
+// Nothing for a node that knows no temperatures. Throws as NodeClient::read.
+[[nodiscard]] std::optional<ThermalDiagnosis> diagnose_thermal(NodeClient& client);
+
+[[nodiscard]] std::string describe(const ThermalDiagnosis& diagnosis);
+[[nodiscard]] nlohmann::json to_json(const ThermalDiagnosis& diagnosis);
+
+// A date in words, UTC: "2030-01-01 00:00:00".
+[[nodiscard]] std::string date_text(std::int64_t unix_s);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,117 @@
+#include "host_sim/host/io/file_draft.hpp"
+
+#include <unistd.h>
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_link(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_symlink(path, ignored);
+}
+
+bool is_link_to_descriptor(const fs::path& link) {
+  std::error_code ignored;
+  return fs::weakly_canonical(link.parent_path(), ignored).string().rfind("/proc/", 0) == 0;
+}
+
+// root may write everything: a file without any permission to write stays as it is all the same.
+bool may_be_taken(const fs::path& place, const fs::file_status& there) {
+  constexpr fs::perms kAnyWrite =
+      fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+  if (!fs::exists(there)) return true;
+  return !fs::is_directory(there) && (there.permissions() & kAnyWrite) != fs::perms::none &&
+         ::access(place.c_str(), W_OK) == 0;
+}
+
+[[noreturn]] void refuse(const fs::path& path) {
+  throw UserError(fmt::format("{}: cannot be written", path.string()));
+}
+
+}  // namespace
+
+fs::path file_behind(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as Linux
+  fs::path file = path;
+  std::error_code ignored;
+  for (int i = 0; i < kMostLinks && is_link(file) && !is_link_to_descriptor(file); ++i)
+    file = file.parent_path() / fs::read_symlink(file, ignored);
+  return file;
+}
+
+bool is_written_directly(const fs::path& path) {
+  if (is_link(file_behind(path))) return true;  // a descriptor; a circle, which cannot be opened
+  std::error_code ignored;
+  return fs::is_other(path, ignored);
+}
+
+void require_place(const fs::path& path) {
+  if (is_written_directly(path)) return;
+  const fs::path place = file_behind(path);
+  const fs::path folder = place.has_parent_path() ? place.parent_path() : ".";
+  std::error_code ignored;
+  const bool lets_in = fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK) == 0;
+  if (!lets_in || !may_be_taken(place, fs::status(place, ignored))) refuse(path);
+}
+
+FileDraft::FileDraft(const fs::path& path) : path_(path), place_(file_behind(path)) {
+  if (is_written_directly(path)) {
+    stream_.open(path, std::ios::binary);
+  } else {
+    open_beside();
+  }
+  if (stream_) return;
+  discard();
+  refuse(path_);
+}
+
+FileDraft::FileDraft(FileDraft&& other) noexcept
+    : path_(std::move(other.path_)),
+      place_(std::move(other.place_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      stream_(std::move(other.stream_)) {}
+
+void FileDraft::open_beside() {
+  std::error_code failed;
+  const fs::file_status there = fs::status(place_, failed);
+  if (!may_be_taken(place_, there)) refuse(path_);
+  temporary_ = place_;
+  temporary_ += fmt::format(".{}.tmp", ::getpid());
+  stream_.open(temporary_, std::ios::binary);
+  // Before there is anything in it to be read.
+  if (stream_ && fs::exists(there)) fs::permissions(temporary_, there.permissions(), failed);
+}
+
+void FileDraft::write(std::string_view text) {
+  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream_) refuse(path_);
+}
+
+void FileDraft::complete() {
+  stream_.close();
+  if (!stream_) refuse(path_);
+}
+
+void FileDraft::put_in_place() {
+  if (temporary_.empty()) return;
+  std::error_code failed;
+  fs::rename(temporary_, place_, failed);
+  if (failed) refuse(path_);
+  temporary_.clear();
+}
+
+void FileDraft::discard() const {
+  if (temporary_.empty()) return;
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+}  // namespace volcomp::sim

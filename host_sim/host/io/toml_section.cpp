@@ -1,0 +1,119 @@
+#include "host_sim/host/io/toml_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::sim {
+
+TomlSection::TomlSection(const Value& value, std::string file, std::string name)
+    : value_(&value), file_(std::move(file)), name_(std::move(name)) {
+  if (!value.is_table()) fail(value, fmt::format("'{}' must be a table", name_));
+}
+
+void TomlSection::fail(const Value& at, const std::string& text) const {
+  throw UserError(fmt::format("{}:{}: {}", file_, at.location().line(), text));
+}
+
+void TomlSection::complain(const std::string& key, const std::string& text) const {
+  const Value* const at = find(key);
+  fail(at == nullptr ? *value_ : *at, text);
+}
+
+const TomlSection::Value* TomlSection::find(const std::string& key) const {
+  const auto& table = value_->as_table();
+  const auto it = table.find(key);
+  return it == table.end() ? nullptr : &it->second;
+}
+
+const TomlSection::Value& TomlSection::need(const std::string& key) const {
+  const Value* value = find(key);
+  if (value == nullptr)
+    fail(*value_, fmt::format("missing mandatory field '{}' in {} [missing_field]", key, name_));
+  return *value;
+}
+
+double TomlSection::finite(const Value& value, const std::string& key) const {
+  const double x = value.is_floating()  ? value.as_floating()
+                   : value.is_integer() ? static_cast<double>(value.as_integer())
+                                        : std::nan("");
+  if (!std::isfinite(x)) fail(value, fmt::format("'{}' must be a finite number", key));
+  return x;
+}
+
+double TomlSection::number(const std::string& key) const { return finite(need(key), key); }
+
+double TomlSection::number_or(const std::string& key, double fallback) const {
+  return has(key) ? number(key) : fallback;
+}
+
+long TomlSection::integer(const std::string& key, long lo, long hi) const {
+  const Value& v = need(key);
+  if (!v.is_integer() || v.as_integer() < lo || v.as_integer() > hi) {
+    fail(v, fmt::format("'{}' must be a whole number from {} to {}", key, lo, hi));
+  }
+  return static_cast<long>(v.as_integer());
+}
+
+long TomlSection::integer_or(const std::string& key, long fallback, long lo, long hi) const {
+  return has(key) ? integer(key, lo, hi) : fallback;
+}
+
+std::string TomlSection::text(const std::string& key) const {
+  const Value& v = need(key);
+  if (!v.is_string() || v.as_string().str.empty()) fail(v, fmt::format("'{}' must be a text", key));
+  return v.as_string().str;
+}
+
+std::size_t TomlSection::choice(const std::string& key,
+                                const std::vector<std::string>& words) const {
+  const std::string word = text(key);
+  const auto it = std::find(words.begin(), words.end(), word);
+  if (it == words.end()) {
+    complain(key,
+             fmt::format("'{}' is \"{}\", must be one of: {}", key, word, fmt::join(words, ", ")));
+  }
+  return static_cast<std::size_t>(it - words.begin());
+}
+
+std::vector<double> TomlSection::numbers(const std::string& key, std::size_t count) const {
+  const Value& v = need(key);
+  if (!v.is_array() || v.as_array().size() != count) {
+    fail(v, fmt::format("'{}' must be a list of {} numbers", key, count));
+  }
+  std::vector<double> out;
+  for (const Value& entry : v.as_array())
+    out.push_back(finite(entry, key));
+  return out;
+}
+
+TomlSection TomlSection::table(const std::string& key) const {
+  return {need(key), file_, "[" + key + "]"};
+}
+
+std::vector<TomlSection> TomlSection::tables(const std::string& key) const {
+  const Value& list = need(key);
+  if (!list.is_array() || list.as_array().empty())
+    fail(list, fmt::format("'{}' must be a list of tables", key));
+  std::vector<TomlSection> sections;
+  for (const Value& v : list.as_array())
+    sections.emplace_back(v, file_, "[[" + key + "]]");
+  return sections;
+}
+
+void TomlSection::allow_only(const std::vector<std::string>& keys) const {
+  for (const auto& [key, value] : value_->as_table()) {
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    fail(value,
+         fmt::format("unknown field '{}' in {} (known: {})", key, name_, fmt::join(keys, ", ")));
+  }
+}
+
+void TomlSection::check(const Status& status, const std::string& key) const {
+  if (!status.ok()) complain(key, describe(status));
+}
+
+}  // namespace volcomp::sim

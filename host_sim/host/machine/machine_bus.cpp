@@ -1,0 +1,120 @@
+#include "host_sim/host/machine/machine_bus.hpp"
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "firmware/node/wire_scale.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr long kLastNode = 127;
+constexpr long kMostUnits = 1L << 40;  // in one mm or turn
+
+struct Ratio {
+  long over = 1;
+  long under = 1;
+};
+
+// A whole number, or two of them that are a fraction.
+Ratio read_ratio(const TomlSection& s, const std::string& key) {
+  const auto whole = [&](const toml::value& v, long most) {
+    if (!v.is_integer() || v.as_integer() < 1 || v.as_integer() > most)
+      s.complain(key, fmt::format("'{}' must be a whole number above 0, or two of them [units, of "
+                                  "so many]",
+                                  key));
+    return static_cast<long>(v.as_integer());
+  };
+  const toml::value& v = s.need(key);
+  if (!v.is_array()) return {whole(v, kMostUnits), 1};
+  if (v.as_array().size() != 2)
+    s.complain(key, fmt::format("'{}' must be a number or a list of 2 numbers", key));
+  return {whole(v.as_array()[0], kMostUnits), whole(v.as_array()[1], node::kMostScale)};
+}
+
+// `inside`: run-time units in one mm or turn.
+void read_scale(const TomlSection& s, const std::string& key, long inside, DriveFile& drive) {
+  if (!s.has(key)) return;
+  const Ratio wire = read_ratio(s, key);
+  const long numerator = inside * wire.under;
+  const long common = std::gcd(numerator, wire.over);
+  const auto n = static_cast<std::uint64_t>(numerator / common);
+  const auto d = static_cast<std::uint64_t>(wire.over / common);
+  if (n > node::kMostScale || d > node::kMostScale) {
+    s.complain(key, fmt::format("'{}' makes a unit of the drive {}/{} of {}: neither may be above "
+                                "{}",
+                                key, n, d, inside == kUnitsPerTurn ? "2^-40 turn" : "a nanometre",
+                                node::kMostScale));
+  }
+  drive.scale_numerator = static_cast<std::uint32_t>(n);
+  drive.scale_denominator = static_cast<std::uint32_t>(d);
+}
+
+void check_range(const TomlSection& s, const AxisFile& axis, const DriveFile& drive) {
+  const double per_mm = kNmPerMm * drive.scale_denominator / drive.scale_numerator;
+  const double most = std::max(std::abs(axis.lo), std::abs(axis.hi)) * per_mm;
+  if (most <= 2147483647.0) return;
+  s.complain("travel_mm", fmt::format("{:.0f} units of the drive at the end of the travel of axis "
+                                      "{} do not fit into its 32 bits",
+                                      most, axis.letter));
+}
+
+void read_software_limits(const TomlSection& s, const AxisFile& axis, DriveFile& drive) {
+  const auto limits = s.numbers<2>("software_limits_mm");
+  if (!(limits[0] <= axis.lo && limits[1] >= axis.hi))
+    s.complain("software_limits_mm", "'software_limits_mm' must be [low, high] around the travel");
+  drive.software_limits_mm = limits;
+}
+
+}  // namespace
+
+const std::vector<std::string>& drive_fields() {
+  static const std::vector<std::string> kFields{"node_id", "units_per_mm", "units_per_turn",
+                                                "software_limits_mm"};
+  return kFields;
+}
+
+DriveFile read_drive(const TomlSection& s, const AxisFile& axis, std::size_t number) {
+  DriveFile drive;
+  drive.node = static_cast<std::uint8_t>(
+      s.integer_or("node_id", static_cast<long>(number) + 1, 1, kLastNode));
+  if (axis.rotary) {
+    for (const char* const key : {"units_per_mm", "software_limits_mm"}) {
+      if (s.has(key)) s.complain(key, fmt::format("'{}' is for linear axes", key));
+    }
+    drive.scale_numerator = 512;  // 2^31 units per turn on the wire, 2^40 inside
+    read_scale(s, "units_per_turn", static_cast<long>(kUnitsPerTurn), drive);
+    return drive;
+  }
+  if (s.has("units_per_turn")) s.complain("units_per_turn", "'units_per_turn' is for rotary axes");
+  read_scale(s, "units_per_mm", static_cast<long>(kNmPerMm), drive);
+  check_range(s, axis, drive);
+  if (s.has("software_limits_mm")) read_software_limits(s, axis, drive);
+  return drive;
+}
+
+void read_bus(const TomlSection& top, MachineFile& file) {
+  if (top.has("bus")) {
+    const TomlSection s = top.table("bus");
+    s.allow_only({"node_id", "controller_id"});
+    file.bus.node = static_cast<std::uint8_t>(s.integer_or("node_id", file.bus.node, 1, kLastNode));
+    file.bus.controller =
+        static_cast<std::uint8_t>(s.integer_or("controller_id", file.bus.controller, 1, kLastNode));
+  }
+  std::map<int, std::string> owner{{file.bus.node, "the compensation node"}};
+  const auto claim = [&](int id, const std::string& who) {
+    const auto [at, first] = owner.emplace(id, who);
+    if (!first)
+      top.complain(top.has("bus") ? "bus" : "axis",
+                   fmt::format("{} and {} both have the node id {}", at->second, who, id));
+  };
+  claim(file.bus.controller, "the controller");
+  for (const AxisFile& axis : file.axes)
+    claim(axis.drive.node, fmt::format("axis {}", axis.letter));
+}
+
+}  // namespace volcomp::sim

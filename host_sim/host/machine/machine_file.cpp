@@ -1,0 +1,243 @@
+#include "host_sim/host/machine/machine_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "comp/metrology/tables/plausibility.hpp"
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/toml_text.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/machine/machine_bodies.hpp"
+#include "host_sim/host/machine/machine_bus.hpp"
+#include "host_sim/host/machine/machine_sections.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using Section = TomlSection;
+
+void allow_fields(const Section& s, bool in_chain) {
+  std::vector<std::string> fields{
+      "name",          "travel_mm",       "travel_rad", "targets",        "reference_mm",
+      "reference_rad", "sensed_point_mm", "kappa",      "latch_delay_us", "error_at_reference"};
+  fields.insert(fields.end(), drive_fields().begin(), drive_fields().end());
+  if (in_chain) fields.insert(fields.end(), joint_fields().begin(), joint_fields().end());
+  s.allow_only(fields);
+}
+
+// A turn as people write it, 6.2832, is a turn.
+void read_travel(const Section& s, AxisFile& axis) {
+  constexpr double kAsWritten_rad = 1e-4;
+  axis.rotary = s.has("travel_rad");
+  const std::string key = axis.rotary ? "travel_rad" : "travel_mm";
+  const auto travel = s.numbers<2>(key);
+  axis.lo = travel[0];
+  axis.hi = travel[1];
+  if (!(axis.lo < axis.hi)) s.complain(key, fmt::format("'{}' must be [low, high]", key));
+  if (!axis.rotary) return;
+  if (std::abs(axis.hi - axis.lo - 2.0 * kPi) < kAsWritten_rad) axis.hi = axis.lo + 2.0 * kPi;
+  if (axis.hi - axis.lo > 2.0 * kPi && !axis.full_turn())
+    s.complain(key, fmt::format("'{}' is more than one turn [travel_too_long]", key));
+}
+
+AxisFile read_axis(const Section& s, std::size_t number, bool in_chain) {
+  allow_fields(s, in_chain);
+  AxisFile axis;
+  axis.letter = letter_of(s, "name");
+  read_travel(s, axis);
+  axis.targets =
+      static_cast<std::size_t>(s.integer_or("targets", 11, 2, static_cast<long>(kTableKnots)));
+  const std::string reference_key = axis.rotary ? "reference_rad" : "reference_mm";
+  axis.reference = s.number(reference_key);
+  if (axis.reference < axis.lo || axis.reference > axis.hi) {
+    s.complain(reference_key,
+               fmt::format("'{}' lies outside the travel [reference_out_of_range]", reference_key));
+  }
+  const auto point = s.numbers<3>("sensed_point_mm");
+  s.check(check_offset("sensed_point_mm", point), "sensed_point_mm");
+  axis.sensed.at_zero = Vec3(point[0], point[1], point[2]);
+  axis.sensed.kappa = static_cast<int>(s.integer("kappa", -1, 1));
+  axis.latch_delay_us = read_delay_us(s, "latch_delay_us");
+  axis.drive = read_drive(s, axis, number);
+  if (s.has("error_at_reference")) axis.at_reference = read_error(s, "error_at_reference");
+  return axis;
+}
+
+// Letters of up to `most` axes.
+std::vector<std::uint8_t> read_letters(const Section& s, const char* key, std::size_t most,
+                                       const char* what, const MachineFile& file) {
+  const toml::value& letters = s.need(key);
+  if (!letters.is_array() || letters.as_array().empty() || letters.as_array().size() > most)
+    s.complain(key, fmt::format("'{}' must list one to {} {} axes", key, most, what));
+  std::vector<std::uint8_t> axes;
+  for (const toml::value& v : letters.as_array()) {
+    if (!v.is_string() || v.as_string().str.size() != 1)
+      s.complain(key, fmt::format("'{}' must be letters", key));
+    axes.push_back(static_cast<std::uint8_t>(file.axis_index(v.as_string().str[0])));
+  }
+  return axes;
+}
+
+// Of axes that are not among the correcting ones.
+std::vector<std::uint8_t> read_orienting(const Section& s, const MachineFile& file,
+                                         const std::vector<std::uint8_t>& correcting) {
+  if (!s.has("orienting")) return {};
+  auto axes = read_letters(s, "orienting", kMaxOrienting, "orienting", file);
+  std::set<std::uint8_t> taken(correcting.begin(), correcting.end());
+  for (const std::uint8_t a : axes) {
+    const AxisFile& axis = file.axes[a];
+    if (!axis.rotary)
+      s.complain(
+          "orienting",
+          fmt::format("{} does not turn: it cannot orient the tool [cannot_orient]", axis.letter));
+    if (!taken.insert(a).second)
+      s.complain("orienting", fmt::format("{} takes another offset already", axis.letter));
+  }
+  return axes;
+}
+
+void read_correction(const Section& top, MachineFile& file, MachineDescription& d) {
+  const Section s = top.table("correction");
+  s.allow_only({"axes", "orienting", "limit_mm", "rate_mm_per_s", "hysteresis_mm",
+                "max_speed_mm_per_s", "limit_rad", "rate_rad_per_s", "hysteresis_rad",
+                "max_speed_rad_per_s", "ramp_s", "tick_hz"});
+  const auto correcting = read_letters(s, "axes", kMaxCorrecting, "correcting", file);
+  for (const std::uint8_t axis : correcting)
+    d.correcting.at(d.correcting_count++) = axis;
+  for (const std::uint8_t axis : read_orienting(s, file, correcting))
+    d.orienting.at(d.orienting_count++) = axis;
+  read_correction_values(s, file.correction);
+}
+
+void read_tables(const Section& s, MachineFile& file) {
+  s.allow_only({"refine", "interpolation"});
+  file.refine = static_cast<std::size_t>(s.integer_or("refine", 8, 1, 64));
+  if (s.has("interpolation")) {
+    file.interpolation =
+        static_cast<Interpolation>(s.choice("interpolation", {"linear", "catmull_rom", "pchip"}));
+  }
+}
+
+void expect_new_letter(const Section& s, const MachineFile& file) {
+  const char letter = file.axes.back().letter;
+  if (file.axis_index(letter) + 1 < file.axes.size())
+    s.complain("name", fmt::format("there are two axes {}", letter));
+}
+
+MachineFile read_machine(const toml::value& root, const std::string& name) {
+  const Section top(root, name, "the machine file");
+  top.allow_only({"name", "id", "convention", "side", "chain", "tool", "work", "body", "axis",
+                  "correction", "tables", "squareness", "thermal", "probe", "gear", "wheel",
+                  "stroke", "bus"});
+  MachineFile file;
+  file.path = name;
+  file.name = top.text("name");
+  file.id = static_cast<std::uint32_t>(top.integer("id", 1, 0xFFFFFFFFL));
+  file.convention =
+      top.choice("convention", {"relative", "body"}) == 0 ? Convention::relative : Convention::body;
+  file.side = static_cast<Side>(top.choice("side", {"moving", "fixed", "base"}));
+  for (const Section& s : top.tables("axis")) {
+    if (file.axes.size() == kMaxAxes)
+      s.complain("name", fmt::format("more than {} axes", kMaxAxes));
+    file.axes.push_back(read_axis(s, file.axes.size(), top.has("chain") || !top.has("body")));
+    expect_new_letter(s, file);
+  }
+
+  MachineDescription d;
+  read_bodies(top, file, d);
+  const Section tool = top.table("tool");
+  if (top.has("chain")) {
+    tool.allow_only({"point_mm"});
+  } else {
+    tool.allow_only({"body", "point_mm"});
+  }
+  d.tool_point = tool.numbers<3>("point_mm");
+  tool.check(check_offset("point_mm", d.tool_point), "point_mm");
+  read_correction(top, file, d);
+  require(MachineChain::build(d, file.chain), name);
+  if (file.chain.axis_count() != file.axes.size())
+    top.complain("axis", "every [[axis]] needs exactly one [[body]] that it moves");
+  read_bus(top, file);
+  if (top.has("tables")) read_tables(top.table("tables"), file);
+  if (top.has("thermal")) file.thermal = read_thermal(top.table("thermal"), file);
+  if (top.has("probe")) file.probe = read_probe(top.table("probe"));
+  if (top.has("gear") || top.has("wheel") || top.has("stroke")) file.grinding = read_grinding(top);
+  if (top.has("squareness")) file.squareness = read_squareness(top.table("squareness"));
+  return file;
+}
+
+}  // namespace
+
+bool AxisFile::full_turn() const { return rotary && std::abs(hi - lo - 2.0 * kPi) < 1e-9; }
+
+std::vector<double> SquarenessFile::line(std::size_t axis) const {
+  std::vector<double> positions;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(points - 1);
+    positions.push_back(segment.at(axis)[0] + s * (segment.at(axis)[1] - segment.at(axis)[0]));
+  }
+  return positions;
+}
+
+void MachineFile::expect_axes(const std::string& letters) const {
+  std::string found;
+  for (const AxisFile& axis : axes)
+    found += axis.letter;
+  if (found == letters) return;
+  throw UserError(fmt::format("{}: the axes must be {}, not {}", path, fmt::join(letters, " "),
+                              fmt::join(found, " ")));
+}
+
+std::size_t MachineFile::axis_index(char letter) const {
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    if (axes[a].letter == letter) return a;
+  }
+  throw UserError(fmt::format("{}: there is no axis {}", path, letter));
+}
+
+MachineFile parse_machine(const std::string& text, const std::string& name) {
+  return read_toml(text, name, [&](const toml::value& root) { return read_machine(root, name); });
+}
+
+MachineFile read_machine_file(const std::filesystem::path& path) {
+  return parse_machine(text_of_file(path), shown_name(path));
+}
+
+namespace {
+
+// An installed program has them beside it, one that was just built in its source folder.
+std::filesystem::path machines_folder() {
+  if (const char* const folder = std::getenv("VOLCOMP_MACHINES"); folder != nullptr) return folder;
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  auto installed = self.parent_path().parent_path() / "share/volcomp/machines";
+  return std::filesystem::exists(installed, error) ? installed : VOLCOMP_MACHINES_DIR;
+}
+
+}  // namespace
+
+std::vector<std::string> bundled_machines() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(machines_folder(), error)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::filesystem::path bundled_machine(const std::string& name) {
+  std::filesystem::path path = machines_folder() / (name + ".toml");
+  if (!std::filesystem::exists(path)) {
+    throw UserError(fmt::format(
+        "{}: no such machine file (set VOLCOMP_MACHINES or give --machine FILE)", path.string()));
+  }
+  return path;
+}
+
+}  // namespace volcomp::sim

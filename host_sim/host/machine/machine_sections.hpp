@@ -1,0 +1,29 @@
+#pragma once
+// The tables of a machine file that stand by themselves. A value outside its range throws UserError
+// with file and line.
+
+#include "host_sim/host/io/toml_section.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
+
+namespace volcomp::sim {
+
+// Limits, rates and times of [correction].
+void read_correction_values(const TomlSection& s, CorrectionFile& c);
+
+[[nodiscard]] SquarenessFile read_squareness(const TomlSection& s);
+
+// Of a machine whose axes and chain are known.
+[[nodiscard]] ThermalFile read_thermal(const TomlSection& s, const MachineFile& machine);
+
+[[nodiscard]] ProbeFile read_probe(const TomlSection& s);
+
+// [gear], [wheel] and [stroke] of the whole file.
+[[nodiscard]] GrindingFile read_grinding(const TomlSection& top);
+
+// Six numbers in mm and rad: where a body or an axis is and how it lies.
+[[nodiscard]] ErrorMotion read_error(const TomlSection& s, const std::string& key);
+
+// 0…1000; 0 where nothing is said.
+[[nodiscard]] double read_delay_us(const TomlSection& s, const std::string& key);
+
+}  // namespace volcomp::sim

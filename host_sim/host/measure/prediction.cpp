@@ -1,0 +1,100 @@
+#include "host_sim/host/measure/prediction.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "comp/tables/runtime_chain.hpp"
+#include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr double kLengthTolerance_mm = 0.5;
+
+// The two ends of a diagonal in the box: P runs an axis up, N down; an axis without sign stays in
+// the middle.
+Diagonal diagonal_of(const DiagonalBox& box, const std::string& name) {
+  std::array<int, 3> sign{};
+  if (name.find_first_not_of("PN") == std::string::npos) {
+    for (std::size_t k = 0; k < 3; ++k)
+      sign.at(k) = name[k] == 'P' ? 1 : -1;
+  } else {
+    sign.at(static_cast<std::size_t>(name[0] - 'X')) = 1;
+    sign.at(static_cast<std::size_t>(name[1] - 'X')) = name[2] == '+' ? 1 : -1;
+  }
+  Diagonal d;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double middle = 0.5 * (box.lo(i) + box.hi(i));
+    d.start(i) = sign.at(k) == 0 ? middle : sign.at(k) > 0 ? box.lo(i) : box.hi(i);
+    d.end(i) = sign.at(k) == 0 ? middle : sign.at(k) > 0 ? box.hi(i) : box.lo(i);
+  }
+  return d;
+}
+
+// The id is a number that somebody typed, so it does not say that the machine is the same.
+void require_same_machine(const MachineTables& tables, const std::string& image,
+                          const MachineFile& machine) {
+  if (tables.provenance.machine_id != machine.id)
+    throw UserError(fmt::format("{}: tables of machine {}, {} describes machine {}", image,
+                                tables.provenance.machine_id, machine.path, machine.id));
+  if (!same_chain(make_runtime_chain(tables.machine),
+                  make_runtime_chain(machine.chain.description())))
+    throw UserError(fmt::format(
+        "{}: tables of another chain of bodies than {} describes: axes, senses, offsets or what "
+        "corrects differ",
+        image, machine.path));
+}
+
+}  // namespace
+
+TablesModel::TablesModel(const MachineFile& machine, const std::filesystem::path& image,
+                         DiagonalBox box)
+    : box_(std::move(box)),
+      axis_{machine.axis_index('X'), machine.axis_index('Y'), machine.axis_index('Z')} {
+  const std::unique_ptr<MachineTables> tables = read_tables_file(image);
+  require_same_machine(*tables, shown_name(image), machine);
+  tables_ = table_model(*tables, shown_name(image));
+}
+
+std::vector<double> TablesModel::deviations_um(const std::string& diagonal,
+                                               const std::vector<double>& distance_mm) const {
+  const Diagonal d = diagonal_of(box_, diagonal);
+  if (distance_mm.back() > d.length() + kLengthTolerance_mm || distance_mm.front() < 0.0)
+    throw UserError(fmt::format(
+        "diagonal {} is {:.3f} mm long between the corners of the box, measured were {:g} to {:g} "
+        "mm; --box-mm says where it lies",
+        diagonal, d.length(), distance_mm.front(), distance_mm.back()));
+  const VolumetricModel& model = tables_.model;
+  const bool rotary = model.chain.has_rotary();
+  const auto error_along = [&](double distance) {
+    const Vec3 p = d.at(distance / d.length());
+    Pose q{};
+    for (std::size_t k = 0; k < 3; ++k)
+      q.at(axis_.at(k)) = p(static_cast<Eigen::Index>(k));
+    const Vec3 error = rotary ? model.second_order(q, kUnknownTravels, Beyond::stand_at_end)
+                              : model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
+    return kUmPerMm * d.direction().dot(error);
+  };
+  std::vector<double> deviations;
+  deviations.reserve(distance_mm.size());
+  const double first = error_along(distance_mm.front());
+  for (const double distance : distance_mm)
+    deviations.push_back(error_along(distance) - first);
+  return deviations;
+}
+
+DiagonalBox travel_of(const MachineFile& machine) {
+  DiagonalBox box;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const AxisFile& axis = machine.axes.at(machine.axis_index(static_cast<char>('X' + k)));
+    box.lo(k) = axis.lo;
+    box.hi(k) = axis.hi;
+  }
+  return box;
+}
+
+}  // namespace volcomp::sim

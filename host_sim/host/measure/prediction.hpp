@@ -1,0 +1,47 @@
+#pragma once
+// What the tables in a node say a diagonal should show once they compensate it.
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "comp/metrology/tables/diagonals.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
+#include "host_sim/host/tables/table_model.hpp"
+
+namespace volcomp::sim {
+
+// The model of a table image in double.
+class TablesModel {
+ public:
+  // `box`: corners between which the diagonals were measured, mm. Throws UserError naming the
+  // image: refused, or of another machine or chain than the file describes.
+  TablesModel(const MachineFile& machine, const std::filesystem::path& image, DiagonalBox box);
+  TablesModel(TablesModel&&) = default;
+  TablesModel& operator=(TablesModel&&) = default;
+  TablesModel(const TablesModel&) = delete;
+  TablesModel& operator=(const TablesModel&) = delete;
+  ~TablesModel() = default;
+
+  // Deviation that the machine has without compensation as far as the tables know, µm, relative to
+  // the first distance. Throws UserError when the diagonal is not as long as the box says.
+  [[nodiscard]] std::vector<double> deviations_um(const std::string& diagonal,
+                                                  const std::vector<double>& distance_mm) const;
+
+ private:
+  DiagonalBox box_;
+  std::array<std::size_t, 3> axis_{};  // of X, Y and Z
+  TableModel tables_;
+};
+
+// Corners of the travel of X, Y and Z.
+[[nodiscard]] DiagonalBox travel_of(const MachineFile& machine);
+
+struct PredictedDiagonal {
+  std::vector<double> after_um;    // measured before, less the model
+  double max_difference_um = 0.0;  // of what was measured after from it
+  double rms_difference_um = 0.0;
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,39 @@
+#include "host_sim/host/report/document.hpp"
+
+#include <utility>
+
+#include "host_sim/sim/controller/tick_tables.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using nlohmann::json;
+
+void add_chapter(json& sections, const char* chapter, json added) {
+  for (json& section : added) {
+    section["chapter"] = chapter;
+    sections.push_back(std::move(section));
+  }
+}
+
+}  // namespace
+
+json report_document(ReportParts parts) {
+  json sections = json::array();
+  if (!parts.before_after.is_null())
+    add_chapter(sections, "Result", json::array({std::move(parts.before_after)}));
+  add_chapter(sections, "Plots", std::move(parts.plots));
+  add_chapter(sections, "Details", std::move(parts.details));
+  if (parts.ticks != nullptr && parts.ticks->periods() > 0)
+    add_chapter(sections, "Tick statistics", tick_tables(*parts.ticks));
+  json document{{"title", parts.title},
+                {"subtitle", parts.subtitle},
+                {"sections", std::move(sections)},
+                {"provenance", std::move(parts.provenance["rows"])},
+                {"inputs", std::move(parts.provenance["inputs"])}};
+  if (parts.verdict)
+    document["verdict"] = {{"ok", parts.verdict->ok}, {"text", parts.verdict->text}};
+  return document;
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,56 @@
+#pragma once
+// One design for the reports of all scenarios: what stands in them, in which order, below which
+// heading. docs/report.md says how to read them, host_sim/host/report/page/README.md what a section
+// may be.
+//
+// A scenario fills ReportParts from its result and hands it to report_document():
+//
+//   ReportParts parts;
+//   parts.title = "…";
+//   parts.verdict = my_verdict(result);
+//   parts.before_after = before_after_table({{"largest deviation", 41.2, 0.4}}, "…");
+//   parts.plots = {volume_map(…), positioning_group(…), error_functions_group(…)};
+//   parts.details = {my_table(result)};
+//   parts.ticks = run.ticks;
+//   parts.provenance = provenance(run, my_origins(result));
+//   return report_document(std::move(parts));
+//
+// Parts for everybody are beside this file: before_after, positioning (ISO 230-2), error_functions,
+// volume, tick_tables, provenance; ../report_parts.hpp has the small ones. Every number comes from
+// the result: a text that names one is made with fmt. The command (cli/run_options.hpp) gives
+// RunContext: a RunView is the MachineWatch of every machine of the run, `watched()` of
+// controller/bus_axes.hpp and `watched_integrated_cells()` show machines to it; write_pages() ends
+// the run. Who has no control periods leaves `ticks` out, and the report its statistics.
+
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/host/report/progress.hpp"
+#include "host_sim/sim/controller/tick_statistics.hpp"
+
+namespace volcomp::sim {
+
+// What a report has to know of the run besides its result.
+struct RunContext {
+  std::string command;    // as the user has typed it
+  std::string transport;  // where the compensation was done; empty: nothing was compensated
+  const TickStatistics* ticks = nullptr;
+};
+
+struct ReportParts {
+  std::string title;
+  std::string subtitle;
+  std::optional<Verdict> verdict;                  // none: nothing was to be judged
+  nlohmann::json before_after;                     // before_after.hpp; null: none
+  nlohmann::json plots = nlohmann::json::array();  // what was measured
+  nlohmann::json details = nlohmann::json::array();
+  const TickStatistics* ticks = nullptr;
+  nlohmann::json provenance;  // provenance.hpp
+};
+
+// Before and after, plots, details, tick statistics, provenance.
+[[nodiscard]] nlohmann::json report_document(ReportParts parts);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,64 @@
+#include "host_sim/host/report/error_functions.hpp"
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kMicroPerUnit = 1e6;  // µrad in a rad
+constexpr Eigen::Index kLengths = 3;   // before the angles
+
+json curve(const ErrorCurves& axis, const std::vector<double>& x, Eigen::Index channel) {
+  const double scale = channel < kLengths ? kUmPerMm : kMicroPerUnit;
+  std::vector<double> y;
+  for (const ErrorMotion& e : axis.value)
+    y.push_back(scale * e(channel));
+  json series = series_of(kChannels.at(static_cast<std::size_t>(channel)), x, y);
+  if (axis.half_width.empty()) return series;
+  std::vector<double> low = y;
+  std::vector<double> high = y;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double half = scale * axis.half_width.at(i)(channel);
+    low[i] -= half;
+    high[i] += half;
+  }
+  series["band"] = {{"lo", low}, {"hi", high}};
+  return series;
+}
+
+json chart(const ErrorCurves& axis, bool angles) {
+  std::vector<double> x = axis.at;
+  if (axis.rotary) {
+    for (double& place : x)
+      place *= 180.0 / kPi;
+  }
+  json series = json::array();
+  for (Eigen::Index c = angles ? kLengths : 0; c < (angles ? 2 * kLengths : kLengths); ++c)
+    series.push_back(curve(axis, x, c));
+  return {{"type", "lines"},
+          {"id", fmt::format("function-{}-{}", axis.letter, angles ? "angles" : "lengths")},
+          {"title", fmt::format("{}: {}", axis.letter, angles ? "angles" : "displacements")},
+          {"x", axis_label("position", axis.rotary ? "deg" : "mm")},
+          {"y", axis_label("error", angles ? "µrad" : "µm")},
+          {"series", series}};
+}
+
+}  // namespace
+
+json error_functions_group(const std::string& title, const std::vector<ErrorCurves>& axes,
+                           const std::string& note) {
+  json charts = json::array();
+  for (const ErrorCurves& axis : axes) {
+    charts.push_back(chart(axis, false));
+    charts.push_back(chart(axis, true));
+  }
+  return {
+      {"type", "group"}, {"id", "functions"}, {"title", title}, {"charts", charts}, {"note", note}};
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,73 @@
+#pragma once
+// From a machine file and measured runs to the tables of the machine: the road of a user's own
+// data.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "comp/metrology/tables/table_builder.hpp"
+#include "comp/metrology/tables/volumetric_model.hpp"
+#include "comp/tables/machine_tables.hpp"
+#include "comp/tick/compensator.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
+#include "host_sim/host/tables/runs_csv.hpp"
+
+namespace volcomp::sim {
+
+// Which model of the paper the tables are for (seed 001 section 2.1).
+enum class ModelKind : std::uint8_t {
+  naive,        // no Abbe offsets, measured values as they are, squareness as rotations
+  abbe,         // reading heads and sensed points, squareness as measured
+  abbe_closed,  // the same with the squareness closure: the product's model
+};
+
+struct CommissionOptions {
+  ModelKind model = ModelKind::abbe_closed;
+  SlopeFit slope = SlopeFit::least_squares;
+  bool allow_resampling = true;
+  std::size_t refine = 0;             // 0: as the machine file says
+  std::size_t knots = kDefaultKnots;  // per table: what the node has room for; refines less
+  bool bound = true;                  // compute model_bound_nm: dearer than all the rest together
+};
+
+// For callers that want the tables of a model and nothing else.
+[[nodiscard]] inline CommissionOptions tables_only(ModelKind model,
+                                                   std::size_t knots = kDefaultKnots) {
+  CommissionOptions options;
+  options.model = model;
+  options.knots = knots;
+  options.bound = false;
+  return options;
+}
+
+// How far the measured ends of a full turn were apart, largest of both directions, before the turn
+// was closed.
+struct TurnGap {
+  double mm = 0.0;
+  double rad = 0.0;
+};
+
+// Owns everything its parts refer to: the model points at the tables beside it.
+struct Commissioned {
+  MachineChain chain;                                // of the chosen model
+  std::vector<std::unique_ptr<BuiltTable>> built;    // by NC axis, as measured and averaged
+  std::vector<std::unique_ptr<ErrorTable>> refined;  // internal convention, what is quantised
+  std::vector<std::optional<TurnGap>> gaps;          // by NC axis, of full turns
+  VolumetricModel model;
+  XyfzSquareness apparent;    // what the tables show at the place of the ball bar
+  XyfzSquareness parameters;  // what goes into the model
+  MachineTables tables;
+  double model_bound_nm = 0.0;        // first-order run-time model against the exact chain, 0 if
+                                      // not asked for
+  std::vector<std::string> warnings;  // in words
+};
+
+// One run file per axis of the machine. Throws UserError naming file and place.
+[[nodiscard]] std::unique_ptr<Commissioned> commission(const MachineFile& machine,
+                                                       const std::vector<RunsFile>& runs,
+                                                       const CommissionOptions& options);
+
+[[nodiscard]] std::vector<std::uint8_t> make_image(const MachineTables& tables);
+
+}  // namespace volcomp::sim

@@ -1,0 +1,25 @@
+#pragma once
+// Half a world of material behind a plane.
+
+#include <utility>
+
+#include "host_sim/sim/artefacts/artefact.hpp"
+
+namespace volcomp::sim {
+
+class Plane final : public Artefact {
+ public:
+  // `outward`: any length but zero.
+  Plane(Vec3 point, const Vec3& outward)
+      : point_(std::move(point)), normal_(outward.normalized()) {}
+
+  [[nodiscard]] Gap gap(const Vec3& centre, double ball_radius) const override {
+    return {normal_.dot(centre - point_) - ball_radius, normal_};
+  }
+
+ private:
+  Vec3 point_;
+  Vec3 normal_;
+};
+
+}  // namespace volcomp::sim

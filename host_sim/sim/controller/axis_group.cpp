@@ -1,0 +1,32 @@
+#include "host_sim/sim/controller/axis_group.hpp"
+
+#include <utility>
+
+namespace volcomp::sim {
+
+void AxisGroup::watch(MachineWatch& watch, std::string letters, const AxisKinds& kinds) {
+  watch_ = &watch;
+  letters_ = std::move(letters);
+  kinds_ = kinds;
+  snapshot_ = {};
+  snapshot_.machine = watch.enter();
+}
+
+void AxisGroup::show() {
+  if (watch_ == nullptr) return;
+  MachineSnapshot& s = snapshot_;
+  ++s.cycle;
+  s.period_s = period_s();
+  s.axes = kinds_.count;
+  const Targets targets = target();
+  const Offsets offsets = offset();
+  const Pose pose = position();
+  const Latches latched = latches();
+  for (std::size_t a = 0; a < s.axes; ++a)
+    s.axis[a] = {letters_.at(a), kinds_.rotary[a], targets[a],   offsets[a],
+                 pose[a],        latched[a].count, std::nullopt, std::nullopt};
+  add_states(s);
+  watch_->cycle(s);
+}
+
+}  // namespace volcomp::sim

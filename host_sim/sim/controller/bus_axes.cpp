@@ -1,0 +1,312 @@
+#include "host_sim/sim/controller/bus_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr std::uint64_t kSyncPhase_ns = 300'000;  // after SYNC, before the targets are sent
+constexpr std::size_t kGatewayMailboxes = 4096;
+constexpr std::uint64_t kAnswerTimeout_us = 5'000'000;
+constexpr std::uint32_t kWait_us = 200;
+
+AxisKinds kinds_of(const BusSettings& settings) {
+  AxisKinds kinds;
+  kinds.count = settings.axes.size();
+  for (std::size_t a = 0; a < kinds.count; ++a)
+    kinds.rotary.at(a) = settings.axes[a].rotary;
+  return kinds;
+}
+
+// 60A8h of a drive whose unit is so many nanometres: metres where it is a power of ten.
+std::uint32_t position_unit(double nm) {
+  const double power = std::log10(nm);
+  if (std::abs(power - std::round(power)) > 1e-9) return kIncrement;
+  const auto prefix = static_cast<std::uint8_t>(static_cast<int>(std::round(power)) - 9);
+  return std::uint32_t{prefix} << 24U | (kNanometre & 0x00FF'0000U);
+}
+
+// What a drive has in its units, in those of this axis: the machine behind it is the same.
+void count_as(const BusAxis& axis, Cia402Drive::Settings& s) {
+  const DriveScale scale =
+      axis.counts_otherwise.value_or(DriveScale{axis.scale_numerator, axis.scale_denominator});
+  const std::uint32_t usual = axis.rotary ? 512 : 1;
+  if (scale.numerator == usual && scale.denominator == 1) return;
+  const double size = static_cast<double>(scale.numerator) / scale.denominator;
+  const double more = usual / size;  // units of the drive in a usual one
+  const auto scaled = [more](std::uint32_t value) {
+    return static_cast<std::uint32_t>(std::clamp(std::round(value * more), 1.0, 4294967295.0));
+  };
+  s.following_window = scaled(s.following_window);
+  s.deceleration = scaled(s.deceleration);
+  s.units.presliding *= more;
+  if (axis.rotary) {
+    s.units.units_per_turn *= more;
+  } else {
+    s.units.mm_per_unit = size / kNmPerMm;
+    s.units.position_unit = position_unit(size);
+  }
+}
+
+BusSettings lock_step(BusSettings settings) {
+  constexpr std::uint32_t kDeadline_us = 60'000'000;
+  settings.deadline_us = kDeadline_us;
+  settings.status_every_cycle = true;
+  settings.heartbeat_timeout_ms = 30'000;
+  return settings;
+}
+
+}  // namespace
+
+BusAxes::BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& image,
+                 hal::FrameLength length)
+    : period_us_(settings.period_us),
+      bus_(length),
+      controller_(settings, image),
+      node_(std::make_unique<node::Node>(settings.node, nullptr)) {
+  build(settings);
+  node_port_ = &bus_.attach(*node_, "node");
+  node_->power_on(0);
+}
+
+BusAxes::BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& image,
+                 CanGateway& gateway)
+    : period_us_(settings.period_us), controller_(lock_step(settings), image), gateway_(&gateway) {
+  build(settings);
+  gateway_port_ = &bus_.attach_served("gateway", {}, kGatewayMailboxes);
+}
+
+void BusAxes::build(const BusSettings& settings) {
+  if (settings.axes.empty() || settings.axes.size() > kMostAxes)
+    throw UserError(fmt::format("the simulated bus takes 1 to {} axes, the machine has {}",
+                                kMostAxes, settings.axes.size()));
+  bus_.attach(controller_, "controller");
+  for (const BusAxis& axis : settings.axes) {
+    Cia402Drive::Settings s;
+    s.node_id = axis.drive;
+    s.rotary = axis.rotary;
+    s.period_s = period_s();
+    s.time_constant_s = kDriveTimeConstant_s;
+    s.latch_delay_ns = axis.latch_delay_ns;
+    count_as(axis, s);
+    attach(s, fmt::format("drive {}", axis.letter));
+  }
+}
+
+void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& name) {
+  Cia402Drive& drive = *drive_.emplace_back(std::make_unique<Cia402Drive>(settings));
+  const auto serve = [this, &drive](SimulatedBus::Port& port, std::uint64_t now_us) {
+    if (probe_) {
+      serve_drives(now_us);
+    } else {
+      canopen::exchange(drive, port, now_us);
+    }
+  };
+  drive_port_.push_back(&bus_.attach_served(name, serve));
+  drive.power_on(0);
+}
+
+// The nearest unit of the drive.
+std::int64_t BusAxes::drive_units(std::size_t a, std::int64_t run_time_units) const {
+  const BusAxis& axis = controller_.settings().axes[a];
+  const std::int64_t scaled = run_time_units * axis.scale_denominator;
+  const std::int64_t half = axis.scale_numerator / 2;
+  return (scaled + (scaled < 0 ? -half : half)) / axis.scale_numerator;
+}
+
+std::vector<std::int32_t> BusAxes::on_wire(const Targets& target) const {
+  std::vector<std::int32_t> wire;
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    const std::int64_t units = drive_units(a, target[a]);
+    const bool rotary = controller_.settings().axes[a].rotary;
+    if (!rotary && saturated(units) != units)
+      throw UserError(fmt::format("{} nm is beyond the 32 bits of 607Ah", target[a]));
+    wire.push_back(wrapped(units));
+  }
+  return wire;
+}
+
+void BusAxes::stand_at(const Pose& pose) {
+  if (up_) throw std::logic_error("axes on a bus cannot be put elsewhere while they run");
+  target_ = kinds_of(controller_.settings()).targets(pose);
+  for (std::size_t a = 0; a < drive_.size(); ++a)
+    drive_[a]->stand_at(drive_units(a, target_[a]));
+  felt_ = {position(), approach()};
+}
+
+void BusAxes::power_drive(std::size_t a, bool on) {
+  drive_port_.at(a)->connect(on);
+  if (on) {
+    drive_[a]->power_on(bus_.now_us());
+  } else {
+    drive_[a]->power_off();
+  }
+}
+
+void BusAxes::power_node(bool on) {
+  node_port_->connect(on);
+  if (on) node_->power_on(bus_.now_us());
+}
+
+// SYNC, the answers of the drives; then the targets, and what the node makes of them.
+void BusAxes::run_cycle(const std::vector<std::int32_t>& path) {
+  controller_.send_targets(path);
+  const auto period_ns = static_cast<std::uint64_t>(std::llround(period_us_ * 1000.0));
+  next_sync_ns_ += period_ns;
+  bus_.run_until(next_sync_ns_);
+  if (gateway_ != nullptr) await_node();
+  next_sync_ns_ = std::max(next_sync_ns_, bus_.bus().now_ns());
+  controller_.send_sync();
+  bus_.run_until(next_sync_ns_ + kSyncPhase_ns);
+  ++cycles_;
+  show();
+}
+
+void BusAxes::watch(MachineWatch& watch) {
+  std::string letters;
+  for (const BusAxis& axis : controller_.settings().axes)
+    letters += axis.letter;
+  AxisGroup::watch(watch, letters, kinds_of(controller_.settings()));
+}
+
+void BusAxes::add_states(MachineSnapshot& snapshot) const {
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    snapshot.axis[a].drive_status = controller_.axis(a).status_word();
+    if (node_) snapshot.axis[a].correction_status = node_->objects().status[a];
+  }
+  const NodeReport& report = controller_.report();
+  BusState bus;
+  bus.now_ns = bus_.bus().now_ns();
+  bus.busy_ns = bus_.bus().busy_ns();
+  bus.frames = bus_.bus().frames();
+  bus.emergencies = controller_.emergencies().size();
+  bus.node_phase = static_cast<std::uint8_t>(controller_.node().phase);
+  bus.node_state = report.state;
+  bus.any_status = report.any_status;
+  bus.active_crc = report.active_crc;
+  if (node_) {
+    bus.deadline_missed = node_->objects().deadline_missed;
+    bus.sync_missed = node_->objects().sync_missed;
+  }
+  snapshot.bus = bus;
+}
+
+// Lock step while the node answers every cycle; before that, its own time.
+void BusAxes::await_node() {
+  const std::uint64_t begin_us = gateway_->now_us();
+  const auto period_us = static_cast<std::uint64_t>(std::llround(period_us_));
+  const bool answers = controller_.node().state == canopen::NmtState::operational &&
+                       controller_.node().phase == Station::Phase::running &&
+                       controller_.report().count > 0;
+  while (true) {
+    bus_.run_until_quiet();
+    gateway_->exchange(*gateway_port_);
+    bus_.run_until_quiet();
+    const std::uint64_t passed_us = gateway_->now_us() - begin_us;
+    if (answers ? controller_.report().sync_counter == controller_.sync_counter()
+                : passed_us >= period_us)
+      return;
+    if (passed_us > kAnswerTimeout_us)
+      throw UserError("the compensation node does not answer any more");
+    gateway_->wait(kWait_us);
+  }
+}
+
+void BusAxes::bring_up(double timeout_s) {
+  controller_.power_on(bus_.now_us());
+  const auto most = static_cast<std::uint64_t>(timeout_s / period_s());
+  const std::vector<std::int32_t> path = on_wire(target_);
+  for (std::uint64_t i = 0; i < most; ++i) {
+    run_cycle(path);
+    if (controller_.motion_allowed() && !ramping()) {
+      up_ = true;
+      return;
+    }
+  }
+  throw UserError("the machine on the bus does not start: " + controller_.trouble());
+}
+
+void BusAxes::cycle(const Targets& target) {
+  if (!up_) bring_up();
+  target_ = target;
+  run_cycle(on_wire(target));
+  const std::string trouble = controller_.trouble();
+  if (!trouble.empty()) throw UserError("the machine on the bus has stopped: " + trouble);
+}
+
+Offsets BusAxes::offset() const {
+  Offsets offsets{};
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    const BusAxis& axis = controller_.settings().axes[a];
+    offsets[a] =
+        std::int64_t{drive_[a]->offset_taken()} * axis.scale_numerator / axis.scale_denominator;
+  }
+  return offsets;
+}
+
+Pose BusAxes::position() const {
+  Pose q{};
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    const bool rotary = controller_.settings().axes[a].rotary;
+    q[a] = rotary ? 2.0 * kPi * drive_[a]->position_turns() : drive_[a]->position_mm();
+  }
+  return q;
+}
+
+Approach BusAxes::approach() const {
+  Approach from{};
+  for (std::size_t a = 0; a < drive_.size(); ++a)
+    from[a] = drive_[a]->approach();
+  return from;
+}
+
+double BusAxes::following_error() const {
+  double worst = 0.0;
+  for (const auto& drive : drive_) {
+    worst =
+        std::max(worst, std::abs(static_cast<double>(drive->demand()) - drive->position_units()));
+  }
+  return worst;
+}
+
+bool BusAxes::ramping() const { return (controller_.report().any_status & kRamping) != 0; }
+
+BusAxesFactory loopback_axes() {
+  return [](const BusSettings& settings, const std::vector<std::uint8_t>& image) {
+    return std::make_unique<BusAxes>(settings, image);
+  };
+}
+
+BusAxesFactory gateway_axes(CanGateway& gateway) {
+  return [&gateway](const BusSettings& settings, const std::vector<std::uint8_t>& image) {
+    return std::make_unique<BusAxes>(settings, image, gateway);
+  };
+}
+
+BusAxesFactory watched(BusAxesFactory make_axes, MachineWatch& watch) {
+  return [make_axes = std::move(make_axes), &watch](const BusSettings& settings,
+                                                    const std::vector<std::uint8_t>& image) {
+    auto axes = make_axes(settings, image);
+    axes->watch(watch);
+    return axes;
+  };
+}
+
+CellFactory bus_cells(const MachineFile& machine, double cycle_hz, BusAxesFactory make_axes) {
+  return [machine, cycle_hz, make_axes = std::move(make_axes)](
+             const TrueMachine& truth, const CorrectionFile& correction,
+             const std::vector<std::uint8_t>& image) {
+    MachineFile corrected = machine;
+    corrected.correction = correction;
+    return std::make_unique<MotionCell>(truth, make_axes(bus_settings(corrected, cycle_hz), image));
+  };
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,279 @@
+#include "host_sim/sim/controller/bus_controller.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "comp/tables/image.hpp"
+#include "comp/tick/tick_types.hpp"
+#include "firmware/canopen/cob_id.hpp"
+#include "firmware/node/node_objects.hpp"
+
+namespace volcomp::sim {
+
+using canopen::NmtCommand;
+using canopen::NmtState;
+
+namespace {
+
+constexpr std::uint64_t kRetryPause_us = 200'000;
+constexpr std::uint64_t kResetPause_us = 1'000'000;
+// SDO frames per cycle to a node that runs. More of them, and their answers, leave no gap on the
+// bus for a heartbeat; a drive whose controller sends in the order of its queue then keeps its
+// position back behind it for cycles.
+constexpr int kMostNodeRequests = 6;
+constexpr int kUnheededStarts = 3;  // heartbeats before a node that should run is started again
+
+}  // namespace
+
+BusController::BusController(BusSettings settings, std::vector<std::uint8_t> image)
+    : settings_(std::move(settings)), axis_(settings_.axes.size()), probe_(settings_.axes.size()) {
+  stations_.reserve(settings_.axes.size() + 1);
+  for (const BusAxis& axis : settings_.axes)
+    stations_.emplace_back(axis.drive, fmt::format("drive {} (node {})", axis.letter, axis.drive));
+  stations_.emplace_back(settings_.node, fmt::format("compensation node {}", settings_.node));
+  load_tables(std::move(image));
+}
+
+void BusController::load_tables(std::vector<std::uint8_t> image) {
+  image_ = std::move(image);
+  image_crc_ = image_crc({image_.data(), image_.size()});
+  Station& node = stations_.back();
+  node.refusal.clear();
+  if (node.phase == Station::Phase::running && !image_.empty()) queue_tables(node.channel);
+}
+
+void BusController::use_probe(const NodeProbe& probe) {
+  node_probe_ = probe;
+  Station& node = stations_.back();
+  if (node.phase == Station::Phase::running) queue_probe(node.channel, probe);
+}
+
+void BusController::command(NmtCommand what, std::uint8_t node) {
+  outgoing_.push_back({canopen::kNmt, 2, {static_cast<std::uint8_t>(what), node}});
+}
+
+void BusController::power_on(std::uint64_t now_us) {
+  next_heartbeat_us_ = now_us;
+  outgoing_.clear();
+  for (Station& s : stations_) {
+    s.phase = Station::Phase::absent;
+    s.boots = 0;
+    s.retry_us = now_us + kResetPause_us;
+  }
+  command(NmtCommand::reset_node, 0);
+}
+
+Station* BusController::station(std::uint8_t id) {
+  for (Station& s : stations_) {
+    if (s.id == id) return &s;
+  }
+  return nullptr;
+}
+
+// --- in
+
+void BusController::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
+  const auto node = static_cast<std::uint8_t>(frame.id & canopen::kMaxNodeId);
+  switch (frame.id & ~unsigned{canopen::kMaxNodeId}) {
+    case canopen::kHeartbeat:
+      if (Station* s = station(node); s != nullptr && frame.size == 1)
+        take_heartbeat(*s, frame.data[0], now_us);
+      return;
+    case canopen::kSdoResponse:
+      if (Station* s = station(node)) s->channel.receive(frame, now_us);
+      return;
+    case canopen::kEmergency:
+      if (node == 0 || frame.size != 8) return;
+      emergencies_.push_back(
+          {now_us,
+           node,
+           static_cast<std::uint16_t>(canopen::load_le(frame.data.data(), 2)),
+           frame.data[2],
+           {frame.data[3], frame.data[4], frame.data[5], frame.data[6], frame.data[7]}});
+      return;
+    default:
+      take_process_data(frame);
+      return;
+  }
+}
+
+void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t now_us) {
+  s.last_heard_us = now_us;
+  s.state = static_cast<NmtState>(state & 0x7FU);
+  if (s.state == NmtState::boot_up) {
+    ++s.boots;
+    configure(s);
+    return;
+  }
+  if (s.boots == 0) return;  // has not heeded our reset yet
+  if (s.phase == Station::Phase::absent) {
+    // Back without a boot: whatever it was told is still there.
+    s.phase = Station::Phase::running;
+    s.not_started = 0;
+    s.retry_us = 0;
+  }
+  const bool heeds = s.phase != Station::Phase::running || s.state == NmtState::operational;
+  s.not_started = heeds ? 0 : s.not_started + 1;
+  if (s.not_started < kUnheededStarts) return;
+  s.not_started = 0;
+  // Whoever is PRE-OPERATIONAL may have booted without our hearing of it.
+  if (s.state == NmtState::pre_operational) {
+    configure(s);
+  } else {
+    command(NmtCommand::enter_pre_operational, s.id);
+  }
+}
+
+// --- time
+
+void BusController::poll(std::uint64_t now_us) {
+  if (now_us >= next_heartbeat_us_) {
+    next_heartbeat_us_ = now_us + 1000U * std::uint64_t{settings_.heartbeat_ms};
+    send_latest({static_cast<std::uint16_t>(canopen::kHeartbeat + settings_.controller),
+                 1,
+                 {static_cast<std::uint8_t>(NmtState::operational)}});
+  }
+  for (Station& s : stations_)
+    supervise(s, now_us);
+}
+
+void BusController::supervise(Station& s, std::uint64_t now_us) {
+  s.channel.poll(now_us);
+  const std::uint64_t timeout_us = 1000U * std::uint64_t{settings_.heartbeat_timeout_ms};
+  const bool silent = now_us - s.last_heard_us > timeout_us;
+  if (silent && s.phase == Station::Phase::running) {
+    s.phase = Station::Phase::absent;
+    s.retry_us = now_us + kResetPause_us;
+    if (is_drive(s)) axis_[static_cast<std::size_t>(&s - stations_.data())].drive_lost();
+    return;
+  }
+  const bool refused = !s.channel.failure().empty() || s.refused;
+  if (refused && s.phase == Station::Phase::configuring) {
+    if (!s.refused) take_refusal(s);
+    s.phase = Station::Phase::failed;
+    s.retry_us = now_us + kRetryPause_us;
+  } else if (s.phase == Station::Phase::configuring && s.channel.idle()) {
+    s.phase = Station::Phase::running;
+    s.refusal.clear();
+    command(NmtCommand::start, s.id);
+  } else if (s.phase == Station::Phase::failed && now_us >= s.retry_us) {
+    configure(s);
+  } else if (s.phase == Station::Phase::running && !is_drive(s)) {
+    retry_tables(s, now_us);
+  } else if (s.phase == Station::Phase::absent) {
+    call_back(s, now_us);
+  }
+}
+
+// Whoever has booted without our hearing of it was never told to send heartbeats.
+void BusController::call_back(Station& s, std::uint64_t now_us) {
+  if (s.retry_us == 0 || now_us < s.retry_us) return;
+  s.retry_us = now_us + kResetPause_us;
+  command(NmtCommand::reset_communication, s.id);
+}
+
+// Another client may have got in between.
+void BusController::retry_tables(Station& s, std::uint64_t now_us) {
+  if (s.retry_us == 0 && !s.channel.failure().empty()) {
+    s.retry_us = now_us + kRetryPause_us;
+    take_refusal(s);
+  } else if (s.retry_us != 0 && now_us >= s.retry_us) {
+    s.retry_us = 0;
+    s.channel.clear();
+    if (!image_.empty()) queue_tables(s.channel);
+  }
+}
+
+// --- out
+
+// What has not left yet is out of date: sent in a burst, it would be cycles nobody has asked for.
+void BusController::send_latest(const hal::CanFrame& frame) {
+  const auto same = [&frame](const hal::CanFrame& waiting) { return waiting.id == frame.id; };
+  const auto waiting = std::find_if(outgoing_.begin(), outgoing_.end(), same);
+  if (waiting == outgoing_.end()) {
+    outgoing_.push_back(frame);
+  } else {
+    *waiting = frame;
+  }
+}
+
+bool BusController::offer(hal::CanFrame& frame, std::uint64_t /*now_us*/) {
+  offered_sdo_ = nullptr;
+  if (!outgoing_.empty()) {
+    frame = outgoing_.front();
+    return true;
+  }
+  for (Station& s : stations_) {
+    const bool enough =
+        !is_drive(s) && s.phase == Station::Phase::running && node_requests_ >= kMostNodeRequests;
+    if (enough || !s.channel.offer(frame)) continue;
+    offered_sdo_ = &s.channel;
+    return true;
+  }
+  return false;
+}
+
+void BusController::taken(std::uint64_t /*now_us*/) {
+  if (offered_sdo_ != nullptr) {
+    offered_sdo_->taken();
+    if (offered_sdo_ == &stations_.back().channel) ++node_requests_;
+  } else {
+    outgoing_.pop_front();
+  }
+}
+
+// The mode of operation is not in a PDO: one SDO at a time.
+void BusController::set_modes() {
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    const std::int8_t mode = axis_[a].wanted_mode();
+    SdoChannel& sdo = stations_[a].channel;
+    if (mode == 0 || !sdo.idle()) continue;
+    if (!sdo.failure().empty()) sdo.clear();
+    set_mode(sdo, a, mode);
+  }
+}
+
+// Only the drive's own word counts: a response may get lost or belong to an earlier request.
+void BusController::set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode) {
+  axis_[axis].mode_is(0);
+  sdo.write({0x6060, 0}, {static_cast<std::uint8_t>(mode)}, "mode of operation");
+  sdo.read({0x6061, 0}, 1, "mode of operation in force", [this, axis](const SdoChannel::Bytes& v) {
+    axis_[axis].mode_is(static_cast<std::int8_t>(number(v)));
+  });
+}
+
+// --- verdict
+
+std::string BusController::trouble() const {
+  for (const Station& s : stations_) {
+    if (s.phase == Station::Phase::failed) return s.refusal;
+    if (s.phase == Station::Phase::configuring)
+      return s.refusal.empty() ? s.name + " is being configured" : s.refusal;
+    if (s.phase == Station::Phase::absent) return s.name + " is silent";
+    if (s.state != NmtState::operational) return s.name + " has not started";
+  }
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    if (!axis_[a].following()) {
+      return fmt::format("axis {} does not follow: status word {:04X}h", settings_.axes[a].letter,
+                         axis_[a].status_word());
+    }
+  }
+  if (image_.empty() && !settings_.node_brings_tables) return {};
+  const Station& node = stations_.back();
+  if (!node.channel.failure().empty()) return node.channel.failure();
+  if (image_.empty()) {
+    if (report_.count == 0) return "the node has not reported its state yet";
+    if (report_.active_crc == 0) return {};
+  } else if (report_.active_crc != image_crc_) {
+    return node.refusal.empty() ? "the node does not have the tables yet" : node.refusal;
+  }
+  if (report_.state != static_cast<std::uint8_t>(node::NodeState::compensating))
+    return fmt::format("the node does not compensate every axis: status {:04X}h",
+                       report_.any_status);
+  return {};
+}
+
+bool BusController::motion_allowed() const { return trouble().empty(); }
+
+}  // namespace volcomp::sim

@@ -1,0 +1,121 @@
+#pragma once
+// The motion controller as a CANopen manager: NMT master, configuration manager, SYNC and heartbeat
+// producer. It brings drives and compensation node up, keeps them up after any of them was gone,
+// and lets the axes move only while all of them work.
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "comp/tables/thermal.hpp"
+#include "host_sim/host/bus/bus_settings.hpp"
+#include "host_sim/sim/controller/axis_commander.hpp"
+#include "host_sim/sim/controller/node_probe.hpp"
+#include "host_sim/sim/controller/station.hpp"
+
+namespace volcomp::sim {
+
+// What the node's status PDO says.
+struct NodeReport {
+  std::uint32_t active_crc = 0;
+  std::uint8_t state = 0;         // node::NodeState
+  std::uint8_t sync_counter = 0;  // of the cycle it belongs to
+  std::uint16_t any_status = 0;   // StatusBit of all axes together
+  std::uint64_t count = 0;        // reports so far
+};
+
+// What a drive has said about its touch probe input.
+struct ProbeReport {
+  std::uint16_t status = 0;   // 60B9h
+  std::int32_t position = 0;  // 60BAh
+  std::uint32_t time_ns = 0;  // 60D1h
+  std::uint16_t edges = 0;    // 60D5h
+  std::uint64_t latches = 0;  // reports of 60BAh and 60D1h so far
+};
+
+class BusController {
+ public:
+  // `image`: tables the node shall work with; empty: none.
+  BusController(BusSettings settings, std::vector<std::uint8_t> image);
+
+  // --- the loop of canopen/exchange.hpp
+  void receive(const hal::CanFrame& frame, std::uint64_t now_us);
+  void poll(std::uint64_t now_us);
+  [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
+  void taken(std::uint64_t now_us);
+
+  // --- once per cycle
+  // Targets in drive units: sent as 607Ah after a SYNC, taken by the drives at the next.
+  void send_targets(const std::vector<std::int32_t>& path);
+  // What is done at the targets of this cycle, for a node that watches strokes (201Ah).
+  void send_process_state(const ProcessState& state);
+  void send_sync();
+  // How warm the axes are, deg C by input; not a number: no sensor.
+  void send_temperatures(const Temperatures& temperatures);
+  // The date as CANopen TIME.
+  void send_time(std::int64_t unix_s);
+
+  // Resets every node on the bus; whoever boots is configured and started.
+  void power_on(std::uint64_t now_us);
+  // Tables to work with from now on; downloaded at once to a node that runs.
+  void load_tables(std::vector<std::uint8_t> image);
+  // Settings of the node's probe from now on, written at once to a node that runs.
+  void use_probe(const NodeProbe& probe);
+  // What the node has made of touches since the last call.
+  [[nodiscard]] std::vector<NodePoint> take_points() { return points_.take_points(); }
+  // Everything else that is read and written of the node's objects.
+  [[nodiscard]] SdoChannel& node_objects() { return stations_.back().channel; }
+
+  // Everybody runs, every axis follows its path, the node compensates (or was given no tables).
+  [[nodiscard]] bool motion_allowed() const;
+  // What is missing for that, in words.
+  [[nodiscard]] std::string trouble() const;
+
+  [[nodiscard]] std::uint8_t sync_counter() const { return counter_; }
+  [[nodiscard]] const NodeReport& report() const { return report_; }
+  [[nodiscard]] const AxisCommander& axis(std::size_t a) const { return axis_.at(a); }
+  [[nodiscard]] const ProbeReport& probe(std::size_t a) const { return probe_.at(a); }
+  [[nodiscard]] const Station& node() const { return stations_.back(); }
+  [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }  // drives, node
+  [[nodiscard]] const std::vector<EmergencyRecord>& emergencies() const { return emergencies_; }
+  [[nodiscard]] const BusSettings& settings() const { return settings_; }
+
+ private:
+  void command(canopen::NmtCommand what, std::uint8_t node);
+  [[nodiscard]] Station* station(std::uint8_t id);
+  [[nodiscard]] bool is_drive(const Station& s) const { return s.id != settings_.node; }
+  void take_heartbeat(Station& s, std::uint8_t state, std::uint64_t now_us);
+  void take_process_data(const hal::CanFrame& frame);
+  void take_drive_pdo(std::size_t a, const hal::CanFrame& frame);
+  void supervise(Station& s, std::uint64_t now_us);
+  void call_back(Station& s, std::uint64_t now_us);
+  void retry_tables(Station& s, std::uint64_t now_us);
+  void send_latest(const hal::CanFrame& frame);
+  void configure(Station& s);
+  void configure_common(SdoChannel& sdo);
+  void check_scaling(Station& s, std::size_t axis);
+  void configure_drive(Station& s, std::size_t axis);
+  void configure_node(SdoChannel& sdo);
+  void queue_tables(SdoChannel& sdo);
+  void take_refusal(Station& s);
+  void set_modes();
+  void set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode);
+
+  BusSettings settings_;
+  std::vector<std::uint8_t> image_;
+  std::uint32_t image_crc_ = 0;
+  std::optional<NodeProbe> node_probe_;
+  PointReader points_;
+  std::vector<AxisCommander> axis_;
+  std::vector<ProbeReport> probe_;
+  std::vector<Station> stations_;
+  std::deque<hal::CanFrame> outgoing_;
+  SdoChannel* offered_sdo_ = nullptr;
+  std::vector<EmergencyRecord> emergencies_;
+  NodeReport report_;
+  std::uint64_t next_heartbeat_us_ = 0;
+  std::uint8_t counter_ = 0;
+  int node_requests_ = 0;  // SDO frames to the running node in this cycle
+};
+
+}  // namespace volcomp::sim

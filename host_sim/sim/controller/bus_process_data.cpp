@@ -1,0 +1,125 @@
+// What motion controller, drives and compensation node tell each other every cycle.
+
+#include <cmath>
+
+#include "comp/tick/temperature_input.hpp"
+#include "firmware/canopen/cob_id.hpp"
+#include "firmware/node/strokes/stroke_objects.hpp"
+#include "host_sim/sim/controller/bus_controller.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+constexpr std::uint8_t kCounterOverflow = 240;
+
+std::uint64_t le(const hal::CanFrame& frame, std::size_t at, std::size_t count) {
+  return canopen::load_le(&frame.data.at(at), count);
+}
+
+}  // namespace
+
+void BusController::take_process_data(const hal::CanFrame& frame) {
+  if (frame.id == canopen::kTpdo1 + settings_.node && frame.size == 8) {
+    report_ = {static_cast<std::uint32_t>(le(frame, 0, 4)), frame.data[4], frame.data[5],
+               static_cast<std::uint16_t>(le(frame, 6, 2)), report_.count + 1};
+    return;
+  }
+  constexpr std::array<std::uint16_t, 3> kPoint{canopen::kTpdo2, canopen::kTpdo3, canopen::kTpdo4};
+  for (std::size_t part = 0; part < kPoint.size(); ++part) {
+    if (frame.id == kPoint[part] + settings_.node) points_.take(part, frame);
+  }
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    if ((frame.id & canopen::kMaxNodeId) == settings_.axes[a].drive) take_drive_pdo(a, frame);
+  }
+}
+
+// The default mapping of the drives: cia402_objects.hpp.
+void BusController::take_drive_pdo(std::size_t a, const hal::CanFrame& frame) {
+  ProbeReport& probe = probe_[a];
+  const auto first = static_cast<std::int32_t>(le(frame, 0, 4));
+  switch (frame.id & ~unsigned{canopen::kMaxNodeId}) {
+    case canopen::kTpdo1:
+      if (frame.size != 8) return;
+      axis_[a].actual(first, static_cast<std::uint16_t>(le(frame, 4, 2)));
+      probe.status = static_cast<std::uint16_t>(le(frame, 6, 2));
+      return;
+    case canopen::kTpdo2:
+      if (frame.size != 8) return;
+      probe.position = first;
+      probe.time_ns = static_cast<std::uint32_t>(le(frame, 4, 4));
+      ++probe.latches;
+      return;
+    case canopen::kTpdo3:
+      if (frame.size == 6) probe.edges = static_cast<std::uint16_t>(le(frame, 0, 2));
+      return;
+    case canopen::kTpdo4:
+      if (frame.size == 4) axis_[a].held(first);
+      return;
+    default:
+      return;
+  }
+}
+
+void BusController::send_sync() {
+  node_requests_ = 0;
+  counter_ = static_cast<std::uint8_t>(counter_ % kCounterOverflow + 1);
+  send_latest({canopen::kSync, 1, {counter_}});
+}
+
+// 201Ah:01…03 as the node maps them by default.
+void BusController::send_process_state(const ProcessState& state) {
+  unsigned flags = 0;
+  if (state.in_face) flags |= node::kInFace;
+  if (state.stroke_end) flags |= node::kStrokeEnd;
+  if (state.stroke == Direction::forward) flags |= node::kStrokeForward;
+  if (state.stroke == Direction::backward) flags |= node::kStrokeBackward;
+  hal::CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(canopen::kTpdo1 + settings_.controller);
+  frame.size = 8;
+  canopen::store_le(frame.data.data(), 2, state.slot);
+  canopen::store_le(&frame.data[2], 2, flags);
+  canopen::store_le(&frame.data[4], 4, static_cast<std::uint32_t>(state.feed_nm_per_s));
+  send_latest(frame);
+}
+
+// 2700h as the node maps it by default.
+void BusController::send_temperatures(const Temperatures& temperatures) {
+  hal::CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(canopen::kTpdo2 + settings_.controller);
+  frame.size = 8;
+  for (std::size_t i = 0; i < temperatures.size(); ++i) {
+    const bool known = std::isfinite(temperatures[i]);
+    const auto hundredths = known ? static_cast<std::int16_t>(std::lround(100.0F * temperatures[i]))
+                                  : TemperatureInput::kNone;
+    canopen::store_le(&frame.data.at(2 * i), 2, static_cast<std::uint16_t>(hundredths));
+  }
+  send_latest(frame);
+}
+
+// CiA 301, section 7.2.6: milliseconds after midnight, days since 1 January 1984.
+void BusController::send_time(std::int64_t unix_s) {
+  constexpr std::int64_t kDay_s = 86'400;
+  constexpr std::int64_t kDaysTo1984 = 5113;
+  hal::CanFrame frame;
+  frame.id = canopen::kTime;
+  frame.size = 6;
+  canopen::store_le(frame.data.data(), 4, static_cast<std::uint32_t>(unix_s % kDay_s * 1000));
+  canopen::store_le(&frame.data[4], 2, static_cast<std::uint16_t>(unix_s / kDay_s - kDaysTo1984));
+  send_latest(frame);
+}
+
+void BusController::send_targets(const std::vector<std::int32_t>& path) {
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    if (stations_[a].phase != Station::Phase::running) continue;
+    axis_[a].step(path.at(a));
+    hal::CanFrame frame;
+    frame.id = static_cast<std::uint16_t>(canopen::kRpdo1 + settings_.axes[a].drive);
+    frame.size = 6;
+    canopen::store_le(frame.data.data(), 2, axis_[a].control_word());
+    canopen::store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()));
+    send_latest(frame);
+  }
+  set_modes();
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,35 @@
+#pragma once
+// Simulated machines on a bus whose every frame is written down.
+
+#include "host_sim/host/bus/can_log.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+
+namespace volcomp::sim {
+
+// One log for the machines of a scenario, which live one after the other. All frames of the
+// simulated bus in its order.
+class BusRecorder {
+ public:
+  enum class Clock : std::uint8_t {
+    machine,  // time of the simulated bus, one machine following the other
+    wall,     // Unix time: the machine is on a real bus too
+  };
+  // `log` must outlive the recorder.
+  BusRecorder(CanLogWriter& log, Clock clock) : log_(log), clock_(clock) {}
+
+  // From now on, as long as these axes live; the recorder must outlive them.
+  void record(BusAxes& axes);
+
+ private:
+  void write(std::uint64_t bus_ns, const hal::CanFrame& frame);
+
+  CanLogWriter& log_;
+  Clock clock_;
+  std::uint64_t machine_begin_us_ = 0;
+  std::uint64_t last_us_ = 0;
+};
+
+// Axes that are recorded from their first frame. The recorder must outlive them.
+[[nodiscard]] BusAxesFactory recorded(BusAxesFactory make_axes, BusRecorder& recorder);
+
+}  // namespace volcomp::sim

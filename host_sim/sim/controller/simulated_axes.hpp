@@ -1,0 +1,84 @@
+#pragma once
+// Simulated axes behind the HAL of the integrated form: targets go to the compensator, its offsets
+// to the drives.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "comp/core/units.hpp"
+#include "host_sim/sim/drives/cia402_axis.hpp"
+#include "host_sim/sim/truth/true_machine.hpp"
+
+namespace volcomp::sim {
+
+class SimulatedAxes {
+ public:
+  static constexpr std::size_t kSlots = LoadedCompensator::kAxes;
+
+  SimulatedAxes(const AxisKinds& kinds, double period_s, double time_constant_s)
+      : kinds_(kinds), drive_(kinds.count, AxisDrive(period_s, time_constant_s)) {}
+
+  // --- the controller's side
+  void set_target(const Targets& target) { target_ = target; }
+  void stand_at(const Pose& pose) {
+    set_target(kinds_.targets(pose));
+    for (std::size_t a = 0; a < drive_.size(); ++a)
+      drive_[a].stand_at(drive_units(a, target_[a]));
+  }
+
+  // --- the compensation's side (firmware/embed/cpp/axis_port.hpp)
+  void sample(TickInput<kSlots>& in) const {
+    for (std::size_t a = 0; a < drive_.size(); ++a)
+      in.axis[a] = {target_[a], true, true};
+  }
+  void apply(const TickOutput<kSlots>& out) {
+    // Offsets of rotary axes come in 2^-32 turn.
+    constexpr std::int64_t kFiner = 256;
+    for (std::size_t a = 0; a < drive_.size(); ++a) {
+      offset_[a] = out.offset[a] * (kinds_.rotary[a] ? kFiner : 1);
+      drive_[a].command(drive_units(a, target_[a] + offset_[a]));
+    }
+  }
+
+  // --- what the world sees
+  [[nodiscard]] const Targets& target() const { return target_; }
+  [[nodiscard]] const Offsets& offset() const { return offset_; }
+  [[nodiscard]] Pose position() const {
+    Pose q{};
+    for (std::size_t a = 0; a < drive_.size(); ++a)
+      q[a] = kinds_.rotary[a] ? counted(a) * (2.0 * kPi / kDriveUnitsPerTurn)
+                              : drive_[a].position_mm();
+    return q;
+  }
+  [[nodiscard]] Approach approach() const {
+    Approach from{};
+    for (std::size_t a = 0; a < drive_.size(); ++a)
+      from[a] = drive_[a].approach();
+    return from;
+  }
+  // Largest distance between an axis and its command, drive units.
+  [[nodiscard]] double following_error() const {
+    double worst = 0.0;
+    for (std::size_t a = 0; a < drive_.size(); ++a) {
+      const auto commanded = static_cast<double>(drive_units(a, target_[a] + offset_[a]));
+      worst = std::max(worst, std::abs(commanded - counted(a)));
+    }
+    return worst;
+  }
+
+ private:
+  // Nearest unit of the drive, 1 nm or 2^-31 turn.
+  [[nodiscard]] std::int64_t drive_units(std::size_t a, std::int64_t run_time_units) const {
+    if (!kinds_.rotary[a]) return run_time_units;
+    return (run_time_units + 256) >> 9;
+  }
+  [[nodiscard]] double counted(std::size_t a) const { return drive_[a].position_mm() * kNmPerMm; }
+
+  AxisKinds kinds_;
+  std::vector<AxisDrive> drive_;
+  Targets target_{};
+  Offsets offset_{};
+};
+
+}  // namespace volcomp::sim

@@ -1,0 +1,53 @@
+#include "host_sim/sim/controller/simulated_bus.hpp"
+
+#include <algorithm>
+
+namespace volcomp::sim {
+namespace {
+
+// Everybody gets the processor at least so often, whether there are frames or not.
+constexpr std::uint64_t kSlice_ns = 200'000;
+
+}  // namespace
+
+SimulatedBus::Port& SimulatedBus::attach_served(std::string name, Serve serve,
+                                                std::size_t mailboxes) {
+  Port& port = bus_.attach(std::move(name), mailboxes);
+  participants_.push_back({&port, std::move(serve)});
+  return port;
+}
+
+void SimulatedBus::serve_all() {
+  const std::uint64_t now = now_us();
+  for (Participant& p : participants_) {
+    if (p.serve && p.port->connected()) p.serve(*p.port, now);
+  }
+}
+
+// Those that received something or have a mailbox free again.
+void SimulatedBus::serve_concerned() {
+  const std::uint64_t now = now_us();
+  for (Participant& p : participants_) {
+    const std::uint64_t sent = p.port->counters().sent;
+    if (p.port->waiting() == 0 && sent == p.sent) continue;
+    p.sent = sent;
+    if (p.serve && p.port->connected()) p.serve(*p.port, now);
+  }
+}
+
+void SimulatedBus::run_until(std::uint64_t time_ns) {
+  while (bus_.now_ns() < time_ns) {
+    serve_all();
+    const std::uint64_t slice_end = std::min(time_ns, bus_.now_ns() + kSlice_ns);
+    while (bus_.step(slice_end))
+      serve_concerned();
+  }
+}
+
+void SimulatedBus::run_until_quiet() {
+  serve_all();
+  while (bus_.step(bus_.now_ns() + 1))
+    serve_concerned();
+}
+
+}  // namespace volcomp::sim

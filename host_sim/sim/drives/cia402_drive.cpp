@@ -1,0 +1,185 @@
+#include "host_sim/sim/drives/cia402_drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace volcomp::sim {
+namespace {
+
+constexpr std::uint32_t kServoDrive = 0x0002'0192;  // 1000h: CiA 402, servo drive
+constexpr std::uint32_t kProductCode = 402;
+
+template <std::size_t N>
+void set_text(std::array<char, N>& text, std::string_view value) {
+  std::copy_n(value.begin(), std::min(value.size(), N), text.begin());
+}
+
+canopen::CommunicationObjects default_communication(const Cia402Drive::Settings& settings) {
+  canopen::CommunicationObjects c;
+  c.device_type = kServoDrive;
+  set_text(c.device_name, "volcomp simulated drive");
+  set_text(c.hardware_version, "none");
+  set_text(c.software_version, "1");
+  c.identity.product = kProductCode;
+  c.identity.serial = settings.node_id;
+  return c;
+}
+
+// 60C2h: the fewest digits that say the period, as exactly as two of its bytes can.
+void set_cycle(Cia402Objects& objects, std::uint64_t period_us) {
+  std::int8_t exponent = -6;
+  while (period_us > UINT8_MAX || (period_us != 0 && period_us % 10 == 0)) {
+    period_us /= 10;
+    ++exponent;
+  }
+  objects.cycle_value = static_cast<std::uint8_t>(period_us);
+  objects.cycle_exponent = exponent;
+}
+
+Cia402Objects default_objects(const Cia402Drive::Settings& settings, std::uint64_t period_us) {
+  Cia402Objects o;
+  o.following_window = settings.following_window;
+  o.software_limit = {settings.software_min, settings.software_max};
+  o.quick_stop_deceleration = settings.deceleration;
+  const std::uint32_t turn =
+      settings.rotary ? static_cast<std::uint32_t>(std::lround(settings.units.units_per_turn))
+                      : settings.feed_per_turn;
+  o.encoder_resolution = {turn, 1};
+  o.feed = {turn, 1};
+  o.position_unit = settings.rotary ? kIncrement : settings.units.position_unit;
+  set_cycle(o, period_us);
+  return o;
+}
+
+}  // namespace
+
+Cia402Drive::Cia402Drive(const Settings& settings)
+    : settings_(settings),
+      period_us_(static_cast<std::uint64_t>(std::llround(settings.period_s * 1e6))),
+      device_({cia402_dictionary(), &objects_.communication, receive_, transmit_}, *this),
+      axis_(settings.period_s, settings.time_constant_s, settings.units.presliding) {
+  device_.set_node_id(settings.node_id);
+}
+
+void Cia402Drive::power_on(std::uint64_t now_us) {
+  powered_ = true;
+  last_period_us_ = now_us;
+  device_.power_on(now_us);
+}
+
+void Cia402Drive::power_off() {
+  powered_ = false;
+  operational_ = false;
+  edges_.clear();
+  machine_.power_on();
+  axis_.stand();
+  demand_ = axis_.reading();
+}
+
+void Cia402Drive::stand_at(std::int64_t units) {
+  axis_.stand_at(units);
+  hold();
+}
+
+void Cia402Drive::couple(ForeignMechanics mechanics) {
+  axis_.couple(std::move(mechanics));
+  hold();
+}
+
+void Cia402Drive::hold() {
+  demand_ = axis_.reading();
+  target_arrived_ = false;
+  publish();
+}
+
+void Cia402Drive::lose_reference() {
+  referenced_ = homing_attained_ = false;
+  publish();
+}
+
+// A SYNC up to half a period late still starts its own period; only then does the clock go on
+// without it.
+void Cia402Drive::poll(std::uint64_t now_us) {
+  if (!powered_) return;
+  while (now_us - last_period_us_ >= period_us_ + period_us_ / 2) {
+    last_period_us_ += period_us_;
+    run_servo_period();
+  }
+  device_.poll(now_us);
+}
+
+void Cia402Drive::reset_application() {
+  const canopen::CommunicationObjects communication = objects_.communication;
+  objects_ = default_objects(settings_, period_us_);
+  objects_.communication = communication;
+  machine_.power_on();
+  axis_.stand();
+  demand_ = axis_.reading();
+  offset_taken_ = 0;
+  last_controlword_ = 0;
+  edges_.clear();
+  operational_ = target_arrived_ = limited_ = false;
+  referenced_ = homing_attained_ = home_offset_given_ = false;
+  fault_ = canopen::ErrorCode::none;
+}
+
+void Cia402Drive::configure(Span<canopen::Pdo> pdos, Span<const canopen::PdoParameters> parameters,
+                            canopen::PdoKind kind) {
+  for (std::size_t i = 0; i < pdos.size(); ++i)
+    static_cast<void>(pdos[i].configure(parameters[i], kind, device_.objects()));
+}
+
+void Cia402Drive::reset_communication() {
+  objects_.communication = default_communication(settings_);
+  const auto receive = cia402_receive_pdos(settings_.node_id);
+  const auto transmit = cia402_transmit_pdos(settings_.node_id);
+  configure(receive_, receive, canopen::PdoKind::receive);
+  configure(transmit_, transmit, canopen::PdoKind::transmit);
+}
+
+void Cia402Drive::state_changed(canopen::NmtState state, std::uint64_t) {
+  machine_.initialised();
+  const bool was_operational = operational_;
+  operational_ = state == canopen::NmtState::operational;
+  if (was_operational && !operational_) abort_connection();
+  publish();
+}
+
+// Any watched node: without its controller the axis has no target, without the compensation it is
+// in the wrong place.
+bool Cia402Drive::heartbeat(std::uint8_t, canopen::HeartbeatEvent event, std::uint64_t) {
+  if (event != canopen::HeartbeatEvent::lost) return true;
+  abort_connection();
+  publish();
+  return true;
+}
+
+void Cia402Drive::bad_sync(canopen::SyncVerdict, std::uint64_t) {}
+
+void Cia402Drive::abort_connection() {
+  switch (static_cast<AbortConnection>(objects_.abort_connection)) {
+    case AbortConnection::nothing:
+      break;
+    case AbortConnection::fault:
+      fail(kCommunicationErrorCode);
+      break;
+    case AbortConnection::disable_voltage:
+      machine_.command(PowerCommand::disable_voltage, stays_in_quick_stop());
+      break;
+    case AbortConnection::stop:
+      machine_.command(PowerCommand::quick_stop, stays_in_quick_stop());
+      break;
+  }
+}
+
+void Cia402Drive::fail(canopen::ErrorCode code) {
+  if (fault_ != canopen::ErrorCode::none) return;
+  fault_ = code;
+  objects_.error_code = static_cast<std::uint16_t>(code);
+  device_.emergency().raise(code, 0);
+  machine_.fail();
+  if (objects_.fault_option == kFaultOff) machine_.standstill(stays_in_quick_stop());
+}
+
+}  // namespace volcomp::sim

@@ -1,0 +1,137 @@
+// What a controller does to the objects of a Cia402Drive, over PDO or SDO.
+
+#include <algorithm>
+
+#include "firmware/canopen/bytes.hpp"
+#include "host_sim/sim/drives/cia402_drive.hpp"
+
+namespace volcomp::sim {
+
+using canopen::AbortCode;
+
+namespace {
+
+// Objects whose writing does something at once. The target comes before the controlword that may
+// have arrived with it: a drive that this controlword enables waits for the next target.
+constexpr std::array<std::uint16_t, 5> kActedUpon{0x607A, 0x607C, 0x6060, 0x60B8, 0x6040};
+
+bool is_supported(OperationMode mode) {
+  return mode == OperationMode::none || mode == OperationMode::homing ||
+         mode == OperationMode::cyclic_position;
+}
+
+bool maps(const canopen::Pdo& pdo, std::uint16_t index) {
+  const canopen::PdoParameters& p = pdo.parameters();
+  return std::any_of(p.mapping.begin(), p.mapping.begin() + p.count, [index](std::uint32_t entry) {
+    return canopen::object_of(entry).index == index;
+  });
+}
+
+}  // namespace
+
+OperationMode Cia402Drive::mode() const {
+  return static_cast<OperationMode>(objects_.mode_display);
+}
+
+bool Cia402Drive::in_cyclic_position() const {
+  return machine_.enabled() && mode() == OperationMode::cyclic_position;
+}
+
+bool Cia402Drive::stays_in_quick_stop() const {
+  return objects_.quick_stop_option == kQuickStopThenStay;
+}
+
+std::int32_t Cia402Drive::on_wire(std::int64_t units) const {
+  return settings_.rotary ? wrapped(units) : saturated(units);
+}
+
+void Cia402Drive::received(const canopen::Pdo& pdo, std::uint64_t) {
+  for (const std::uint16_t index : kActedUpon) {
+    if (maps(pdo, index)) object_changed(index);
+  }
+}
+
+void Cia402Drive::written(canopen::ObjectId object, std::uint64_t) {
+  object_changed(object.index);
+  publish();
+}
+
+void Cia402Drive::object_changed(std::uint16_t index) {
+  if (index == 0x607A && in_cyclic_position()) target_arrived_ = true;
+  if (index == 0x607C) home_offset_given_ = true;
+  if (index == 0x6060) change_mode();
+  if (index == 0x60B8) apply_function(objects_.probe);
+  if (index == 0x6040) control();
+}
+
+void Cia402Drive::control() {
+  const std::uint16_t risen = objects_.controlword & ~last_controlword_;
+  last_controlword_ = objects_.controlword;
+  const bool was_enabled = machine_.enabled();
+  machine_.control(objects_.controlword, stays_in_quick_stop());
+  if (machine_.enabled() && !was_enabled) target_arrived_ = false;
+  if (machine_.state() == PowerState::switch_on_disabled && fault_ != canopen::ErrorCode::none) {
+    device_.emergency().clear(fault_, 0);
+    fault_ = canopen::ErrorCode::none;
+  }
+  if (machine_.enabled() && mode() == OperationMode::homing && (risen & kControlHomingStart) != 0)
+    home_here();
+}
+
+// A mode this drive has not got, or the one it is in, changes nothing.
+void Cia402Drive::change_mode() {
+  const auto wanted = static_cast<OperationMode>(objects_.mode);
+  if (!is_supported(wanted) || wanted == mode()) return;
+  objects_.mode_display = objects_.mode;
+  target_arrived_ = homing_attained_ = false;
+}
+
+// The encoder is absolute: without a home offset of its own, homing confirms what it reads.
+void Cia402Drive::home_here() {
+  if (home_offset_given_) axis_.home(objects_.home_offset);
+  demand_ = axis_.reading();
+  referenced_ = homing_attained_ = true;
+}
+
+// Choices that are not a range.
+bool Cia402Drive::possible(canopen::ObjectId object, std::int64_t value) const {
+  switch (object.index) {
+    case 0x605A:
+      return value == kQuickStopThenOff || value == kQuickStopThenStay;
+    case 0x605E:
+      return value == kFaultOff || value == kFaultBrake;
+    case 0x6060:
+      return is_supported(static_cast<OperationMode>(value));
+    case 0x60C2:  // the servo clock has one period
+      return value == (object.sub == 1 ? static_cast<std::int8_t>(objects_.cycle_value)
+                                       : objects_.cycle_exponent);
+    default:
+      return true;
+  }
+}
+
+AbortCode Cia402Drive::before_write(canopen::ObjectId object, const canopen::Entry&,
+                                    Span<const std::uint8_t> bytes) {
+  const std::size_t size = bytes.size();
+  if (size != 1 && size != 2) return AbortCode::none;  // as large as the choices are
+  const std::int64_t value = canopen::load_le_signed(bytes.data(), size);
+  return possible(object, value) ? AbortCode::none : AbortCode::invalid_value;
+}
+
+void Cia402Drive::before_read(canopen::ObjectId) {}
+
+AbortCode Cia402Drive::read_domain(canopen::ObjectId, Span<const std::uint8_t>&) {
+  return AbortCode::no_object;
+}
+
+AbortCode Cia402Drive::begin_domain(canopen::ObjectId, std::size_t, Span<std::uint8_t>&) {
+  return AbortCode::no_object;
+}
+
+AbortCode Cia402Drive::finish_domain(canopen::ObjectId, std::size_t) {
+  return AbortCode::no_object;
+}
+
+void Cia402Drive::abandon_domain(canopen::ObjectId) {}
+
+}  // namespace volcomp::sim

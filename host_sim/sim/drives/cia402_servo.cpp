@@ -1,0 +1,104 @@
+// The servo side of a Cia402Drive: from target and offset to a moving axis, once per period.
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "host_sim/sim/drives/cia402_drive.hpp"
+
+namespace volcomp::sim {
+
+void Cia402Drive::sync(std::uint8_t counter, std::uint64_t now_us) {
+  last_period_us_ = now_us;
+  take_input(counter);
+  run_servo_period();
+}
+
+void Cia402Drive::take_input(std::uint8_t sync_counter) {
+  const std::int32_t previous = offset_taken_;
+  offset_taken_ = objects_.offset;
+  // Right after enabling, the axis holds its place until the controller has sent a target for it.
+  if (!in_cyclic_position() || !target_arrived_) return;
+  demand_ = within_software_limits(wanted());
+  if (on_input) on_input({objects_.target, offset_taken_, previous, sync_counter});
+}
+
+// 607Ah + 60B0h; of a rotary axis the turn that is nearest to the last demand.
+std::int64_t Cia402Drive::wanted() const {
+  const std::int64_t sum = std::int64_t{objects_.target} + offset_taken_;
+  return settings_.rotary ? demand_ + wrapped(sum - demand_) : sum;
+}
+
+// An axis that already stands outside may only come back.
+std::int64_t Cia402Drive::within_software_limits(std::int64_t wanted) {
+  limited_ = false;
+  if (settings_.rotary) return wanted;
+  const std::int64_t low = std::min<std::int64_t>(objects_.software_limit[0], demand_);
+  const std::int64_t high = std::max<std::int64_t>(objects_.software_limit[1], demand_);
+  const std::int64_t allowed = std::max(low, std::min(wanted, high));
+  limited_ = allowed != wanted;
+  return allowed;
+}
+
+void Cia402Drive::run_servo_period() {
+  move();
+  ++periods_;
+  for (Edge& edge : edges_)
+    edge.latch_ns -= static_cast<std::int64_t>(1000U * period_us_);
+  latch_edges();
+  supervise();
+  publish();
+}
+
+void Cia402Drive::move() {
+  const PowerState state = machine_.state();
+  if (in_cyclic_position()) {
+    axis_.follow(demand_);
+    return;
+  }
+  if (state == PowerState::quick_stop_active || state == PowerState::fault_reaction_active)
+    brake();
+  else
+    axis_.stand();
+  demand_ = axis_.reading();
+  limited_ = false;
+}
+
+void Cia402Drive::brake() {
+  if (axis_.brake(objects_.quick_stop_deceleration)) machine_.standstill(stays_in_quick_stop());
+}
+
+void Cia402Drive::supervise() {
+  const std::int64_t error = demand_ - axis_.reading();
+  objects_.following_error = saturated(error);
+  if (!in_cyclic_position() || objects_.following_window == kNoFollowingWindow) return;
+  if (std::abs(error) > std::int64_t{objects_.following_window}) fail(kFollowingErrorCode);
+}
+
+void Cia402Drive::publish() {
+  objects_.demand = on_wire(demand_);
+  objects_.actual = on_wire(axis_.reading());
+  if (!home_offset_given_) objects_.home_offset = objects_.actual;
+  objects_.statusword = statusword();
+}
+
+std::uint16_t Cia402Drive::statusword() const {
+  unsigned word =
+      status_pattern(machine_.state()) | kStatusVoltageEnabled | kStatusRemote | mode_bits();
+  if (referenced_) word |= kStatusReferenced;
+  if (limited_) word |= kStatusInternalLimit;
+  return static_cast<std::uint16_t>(word);
+}
+
+// Bits 10, 12 and 13. Homing by method 37 takes no time, so it is never under way.
+std::uint16_t Cia402Drive::mode_bits() const {
+  if (mode() == OperationMode::homing)
+    return static_cast<std::uint16_t>(kStatusTargetReached |
+                                      (homing_attained_ ? kStatusHomingAttained : 0));
+  if (mode() != OperationMode::cyclic_position) return 0;
+  const bool follows = machine_.enabled() && target_arrived_;
+  const bool lags = fault_ == kFollowingErrorCode;
+  return static_cast<std::uint16_t>((follows ? kStatusFollowsCommand : 0) |
+                                    (lags ? kStatusFollowingError : 0));
+}
+
+}  // namespace volcomp::sim
