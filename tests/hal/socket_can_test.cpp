@@ -1,0 +1,225 @@
+// SocketCAN against a kernel played by the test: what the manual pages and the kernel's CAN
+// documentation say it answers (Documentation/networking/can.rst; errors of packet(7), send(2)).
+
+#include "hal/linux/socket_can.hpp"
+
+#include <fcntl.h>
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/ioctl.h>
+
+#include <algorithm>
+#include <cstring>
+#include <deque>
+#include <string>
+
+#include "tests/hal/support.hpp"
+#include "tests/hal/system_calls.hpp"
+
+namespace volcomp::test {
+namespace {
+
+using hal::OpenResult;
+using hal::SocketCan;
+
+constexpr int kInterfaceIndex = 7;
+
+can_frame raw_frame(canid_t id, std::uint8_t size = 0) {
+  can_frame raw{};
+  raw.can_id = id;
+  raw.can_dlc = size;
+  for (std::uint8_t i = 0; i < CAN_MAX_DLEN; ++i)
+    raw.data[i] = static_cast<std::uint8_t>(0xA0 + i);
+  return raw;
+}
+
+// A kernel with CAN and one interface that is up.
+class KernelWithCan : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    calls.socket = [](int domain, int, int protocol) {
+      EXPECT_EQ(domain, PF_CAN);
+      EXPECT_EQ(protocol, CAN_RAW);
+      return ::open("/dev/null", O_RDWR | O_CLOEXEC);  // a descriptor that can be closed
+    };
+    calls.ioctl = [this](int, unsigned long request, void* argument) {
+      auto* const asked = static_cast<ifreq*>(argument);
+      const int error = request == SIOCGIFINDEX ? index_error : flags_error;
+      if (error != 0) return failing(error);
+      if (request == SIOCGIFINDEX) {
+        EXPECT_STREQ(asked->ifr_name, "can0");
+        asked->ifr_ifindex = kInterfaceIndex;
+      } else {
+        asked->ifr_flags = flags;
+      }
+      return 0;
+    };
+    calls.setsockopt = [](int, int, int) { return 0; };
+    calls.bind = [](int, const sockaddr* address) {
+      sockaddr_can can{};
+      std::memcpy(&can, address, sizeof can);
+      EXPECT_EQ(can.can_family, AF_CAN);
+      EXPECT_EQ(can.can_ifindex, kInterfaceIndex);
+      return 0;
+    };
+    calls.recv = [this](int, void* bytes, std::size_t size) -> ssize_t {
+      if (heard.empty()) return failing(receive_error);
+      std::memcpy(bytes, &heard.front(), size);
+      heard.pop_front();
+      return static_cast<ssize_t>(size);
+    };
+  }
+
+  void expect_refused(OpenResult result, int error, const char* name = "can0") {
+    const hal::OpenStatus status = port.open(name);
+    EXPECT_EQ(status.result, result) << name;
+    EXPECT_EQ(status.error_number, error) << name;
+    EXPECT_EQ(port.descriptor(), -1) << "closed";
+  }
+
+  SystemCalls calls;
+  short flags = IFF_UP;
+  int index_error = 0;
+  int flags_error = 0;
+  int receive_error = EAGAIN;
+  std::deque<can_frame> heard;
+  SocketCan port;
+};
+
+// --- opening
+
+TEST_F(KernelWithCan, AnInterfaceThatIsUpIsOpened) {
+  ASSERT_TRUE(port.open("can0").ok());
+  EXPECT_GE(port.descriptor(), 0);
+  EXPECT_FALSE(port.network_down());
+  EXPECT_TRUE(port.wait(0)) << "what can be read ends the wait";
+  port.close();
+  EXPECT_EQ(port.descriptor(), -1);
+}
+
+TEST_F(KernelWithCan, AKernelWithoutCanIsToldFromOneThatHasNoDescriptorLeft) {
+  for (const int error : {EAFNOSUPPORT, EPROTONOSUPPORT}) {
+    calls.socket = [error](int, int, int) { return failing(error); };
+    expect_refused(OpenResult::no_can_in_kernel, error);
+  }
+  calls.socket = [](int, int, int) { return failing(EMFILE); };
+  expect_refused(OpenResult::failed, EMFILE);
+}
+
+TEST_F(KernelWithCan, AnInterfaceThatIsNotThere) {
+  expect_refused(OpenResult::no_such_interface, ENAMETOOLONG, "sixteen-letters!");
+  index_error = ENODEV;
+  expect_refused(OpenResult::no_such_interface, ENODEV);
+  index_error = 0;
+  flags_error = ENODEV;  // removed between the two questions
+  expect_refused(OpenResult::no_such_interface, ENODEV);
+}
+
+TEST_F(KernelWithCan, AnInterfaceThatIsDown) {
+  flags = 0;
+  expect_refused(OpenResult::interface_down, ENETDOWN);
+}
+
+// raw(7): an interface of another kind answers ENODEV.
+TEST_F(KernelWithCan, AnInterfaceOfAnotherKind) {
+  calls.bind = [](int, const sockaddr*) { return failing(ENODEV); };
+  expect_refused(OpenResult::not_a_can_interface, ENODEV);
+  calls.bind = [](int, const sockaddr*) { return failing(EPERM); };
+  expect_refused(OpenResult::failed, EPERM);
+}
+
+// Without error reports a bus-off would not be seen; smaller buffers do no harm.
+TEST_F(KernelWithCan, ErrorReportsAreNeededLargeBuffersAreNot) {
+  calls.setsockopt = [](int, int level, int) { return level == SOL_SOCKET ? failing(ENOBUFS) : 0; };
+  EXPECT_TRUE(port.open("can0").ok());
+  calls.setsockopt = [](int, int level, int name) {
+    return level == SOL_CAN_RAW && name == CAN_RAW_ERR_FILTER ? failing(ENOPROTOOPT) : 0;
+  };
+  expect_refused(OpenResult::failed, ENOPROTOOPT);
+}
+
+// --- frames
+
+TEST_F(KernelWithCan, AFrameIsSentAsTheKernelWantsIt) {
+  ASSERT_TRUE(port.open("can0").ok());
+  std::vector<can_frame> sent;
+  calls.send = [&](int, const void* bytes, std::size_t size) {
+    EXPECT_EQ(size, CAN_MTU);
+    std::memcpy(&sent.emplace_back(), bytes, sizeof(can_frame));
+    return static_cast<ssize_t>(size);
+  };
+  ASSERT_TRUE(port.send(frame(0x7FF, {1, 2, 3})));
+  ASSERT_EQ(sent.size(), 1U);
+  EXPECT_EQ(sent[0].can_id, 0x7FFU);
+  EXPECT_EQ(sent[0].can_dlc, 3);
+  const std::array<std::uint8_t, 8> data{1, 2, 3, 0, 0, 0, 0, 0};
+  EXPECT_TRUE(std::equal(data.begin(), data.end(), std::begin(sent[0].data)));
+}
+
+TEST_F(KernelWithCan, FramesThatCanopenHasNoUseForAreCountedAndLeftOut) {
+  ASSERT_TRUE(port.open("can0").ok());
+  // The kernel's error reports set flags of their own in the identifier; one may look extended.
+  heard = {raw_frame(CAN_ERR_FLAG | CAN_ERR_BUSOFF, 8), raw_frame(CAN_EFF_FLAG | 0x12345, 1),
+           raw_frame(CAN_RTR_FLAG | 0x701), raw_frame(CAN_ERR_FLAG | CAN_EFF_FLAG, 8),
+           raw_frame(0x123, 2)};
+  EXPECT_EQ(receive_all(port), std::vector<hal::CanFrame>{frame(0x123, {0xA0, 0xA1})});
+  EXPECT_EQ(port.skipped().error, 2U);
+  EXPECT_EQ(port.skipped().extended, 1U);
+  EXPECT_EQ(port.skipped().remote, 1U);
+  EXPECT_FALSE(port.network_down()) << "nothing there is no failure";
+}
+
+TEST_F(KernelWithCan, NoMoreThanEightBytesAreTaken) {
+  ASSERT_TRUE(port.open("can0").ok());
+  heard = {raw_frame(0x123, 15)};
+  hal::CanFrame got;
+  ASSERT_TRUE(port.receive(got));
+  EXPECT_EQ(got.size, 8);
+  EXPECT_EQ(got.data[7], 0xA7);
+}
+
+// So that a babbling neighbour cannot keep the node from its work.
+TEST_F(KernelWithCan, AFloodOfUselessFramesEndsACall) {
+  ASSERT_TRUE(port.open("can0").ok());
+  heard.assign(SocketCan::kMaxSkippedAtOnce, raw_frame(CAN_EFF_FLAG | 1));
+  heard.push_back(raw_frame(0x123));
+  hal::CanFrame got = frame(0x55);
+  EXPECT_FALSE(port.receive(got));
+  EXPECT_EQ(got, frame(0x55));
+  EXPECT_TRUE(port.receive(got));
+  EXPECT_EQ(got.id, 0x123);
+}
+
+TEST_F(KernelWithCan, ANetworkThatGoesDownShowsAndComesBack) {
+  ASSERT_TRUE(port.open("can0").ok());
+  hal::CanFrame got;
+  for (const int error : {ENETDOWN, ENODEV, ENXIO}) {
+    receive_error = error;
+    EXPECT_FALSE(port.receive(got));
+    EXPECT_TRUE(port.network_down()) << error;
+    heard = {raw_frame(0x123)};
+    EXPECT_TRUE(port.receive(got));
+    EXPECT_FALSE(port.network_down()) << error;
+  }
+}
+
+TEST_F(KernelWithCan, AFullQueueIsNoNetworkDown) {
+  ASSERT_TRUE(port.open("can0").ok());
+  int error = ENOBUFS;
+  calls.send = [&](int, const void*, std::size_t size) {
+    return error == 0 ? static_cast<ssize_t>(size) : ssize_t{failing(error)};
+  };
+  EXPECT_FALSE(port.send(frame(0x123)));
+  EXPECT_FALSE(port.network_down());
+  error = ENETDOWN;
+  EXPECT_FALSE(port.send(frame(0x123)));
+  EXPECT_TRUE(port.network_down());
+  error = 0;
+  EXPECT_TRUE(port.send(frame(0x123)));
+  EXPECT_FALSE(port.network_down());
+}
+
+}  // namespace
+}  // namespace volcomp::test

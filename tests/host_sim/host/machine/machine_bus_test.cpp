@@ -1,0 +1,133 @@
+// What a machine file says of its bus: node ids, units of the drives, software limits.
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "comp/core/units.hpp"
+#include "host_sim/host/io/toml_text.hpp"
+#include "host_sim/host/io/whole_file.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
+#include "tests/host_sim/host/machine/changed_machine.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+using testing::HasSubstr;
+
+// The bundled machine with something after the name of an axis, and something at its end.
+std::string trunnion_with(const std::string& axis, const std::string& fields,
+                          const std::string& remove = "") {
+  std::string text = text_of_file(bundled_machine("trunnion"));
+  const std::size_t section = text.find("name = \"" + axis + "\"");
+  EXPECT_NE(section, std::string::npos) << axis;
+  if (!remove.empty()) {
+    const std::size_t line = text.find(remove, section);
+    EXPECT_NE(line, std::string::npos) << remove;
+    text.erase(line, text.find('\n', line) - line);
+  }
+  return text.insert(text.find('\n', section), "\n" + fields);
+}
+
+BusAxis axis_of(const std::string& text, std::size_t a) {
+  return bus_settings(parse_machine(text, "m.toml"), kBusCycleOfFive_hz).axes.at(a);
+}
+
+TEST(MachineBus, UnitsAreExactRationals) {
+  // 1 um: 1000 nm a unit.
+  const BusAxis micrometre = axis_of(trunnion_with("X", "units_per_mm = 1000", "units_per_mm"), 0);
+  EXPECT_EQ(micrometre.scale_numerator, 1000U);
+  EXPECT_EQ(micrometre.scale_denominator, 1U);
+  // An encoder of 2^23 counts on a screw of 10 mm: 10^7 nm / 2^23 = 78125/65536.
+  const BusAxis screw =
+      axis_of(trunnion_with("X", "units_per_mm = [8388608, 10]", "units_per_mm"), 0);
+  EXPECT_EQ(screw.scale_numerator, 78125U);
+  EXPECT_EQ(screw.scale_denominator, 65536U);
+  // 2^23 counts behind a worm of 180: 2^40 / (180 * 2^23) = 32768/45.
+  const BusAxis worm =
+      axis_of(trunnion_with("A", "units_per_turn = 1509949440", "units_per_turn"), 3);
+  EXPECT_EQ(worm.scale_numerator, 32768U);
+  EXPECT_EQ(worm.scale_denominator, 45U);
+}
+
+TEST(MachineBus, NodesAreWhereTheFileSays) {
+  std::string text = trunnion_with("X", "node_id = 11", "node_id");
+  text.replace(text.find("node_id = 32"), 12, "node_id = 40\ncontroller_id = 100");
+  const BusSettings bus = bus_settings(parse_machine(text, "m.toml"), kBusCycleOfFive_hz);
+  EXPECT_EQ(bus.node, 40);
+  EXPECT_EQ(bus.controller, 100);
+  EXPECT_EQ(bus.axes[0].drive, 11);
+  EXPECT_EQ(bus.axes[4].drive, 5);
+}
+
+TEST(MachineBus, WithoutAWordTheDrivesAreNumberedAndCountNanometres) {
+  const BusSettings bus =
+      bus_settings(read_machine_file(bundled_machine("l300g")), kBusCycleOfFive_hz);
+  EXPECT_EQ(bus.node, 32);
+  EXPECT_EQ(bus.controller, 127);
+  for (std::size_t a = 0; a < 4; ++a) {
+    EXPECT_EQ(bus.axes[a].drive, a + 1);
+    EXPECT_EQ(bus.axes[a].scale_numerator, a < 2 ? 1U : 512U);
+    EXPECT_EQ(bus.axes[a].scale_denominator, 1U);
+    EXPECT_EQ(bus.axes[a].lowest, bus.axes[a].highest);
+  }
+}
+
+TEST(MachineBus, SoftwareLimitsAreInUnitsOfTheDrive) {
+  const BusAxis x =
+      axis_of(trunnion_with("X", "units_per_mm = 1000\nsoftware_limits_mm = [-255.5, 260.0]",
+                            "units_per_mm"),
+              0);
+  EXPECT_EQ(x.lowest, -255'500);
+  EXPECT_EQ(x.highest, 260'000);
+}
+
+TEST(MachineBus, RefusalsNameWhatIsWrong) {
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "node_id = 2", "node_id")),
+              HasSubstr("axis X and axis Y both have the node id 2"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "node_id = 32", "node_id")),
+              HasSubstr("the compensation node and axis X both have the node id 32"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "node_id = 128", "node_id")),
+              HasSubstr("'node_id'"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "units_per_mm = 0", "units_per_mm")),
+              HasSubstr("'units_per_mm' must be a whole number above 0"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "units_per_mm = [1, 2, 3]", "units_per_mm")),
+              HasSubstr("'units_per_mm' must be a number or a list of 2"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "units_per_mm = 7654321", "units_per_mm")),
+              HasSubstr("neither may be above 1048576"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "units_per_mm = 10000000", "units_per_mm")),
+              HasSubstr("of axis X do not fit into its 32 bits"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "units_per_turn = 1000")),
+              HasSubstr("is for rotary axes"));
+  EXPECT_THAT(machine_refusal(trunnion_with("A", "units_per_mm = 1000")),
+              HasSubstr("is for linear axes"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "software_limits_mm = [-100.0, 100.0]")),
+              HasSubstr("around the travel"));
+  EXPECT_THAT(
+      machine_refusal(trunnion_with("X", "error_at_reference = [5.0, 0.0, 0.0, 0.0, 0.0, 0.0]")),
+      HasSubstr("'error_at_reference' is in mm and rad"));
+}
+
+// Drives that count otherwise, elsewhere on the bus: the machine goes to the same places, to half a
+// unit of its drives.
+TEST(MachineBus, AMachineOfCoarseDrivesGoesWhereItIsTold) {
+  std::string text = trunnion_with("X", "node_id = 21\nunits_per_mm = 100000", "node_id");
+  text.erase(text.find("units_per_mm = 1000000"), 22);
+  text.replace(text.find("node_id = 32"), 12, "node_id = 50");
+  const MachineFile file = parse_machine(text, "m.toml");
+  TrueMachine truth;
+  truth.chain = file.chain;
+  const auto cell = bus_cells(file, kBusCycleOfFive_hz)(truth, file.correction, {});
+  const Pose start{10.000004, -20.0, -100.0, 0.1, 1.0};
+  cell->place(start);
+  const Pose to{12.000004, -21.0, -101.0, 0.15, 1.1};
+  cell->move_to(to, 50.0);
+  EXPECT_NEAR(cell->axes().position()[0], 12.0, 1e-6);  // not 12.000004: units of 10 nm
+  EXPECT_NEAR(cell->axes().position()[1], -21.0, 1e-6);
+  EXPECT_NEAR(cell->axes().position()[3], 0.15, 1e-8);
+}
+
+}  // namespace
+}  // namespace volcomp::sim
