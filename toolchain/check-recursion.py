@@ -215,16 +215,19 @@ def print_figures(graph):
 
 def print_realtime_mathematics(graph):
     """What check-archive.sh cannot see: C library mathematics behind calls into other folders of comp."""
-    roots = [t for t, f in graph.functions.items() if f.defined and f.place.startswith("comp/tick/")]
+    roots = [t for t, f in graph.functions.items() if f.defined and f.place.startswith(INTERRUPT_ROOMS)]
     reached = graph.reachable(roots)
     found = sorted(t for t in reached if LIBM.match(t))
-    print(f"  C library mathematics reached from the {len(roots)} functions of comp/tick: {len(found)}")
+    print(f"  C library mathematics reached from the {len(roots)} functions of the interrupt: {len(found)}")
     for title in found:
         path = [title]
         while reached[path[-1]] is not None:
             path.append(reached[path[-1]])
         print("    " + " <- ".join(graph.functions[t].name if graph.is_defined(t) else t for t in path))
 
+
+# What a tick may call.
+INTERRUPT_ROOMS = ("comp/tables/", "comp/tick/", "comp/probe/", "comp/strokes/")
 
 # What runs on a target, or beside one as a Linux process.
 TARGET_FOLDERS = ("comp", "hal/linux", "firmware/canopen", "firmware/node")

@@ -89,7 +89,7 @@ step_can() {
 
 step_proofs() {
   need python3
-  build_preset host --target volcomp_comp volcomp_c volcomp_canopen volcomp_node volcomp_hal_linux
+  build_preset host --target volcomp_comp volcomp_metrology volcomp_c volcomp_canopen volcomp_node volcomp_hal_linux
   bash toolchain/check-archive.sh --self-test
   bash toolchain/check-archive.sh build/host
   python3 toolchain/check-recursion.py --self-test

@@ -9,18 +9,19 @@ set(volcomp_config "${CMAKE_INSTALL_LIBDIR}/cmake/volcomp")
 set(volcomp_made "${PROJECT_BINARY_DIR}/package_files")
 
 set_target_properties(volcomp_comp PROPERTIES EXPORT_NAME comp)
+set_target_properties(volcomp_metrology PROPERTIES EXPORT_NAME metrology)
 set_target_properties(volcomp_eigen PROPERTIES EXPORT_NAME eigen)
 target_include_directories(volcomp_eigen INTERFACE "$<INSTALL_INTERFACE:${volcomp_headers}>")
 target_include_directories(volcomp_c INTERFACE "$<INSTALL_INTERFACE:${volcomp_headers}>")
-install(TARGETS volcomp_comp volcomp_c volcomp_eigen EXPORT volcomp
+install(TARGETS volcomp_comp volcomp_metrology volcomp_c volcomp_eigen EXPORT volcomp
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT dev)
 install(EXPORT volcomp NAMESPACE volcomp:: FILE volcomp-targets.cmake DESTINATION "${volcomp_config}" COMPONENT dev)
 
 # The headers lie in folders of the names they are included by; volcomp.h beside them.
 install(DIRECTORY comp DESTINATION "${volcomp_headers}" COMPONENT dev
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inl")
-install(FILES firmware/embed/cpp/axis_port.hpp DESTINATION "${volcomp_headers}/hal" COMPONENT dev)
-install(FILES firmware/embed/cpp/servo_loop.hpp DESTINATION "${volcomp_headers}/firmware/embed/cpp" COMPONENT dev)
+install(FILES firmware/embed/cpp/axis_port.hpp firmware/embed/cpp/servo_loop.hpp
+  DESTINATION "${volcomp_headers}/firmware/embed/cpp" COMPONENT dev)
 install(FILES firmware/embed/c/volcomp.h DESTINATION "${volcomp_headers}" COMPONENT dev)
 # LinuxCNC's components are built on the machine they run on.
 install(FILES firmware/embed/linuxcnc/volcomp.c firmware/embed/linuxcnc/Makefile

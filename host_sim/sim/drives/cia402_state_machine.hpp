@@ -32,7 +32,7 @@ inline constexpr std::uint16_t kControlHomingStart = 1U << 4U;
 inline constexpr std::uint16_t kControlFaultReset = 1U << 7U;
 
 // Bits of 6041h that do not belong to the state.
-enum StatusBit : std::uint16_t {
+enum DriveStatusBit : std::uint16_t {
   kStatusVoltageEnabled = 1U << 4U,
   kStatusReferenced = 1U << 8U,  // manufacturer-specific: position referenced
   kStatusRemote = 1U << 9U,
