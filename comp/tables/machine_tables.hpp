@@ -7,10 +7,17 @@
 #include <cstdint>
 
 #include "comp/machine/machine_chain.hpp"
-#include "comp/metrology/tables/error_table.hpp"
 #include "comp/tables/thermal.hpp"
 
 namespace volcomp {
+
+// Storage for tables during commissioning; a board with little memory defines it smaller. What a
+// run-time build accepts is its own, smaller capacity.
+#ifdef VOLCOMP_TABLE_KNOTS
+inline constexpr std::size_t kTableKnots = VOLCOMP_TABLE_KNOTS;
+#else
+inline constexpr std::size_t kTableKnots = 512;
+#endif
 
 using Channels = std::array<float, 6>;
 
@@ -52,17 +59,8 @@ struct MachineTables {
 // is not periodic), not_periodic.
 Status check_knots(const TableGrid& table, const Joint& joint, std::size_t capacity);
 
-// A rotary table whose ends are one turn apart (within 1e-9 rad): it wraps, in the tick and in the
-// double model.
-[[nodiscard]] bool is_full_turn(const ErrorTable& table, const Joint& joint);
-
-// Quantises one table that is already in the internal convention: knots moved to whole units
-// (values follow by linear interpolation), a full turn becomes periodic. Refuses what check_table
-// refuses, pitch_not_positive (below one unit), travel_too_long (≥ 2^32 nm or more than
-// one turn), not_periodic (full turn whose ends differ in either direction).
-Status quantise(const ErrorTable& table, const Joint& joint, std::size_t capacity, AxisTable& out);
-
-// The double table a quantised one stands for.
-void dequantise(const AxisTable& table, const Joint& joint, ErrorTable& out);
+// Smallest pitch and longest travel of a table, in its units: what 32 bits of the lookup can hold.
+[[nodiscard]] std::int64_t least_pitch(const Joint& joint);
+[[nodiscard]] std::int64_t longest_travel(const Joint& joint, bool periodic);
 
 }  // namespace volcomp

@@ -6,7 +6,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
-#include "host_sim/host/bus/bus_load.hpp"
+#include "host_sim/experiments/xyfz/bus_load_measured.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -20,7 +20,7 @@ int print_bus_load(const BusLoadArguments& arguments) {
   const std::vector<std::size_t> axes =
       arguments.axes == 0 ? std::vector<std::size_t>{3, 5} : std::vector{arguments.axes};
   Results results({arguments.json_file});
-  const std::vector<BusLoadRow> table = bus_load_table(axes);
+  const std::vector<BusLoadRow> table = bus_load_table(axes, measure_bus_load);
   results.add(arguments.json_file, json_text(to_json(table)));
   results.write();
   fmt::print(results.words(), "{}", describe(table));

@@ -6,6 +6,7 @@
 
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/host/report/page/report.hpp"
+#include "host_sim/sim/controller/tick_tables.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -71,7 +72,9 @@ std::unique_ptr<RunView> run_view(const RunArguments& arguments, const Results& 
 }
 
 RunContext run_context(const RunArguments& arguments, const RunView& view) {
-  return {arguments.command, describe(arguments.node), &view.ticks()};
+  return {arguments.command, describe(arguments.node), [&view] {
+            return view.ticks().periods() > 0 ? tick_tables(view.ticks()) : nlohmann::json::array();
+          }};
 }
 
 Results run_results(const RunArguments& arguments, const std::vector<std::string>& more_inputs) {

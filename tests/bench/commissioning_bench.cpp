@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "comp/core/units.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/metrology/tables/table_builder.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 #include "comp/tick/instances.hpp"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "comp/core/units.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 
 namespace volcomp::bench {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/plausibility.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/tables/image.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/table_case.hpp"

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/tick/instances.hpp"
 #include "tests/cases/xyfz_case.hpp"
 

@@ -7,16 +7,9 @@
 #include "comp/core/status.hpp"
 #include "comp/machine/error_motion.hpp"
 #include "comp/metrology/tables/interpolation.hpp"
+#include "comp/tables/machine_tables.hpp"
 
 namespace volcomp {
-
-// Storage for tables during commissioning; a board with little memory defines it smaller. What a
-// run-time build accepts is its own, smaller capacity.
-#ifdef VOLCOMP_TABLE_KNOTS
-inline constexpr std::size_t kTableKnots = VOLCOMP_TABLE_KNOTS;
-#else
-inline constexpr std::size_t kTableKnots = 512;
-#endif
 
 using TableColumn = std::array<ErrorMotion, kTableKnots>;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "comp/core/units.hpp"
-#include "comp/tables/machine_tables.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 
 namespace volcomp {
 namespace {

@@ -1,12 +1,13 @@
 // The measured part of the bus load: the simulated machine on a bus whose frames take the time
 // their contents need.
 
+#include "host_sim/experiments/xyfz/bus_load_measured.hpp"
+
 #include <algorithm>
 #include <limits>
 
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/experiments/xyfz/scenario.hpp"
-#include "host_sim/host/bus/bus_load.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"

@@ -48,7 +48,8 @@ ComputedLoad compute_bus_load(std::size_t axes, double cycle_hz) {
           load(axes, cycle_hz, hal::worst_case_frame_bits)};
 }
 
-std::vector<BusLoadRow> bus_load_table(const std::vector<std::size_t>& axes) {
+std::vector<BusLoadRow> bus_load_table(const std::vector<std::size_t>& axes,
+                                       const MeasureLoads& measure) {
   constexpr std::size_t kMeasuredAxes = 3;
   std::vector<BusLoadRow> table;
   std::vector<double> rates;
@@ -58,7 +59,7 @@ std::vector<BusLoadRow> bus_load_table(const std::vector<std::size_t>& axes) {
       if (count == kMeasuredAxes && table.back().always_fits()) rates.push_back(rate);
     }
   }
-  const std::vector<MeasuredLoad> measured = measure_bus_load(rates);
+  const std::vector<MeasuredLoad> measured = measure(rates);
   auto next = measured.begin();
   for (BusLoadRow& row : table) {
     if (row.axes == kMeasuredAxes && row.always_fits()) row.measured = *next++;

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,9 +36,8 @@ struct MeasuredLoad {
   [[nodiscard]] bool in_time() const { return deadline_missed == 0; }
 };
 
-// The XYFZ machine that comes with the program on the simulated bus, two seconds of machine time
-// along a diagonal. Throws UserError when it cannot work at this rate.
-[[nodiscard]] std::vector<MeasuredLoad> measure_bus_load(const std::vector<double>& cycle_hz);
+// Loads at these rates.
+using MeasureLoads = std::function<std::vector<MeasuredLoad>(const std::vector<double>& cycle_hz)>;
 
 struct BusLoadRow {
   std::size_t axes = 0;
@@ -51,7 +52,8 @@ struct BusLoadRow {
 };
 
 // Every rate for these numbers of axes; measured for three axes where there is always room.
-[[nodiscard]] std::vector<BusLoadRow> bus_load_table(const std::vector<std::size_t>& axes);
+[[nodiscard]] std::vector<BusLoadRow> bus_load_table(const std::vector<std::size_t>& axes,
+                                                     const MeasureLoads& measure);
 
 [[nodiscard]] std::string describe(const std::vector<BusLoadRow>& table);
 [[nodiscard]] nlohmann::json to_json(const std::vector<BusLoadRow>& table);

@@ -5,8 +5,8 @@
 #include "comp/tick/status_text.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/node/store/storage.hpp"
+#include "host_sim/host/bus/cia402_status.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
-#include "host_sim/sim/drives/cia402_state_machine.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -10,6 +10,7 @@
 #include "comp/machine/frame.hpp"
 #include "comp/machine/inverse.hpp"
 #include "comp/metrology/tables/pose_offset.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/tables/image.hpp"
 #include "host_sim/host/io/user_error.hpp"
 

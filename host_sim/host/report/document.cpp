@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "host_sim/sim/controller/tick_tables.hpp"
-
 namespace volcomp::sim {
 namespace {
 
@@ -24,8 +22,7 @@ json report_document(ReportParts parts) {
     add_chapter(sections, "Result", json::array({std::move(parts.before_after)}));
   add_chapter(sections, "Plots", std::move(parts.plots));
   add_chapter(sections, "Details", std::move(parts.details));
-  if (parts.ticks != nullptr && parts.ticks->periods() > 0)
-    add_chapter(sections, "Tick statistics", tick_tables(*parts.ticks));
+  if (parts.ticks) add_chapter(sections, "Tick statistics", parts.ticks());
   json document{{"title", parts.title},
                 {"subtitle", parts.subtitle},
                 {"sections", std::move(sections)},

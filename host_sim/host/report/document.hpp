@@ -22,21 +22,24 @@
 // controller/bus_axes.hpp and `watched_integrated_cells()` show machines to it; write_pages() ends
 // the run. Who has no control periods leaves `ticks` out, and the report its statistics.
 
+#include <functional>
 #include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "host_sim/host/report/progress.hpp"
-#include "host_sim/sim/controller/tick_statistics.hpp"
 
 namespace volcomp::sim {
+
+// Makes tables of what the compensation did in all control periods; an empty list without periods.
+using TickTables = std::function<nlohmann::json()>;
 
 // What a report has to know of the run besides its result.
 struct RunContext {
   std::string command;    // as the user has typed it
   std::string transport;  // where the compensation was done; empty: nothing was compensated
-  const TickStatistics* ticks = nullptr;
+  TickTables ticks = nullptr;
 };
 
 struct ReportParts {
@@ -46,7 +49,7 @@ struct ReportParts {
   nlohmann::json before_after;                     // before_after.hpp; null: none
   nlohmann::json plots = nlohmann::json::array();  // what was measured
   nlohmann::json details = nlohmann::json::array();
-  const TickStatistics* ticks = nullptr;
+  TickTables ticks = nullptr;
   nlohmann::json provenance;  // provenance.hpp
 };
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/metrology/tables/table_builder.hpp"
 #include "comp/metrology/tables/volumetric_model.hpp"
-#include "comp/tables/machine_tables.hpp"
 #include "comp/tick/compensator.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/host/tables/runs_csv.hpp"

@@ -1,5 +1,6 @@
 #include "host_sim/host/tables/table_model.hpp"
 
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/table_set.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "comp/metrology/fits/axis_identification.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {

@@ -17,16 +17,11 @@
 #include <vector>
 
 #include "firmware/canopen/device.hpp"
+#include "host_sim/host/bus/cia402_objects.hpp"
 #include "host_sim/sim/drives/cia402_axis.hpp"
-#include "host_sim/sim/drives/cia402_objects.hpp"
 #include "host_sim/sim/drives/cia402_state_machine.hpp"
 
 namespace volcomp::sim {
-
-// CiA 402-2, error code "following error".
-inline constexpr auto kFollowingErrorCode = static_cast<canopen::ErrorCode>(0x8611);
-// The same for 6007h = 1; the EMCY of the lost heartbeat itself is 8130h.
-inline constexpr auto kCommunicationErrorCode = static_cast<canopen::ErrorCode>(0x8100);
 
 class Cia402Drive final : private canopen::Application {
  public:

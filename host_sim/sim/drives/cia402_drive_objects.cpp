@@ -4,6 +4,7 @@
 
 #include "firmware/canopen/bytes.hpp"
 #include "host_sim/sim/drives/cia402_drive.hpp"
+#include "host_sim/sim/drives/cia402_touch_probe.hpp"
 
 namespace volcomp::sim {
 

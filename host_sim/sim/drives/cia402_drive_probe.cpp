@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host_sim/sim/drives/cia402_drive.hpp"
+#include "host_sim/sim/drives/cia402_touch_probe.hpp"
 
 namespace volcomp::sim {
 

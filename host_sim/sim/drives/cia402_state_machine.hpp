@@ -1,21 +1,12 @@
 #pragma once
-// The finite state automaton of a power drive system (CiA 402-2, "FSA"): states, the commands of
-// the controlword, the statusword pattern of each state.
+// The finite state automaton of a power drive system (CiA 402-2, "FSA"): the commands of the
+// controlword and what they do.
 
 #include <cstdint>
 
-namespace volcomp::sim {
+#include "host_sim/host/bus/cia402_status.hpp"
 
-enum class PowerState : std::uint8_t {
-  not_ready_to_switch_on,
-  switch_on_disabled,
-  ready_to_switch_on,
-  switched_on,
-  operation_enabled,
-  quick_stop_active,
-  fault_reaction_active,
-  fault,
-};
+namespace volcomp::sim {
 
 // What a controlword asks for, fault reset apart: that one is an edge, not a level.
 enum class PowerCommand : std::uint8_t {
@@ -31,23 +22,8 @@ enum class PowerCommand : std::uint8_t {
 inline constexpr std::uint16_t kControlHomingStart = 1U << 4U;
 inline constexpr std::uint16_t kControlFaultReset = 1U << 7U;
 
-// Bits of 6041h that do not belong to the state.
-enum DriveStatusBit : std::uint16_t {
-  kStatusVoltageEnabled = 1U << 4U,
-  kStatusReferenced = 1U << 8U,  // manufacturer-specific: position referenced
-  kStatusRemote = 1U << 9U,
-  kStatusTargetReached = 1U << 10U,
-  kStatusInternalLimit = 1U << 11U,
-  kStatusFollowsCommand = 1U << 12U,  // cyclic synchronous position
-  kStatusHomingAttained = 1U << 12U,  // homing
-  kStatusFollowingError = 1U << 13U,  // cyclic synchronous position
-};
-
 // `controlword` with bit 7 set asks for nothing: every command needs it to be 0.
 [[nodiscard]] PowerCommand decode(std::uint16_t controlword);
-
-// Bits 0…3, 5 and 6 of the statusword.
-[[nodiscard]] std::uint16_t status_pattern(PowerState state);
 
 class PowerStateMachine {
  public:

@@ -1,6 +1,7 @@
 // Quantised tables at the edge of what the integer lookup can represent: accepted means usable.
 
 #include "comp/core/units.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/tables/image.hpp"
 #include "tests/oracle/tick_bench.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "comp/metrology/tables/quantise.hpp"
 #include "tests/oracle/growing_machine.hpp"
 
 namespace volcomp::test {

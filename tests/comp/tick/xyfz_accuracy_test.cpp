@@ -2,6 +2,7 @@
 // after rounding as long as S ≤ 1 mm, whichever model plays the oracle and whichever way the
 // machine was built.
 
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/metrology/tables/volumetric_model.hpp"
 #include "tests/oracle/tick_bench.hpp"
 

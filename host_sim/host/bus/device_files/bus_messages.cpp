@@ -7,9 +7,9 @@
 
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
+#include "host_sim/host/bus/cia402_objects.hpp"
 #include "host_sim/host/bus/device_files/signal_names.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/sim/drives/cia402_objects.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -9,7 +9,7 @@
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/nmt.hpp"
 #include "firmware/node/node_objects.hpp"
-#include "host_sim/sim/drives/cia402_drive.hpp"
+#include "host_sim/host/bus/cia402_objects.hpp"
 
 namespace volcomp::sim {
 namespace {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
+#include "comp/metrology/tables/quantise.hpp"
 #include "comp/metrology/tables/volumetric_model.hpp"
 #include "comp/tables/image.hpp"
-#include "comp/tables/machine_tables.hpp"
 #include "tests/oracle/exact_chain.hpp"
 
 namespace volcomp::test {

@@ -13,7 +13,7 @@
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
-#include "host_sim/host/bus/bus_load.hpp"
+#include "host_sim/experiments/xyfz/bus_load_measured.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
@@ -268,7 +268,7 @@ TEST(BusLoad, ThreeAxesAt500Hz) {
 }
 
 TEST(BusLoad, MeasuredLiesBetweenTheComputedBoundsAndInTime) {
-  for (const BusLoadRow& row : bus_load_table({3})) {
+  for (const BusLoadRow& row : bus_load_table({3}, measure_bus_load)) {
     SCOPED_TRACE(row.cycle_hz);
     EXPECT_EQ(row.measured.has_value(), row.cycle_hz < 600.0);
     if (!row.measured) continue;

@@ -1,15 +1,20 @@
 #pragma once
-// The object dictionary of the simulated servo drive: the application area of CiA 402-2 that a
-// cyclic synchronous position drive with homing and touch probe has, and its default PDOs.
+// The object dictionary of a servo drive: the application area of CiA 402-2 that a cyclic
+// synchronous position drive with homing and touch probe has, and its default PDOs.
 
 #include <array>
 #include <cstdint>
 
 #include "firmware/canopen/communication_objects.hpp"
+#include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/pdo.hpp"
-#include "host_sim/sim/drives/cia402_touch_probe.hpp"
 
 namespace volcomp::sim {
+
+// CiA 402-2, error code "following error".
+inline constexpr auto kFollowingErrorCode = static_cast<canopen::ErrorCode>(0x8611);
+// The same for 6007h = 1; the EMCY of the lost heartbeat itself is 8130h.
+inline constexpr auto kCommunicationErrorCode = static_cast<canopen::ErrorCode>(0x8100);
 
 // 6060h, 6061h.
 enum class OperationMode : std::int8_t { none = 0, homing = 6, cyclic_position = 8 };
@@ -35,6 +40,23 @@ inline constexpr std::uint32_t kIncrement = 0x00B5'0000;  // 10⁰, increment; 6
 struct Ratio {
   std::uint32_t numerator = 1;
   std::uint32_t denominator = 1;
+};
+
+// What one edge of one probe leaves behind.
+struct TouchProbeLatch {
+  std::int32_t position = 0;     // 60BAh…60BDh
+  std::uint32_t time_ns = 0;     // 60D1h…60D4h: since the SYNC before it
+  std::uint16_t edge_count = 0;  // 60D5h…60D8h: latched edges since power-on, wraps
+};
+
+struct TouchProbeObjects {
+  std::uint16_t function = 0;                // 60B8h
+  std::uint16_t status = 0;                  // 60B9h
+  std::array<std::int16_t, 2> source{1, 2};  // 60D0h: the input each probe is wired to
+  TouchProbeLatch positive_1;
+  TouchProbeLatch negative_1;
+  TouchProbeLatch positive_2;
+  TouchProbeLatch negative_2;
 };
 
 struct Cia402Objects {

@@ -1,4 +1,4 @@
-#include "host_sim/sim/drives/cia402_objects.hpp"
+#include "host_sim/host/bus/cia402_objects.hpp"
 
 #include "firmware/canopen/cob_id.hpp"
 
