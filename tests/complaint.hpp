@@ -12,7 +12,7 @@ template <class Work>
 [[nodiscard]] std::string complaint_of(const Work& work) {
   try {
     static_cast<void>(work());
-  } catch (const UserError& e) {
+  } catch (const host::UserError& e) {
     return e.what();
   }
   return "accepted";

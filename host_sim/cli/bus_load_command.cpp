@@ -8,7 +8,7 @@
 #include "host_sim/cli/output.hpp"
 #include "host_sim/experiments/xyfz/bus_load_measured.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct BusLoadArguments {
@@ -20,10 +20,10 @@ int print_bus_load(const BusLoadArguments& arguments) {
   const std::vector<std::size_t> axes =
       arguments.axes == 0 ? std::vector<std::size_t>{3, 5} : std::vector{arguments.axes};
   Results results({arguments.json_file});
-  const std::vector<BusLoadRow> table = bus_load_table(axes, measure_bus_load);
-  results.add(arguments.json_file, json_text(to_json(table)));
+  const std::vector<host::BusLoadRow> table = host::bus_load_table(axes, xyfz::measure_bus_load);
+  results.add(arguments.json_file, json_text(host::to_json(table)));
   results.write();
-  fmt::print(results.words(), "{}", describe(table));
+  fmt::print(results.words(), "{}", host::describe(table));
   return 0;
 }
 
@@ -40,4 +40,4 @@ void add_bus_load_command(CLI::App& app, int& code) {
   command->callback([a, &code] { code = print_bus_load(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -13,7 +13,7 @@
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct CanArguments {
@@ -25,30 +25,31 @@ struct CanArguments {
   bool store = false;
 };
 
-NodeClient connect(const CanArguments& arguments) {
+host::NodeClient connect(const CanArguments& arguments) {
   if (arguments.link == "loopback")
-    throw UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
-  return {static_cast<std::uint8_t>(arguments.node_id), LinkPump(open_frame_link(arguments.link))};
+    throw host::UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
+  return {static_cast<std::uint8_t>(arguments.node_id),
+          host::LinkPump(host::open_frame_link(arguments.link))};
 }
 
 std::uint32_t crc_of(const std::vector<std::uint8_t>& image) {
   return image_crc({image.data(), image.size()});
 }
 
-void send_with_progress(NodeClient& client, const std::vector<std::uint8_t>& image) {
+void send_with_progress(host::NodeClient& client, const std::vector<std::uint8_t>& image) {
   ProgressBar bar;
   const auto all = static_cast<double>(image.size());
-  send_image(client, image, [&](std::size_t bytes) {
+  host::send_image(client, image, [&](std::size_t bytes) {
     bar.show(static_cast<double>(bytes) / all, fmt::format("{} of {} bytes", bytes, image.size()));
   });
 }
 
 // The bus lets nobody know whether what became active is what was sent, so it is read back.
-ActiveTables activate(NodeClient& client, const std::vector<std::uint8_t>& image) {
-  activate_tables(client);
-  const ActiveTables tables = active_tables(client);
+host::ActiveTables activate(host::NodeClient& client, const std::vector<std::uint8_t>& image) {
+  host::activate_tables(client);
+  const host::ActiveTables tables = host::active_tables(client);
   if (tables.crc != crc_of(image))
-    throw UserError(
+    throw host::UserError(
         fmt::format("node {} has other tables active, CRC-32 {:08X}: somebody else "
                     "works on it",
                     client.node_id(), tables.crc));
@@ -58,12 +59,12 @@ ActiveTables activate(NodeClient& client, const std::vector<std::uint8_t>& image
 int download(const CanArguments& arguments) {
   Results results({arguments.json_file}, {arguments.image});
   std::FILE* const words = results.words();
-  const std::vector<std::uint8_t> image = read_image_file(arguments.image);
-  NodeClient client = connect(arguments);
+  const std::vector<std::uint8_t> image = host::read_image_file(arguments.image);
+  host::NodeClient client = connect(arguments);
   send_with_progress(client, image);
   fmt::print(words, "{}: {} bytes sent to node {}\n", arguments.image, image.size(),
              client.node_id());
-  arm_tables(client);
+  host::arm_tables(client);
   nlohmann::json result{{"node", client.node_id()},
                         {"bytes", image.size()},
                         {"crc32", fmt::format("{:08X}", crc_of(image))},
@@ -72,12 +73,12 @@ int download(const CanArguments& arguments) {
   if (arguments.no_activate) {
     fmt::print(words, "checked and ready, not active: CRC-32 {:08X}\n", crc_of(image));
   } else {
-    const ActiveTables tables = activate(client, image);
+    const host::ActiveTables tables = activate(client, image);
     fmt::print(words, "active: CRC-32 {:08X}, sequence number {}\n", tables.crc, tables.sequence);
     result["sequence_number"] = tables.sequence;
   }
   if (arguments.store) {
-    store_all(client);
+    host::store_all(client);
     fmt::print(words, "stored\n");
   }
   results.add(arguments.json_file, json_text(result));
@@ -87,8 +88,8 @@ int download(const CanArguments& arguments) {
 
 int upload(const CanArguments& arguments) {
   Results results({arguments.image, arguments.json_file});
-  NodeClient client = connect(arguments);
-  const std::vector<std::uint8_t> image = fetch_image(client);
+  host::NodeClient client = connect(arguments);
+  const std::vector<std::uint8_t> image = host::fetch_image(client);
   results.add(arguments.image, {reinterpret_cast<const char*>(image.data()), image.size()});
   const nlohmann::json result{{"node", client.node_id()},
                               {"bytes", image.size()},
@@ -102,10 +103,10 @@ int upload(const CanArguments& arguments) {
 
 int diagnose_node(const CanArguments& arguments) {
   Results results({arguments.json_file});
-  NodeClient client = connect(arguments);
-  const Diagnosis diagnosis = diagnose(client);
-  fmt::print(results.words(), "{}", describe(diagnosis));
-  results.add(arguments.json_file, json_text(to_json(diagnosis)));
+  host::NodeClient client = connect(arguments);
+  const host::Diagnosis diagnosis = host::diagnose(client);
+  fmt::print(results.words(), "{}", host::describe(diagnosis));
+  results.add(arguments.json_file, json_text(host::to_json(diagnosis)));
   results.write();
   return 0;
 }
@@ -114,7 +115,7 @@ int diagnose_node(const CanArguments& arguments) {
 int judged(int (*command)(const CanArguments&), const CanArguments& arguments) {
   try {
     return command(arguments);
-  } catch (const NodeRefused& refused) {
+  } catch (const host::NodeRefused& refused) {
     fmt::print(stderr, "volcomp: {}\n", refused.what());
     return 1;
   }
@@ -122,7 +123,7 @@ int judged(int (*command)(const CanArguments&), const CanArguments& arguments) {
 
 std::shared_ptr<CanArguments> add_node_options(CLI::App& command) {
   auto a = std::make_shared<CanArguments>();
-  command.add_option("--can", a->link, fmt::format("Where the node is: {}", kLinkForms))
+  command.add_option("--can", a->link, fmt::format("Where the node is: {}", host::kLinkForms))
       ->required();
   command.add_option("--node-id", a->node_id, "CANopen node id of the compensation node")
       ->check(CLI::Range(1, 127))
@@ -160,4 +161,4 @@ void add_can_commands(CLI::App& app, int& code) {
   diagnosis->callback([n, &code] { code = judged(diagnose_node, *n); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -10,7 +10,7 @@
 #include "host_sim/cli/output.hpp"
 #include "host_sim/host/tables/lever_check.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct LeverArguments {
@@ -25,9 +25,9 @@ std::string point_text(const Vec3& p) {
   return fmt::format("{:.3f} {:.3f} {:.3f} mm", p(0), p(1), p(2));
 }
 
-nlohmann::json to_json(const LeverVerdict& v) {
+nlohmann::json to_json(const host::LeverVerdict& v) {
   nlohmann::json angles = nlohmann::json::array();
-  for (const LeverAngle& angle : v.angle) {
+  for (const host::LeverAngle& angle : v.angle) {
     angles.push_back({{"channel", angle.channel},
                       {"expected_mm", angle.expected_mm},
                       {"found_mm", angle.found_mm},
@@ -44,14 +44,15 @@ nlohmann::json to_json(const LeverVerdict& v) {
 int check(const LeverArguments& a) {
   Results results({a.json_file}, {a.machine, a.first, a.second});
   std::FILE* const words = results.words();
-  const LeverVerdict v =
-      check_lever(read_machine_file(a.machine), read_runs_file(a.first), read_runs_file(a.second),
-                  Vec3(a.second_point.at(0), a.second_point.at(1), a.second_point.at(2)));
+  const host::LeverVerdict v =
+      host::check_lever(host::read_machine_file(a.machine), host::read_runs_file(a.first),
+                        host::read_runs_file(a.second),
+                        Vec3(a.second_point.at(0), a.second_point.at(1), a.second_point.at(2)));
   results.add(a.json_file, json_text(to_json(v)));
   results.write();
   fmt::print(words, "axis {}, {} targets, measured at {} and at {}\n", v.axis, v.targets,
              point_text(v.first_point), point_text(v.second_point));
-  for (const LeverAngle& angle : v.angle) {
+  for (const host::LeverAngle& angle : v.angle) {
     fmt::print(words, "{}: lever {:.1f} mm expected, {:.1f} found, {:.1f} allowed: {}{}\n",
                angle.channel, angle.expected_mm, angle.found_mm, angle.allowed_mm,
                angle.good ? "good" : "wrong", angle.hint.empty() ? "" : ", " + angle.hint);
@@ -85,4 +86,4 @@ void add_check_lever_command(CLI::App& app, int& code) {
   command->callback([a, &code] { code = check(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 // "TEXT:{lsq,end}": the validator describes its choices.
@@ -75,4 +75,4 @@ std::vector<const CommandText*> all_commands(const CommandText& tree) {
   return all;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

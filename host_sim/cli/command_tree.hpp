@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 enum class ValueKind : std::uint8_t { none, choice, number, text };
 
@@ -35,4 +35,4 @@ struct CommandText {
 // The tree as a list, a command before those below it. It refers to the tree.
 [[nodiscard]] std::vector<const CommandText*> all_commands(const CommandText& tree);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

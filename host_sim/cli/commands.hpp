@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 void add_run_command(CLI::App& app, int argc, char** argv, int& code);
 // Below "run"; `command` as the user has typed it.
@@ -31,4 +31,4 @@ void add_monitor_command(CLI::App& app, int& code);
 void add_simulate_command(CLI::App& app, int& code);
 void add_verify_command(CLI::App& app, int argc, char** argv, int& code);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -11,11 +11,11 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/flank_comparison.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct CompareArguments {
-  CompareOptions options;
+  host::CompareOptions options;
   std::vector<std::string> names;
   std::string plus = "metal";
   std::string row_1 = "tip";
@@ -30,18 +30,19 @@ struct CompareArguments {
   std::string command;        // as the user has typed it
 };
 
-CompareOptions options_of(const CompareArguments& a) {
-  CompareOptions options = a.options;
+host::CompareOptions options_of(const CompareArguments& a) {
+  host::CompareOptions options = a.options;
   if (!a.names.empty()) options.names = {a.names.at(0), a.names.at(1)};
   options.plus_is_metal = a.plus == "metal";
   options.row_1_is_tip = a.row_1 == "tip";
   options.column_1_is_inner = a.column_1 == "inner";
   options.um_per_unit = a.unit == "mm" ? 1e3 : 1.0;
-  options.zeroing = a.zero == "centre" ? Zeroing::centre
-                    : a.zero == "mean" ? Zeroing::mean
-                                       : Zeroing::as_given;
+  options.zeroing = a.zero == "centre" ? host::Zeroing::centre
+                    : a.zero == "mean" ? host::Zeroing::mean
+                                       : host::Zeroing::as_given;
   if (a.rows.at(0) > a.rows.at(1))
-    throw UserError(fmt::format("--rows {} {}: the first row comes first", a.rows[0], a.rows[1]));
+    throw host::UserError(
+        fmt::format("--rows {} {}: the first row comes first", a.rows[0], a.rows[1]));
   options.profile_rows = {a.rows.at(0) - 1, a.rows.at(1) - 1};
   if (a.has_limit) options.limit_um = a.limit;
   return options;
@@ -55,12 +56,12 @@ std::vector<std::string> inputs_of(const CompareArguments& a) {
 
 int compare(const CompareArguments& a) {
   Results results(with_report({a.json_file}, a.report_folder), inputs_of(a), a.report_folder);
-  const FlankComparison result = compare_flanks(options_of(a));
+  const host::FlankComparison result = host::compare_flanks(options_of(a));
   if (!a.report_folder.empty())
-    add_report(results, a.report_folder, comparison_document(result, {a.command, {}}));
-  results.add(a.json_file, json_text(comparison_json(result)));
+    add_report(results, a.report_folder, host::comparison_document(result, {a.command, {}}));
+  results.add(a.json_file, json_text(host::comparison_json(result)));
   results.write();
-  fmt::print(results.words(), "{}", comparison_text(result));
+  fmt::print(results.words(), "{}", host::comparison_text(result));
   return result.within_limit() ? 0 : 1;
 }
 
@@ -122,4 +123,4 @@ void add_compare_command(CLI::App& app, int argc, char** argv, int& code) {
   });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 // In single quotes a shell takes everything as it is, but the quote itself.
@@ -261,4 +261,4 @@ std::string fish_completion(const CommandText& program) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

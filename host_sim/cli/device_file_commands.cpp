@@ -12,7 +12,7 @@
 #include "host_sim/host/bus/explain/catalogue.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct DeviceFileArguments {
@@ -29,16 +29,16 @@ struct DeviceFileArguments {
 // ISO 841: A, B and C turn.
 bool is_rotary(char letter) { return letter >= 'A' && letter <= 'C'; }
 
-BusSettings bus_of(const DeviceFileArguments& a) {
+host::BusSettings bus_of(const DeviceFileArguments& a) {
   if (a.axes.size() != a.drives.size()) {
-    throw UserError(
+    throw host::UserError(
         fmt::format("--axes names {} axes, --drives {} drives", a.axes.size(), a.drives.size()));
   }
-  BusSettings bus;
+  host::BusSettings bus;
   bus.node = static_cast<std::uint8_t>(a.node);
   bus.controller = static_cast<std::uint8_t>(a.controller);
   for (std::size_t i = 0; i < a.axes.size(); ++i) {
-    BusAxis axis;
+    host::BusAxis axis;
     axis.letter = a.axes[i];
     axis.drive = static_cast<std::uint8_t>(a.drives[i]);
     axis.rotary = is_rotary(axis.letter);
@@ -49,12 +49,12 @@ BusSettings bus_of(const DeviceFileArguments& a) {
 
 int write_device_files(const DeviceFileArguments& a) {
   if (a.eds.empty() && a.dbc.empty() && a.objects.empty() && a.reasons.empty())
-    throw UserError("nothing to write: give --eds, --dbc, --objects or --reasons");
+    throw host::UserError("nothing to write: give --eds, --dbc, --objects or --reasons");
   Results results({a.eds, a.dbc, a.objects, a.reasons});
-  results.add(a.eds, make_eds());
-  results.add(a.dbc, make_dbc(bus_of(a)));
-  results.add(a.objects, object_page());
-  results.add(a.reasons, reason_page());
+  results.add(a.eds, host::make_eds());
+  results.add(a.dbc, host::make_dbc(bus_of(a)));
+  results.add(a.objects, host::object_page());
+  results.add(a.reasons, host::reason_page());
   results.write();
   return 0;
 }
@@ -89,4 +89,4 @@ void add_device_files_command(CLI::App& app, int& code) {
   files->callback([a, &code] { code = write_device_files(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 std::string exit_code_lines() {
   std::string text = "Exit codes:\n";
@@ -11,4 +11,4 @@ std::string exit_code_lines() {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 enum class ExitCode : std::uint8_t { done = 0, negative = 1, unusable = 2 };
 
@@ -29,4 +29,4 @@ inline constexpr std::array<ExitCodeText, 3> kExitCodes{
 // A line for each, for a help text.
 [[nodiscard]] std::string exit_code_lines();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

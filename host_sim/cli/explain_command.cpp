@@ -12,7 +12,7 @@
 #include "host_sim/host/bus/explain/meaning_json.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct ExplainArguments {
@@ -28,28 +28,28 @@ struct Answer {
 Answer explain_words(const std::vector<std::string>& words) {
   Answer answer{"", {{"words", nlohmann::json::array()}}};
   for (const std::string& word : words) {
-    const Meaning meaning = meaning_of(word);
-    const std::string found = meaning_text(meaning);
+    const host::Meaning meaning = host::meaning_of(word);
+    const std::string found = host::meaning_text(meaning);
     if (found.empty()) {
-      throw UserError(fmt::format(
+      throw host::UserError(fmt::format(
           "nothing is known of \"{}\" (a name such as crc_mismatch, the number of a reason such as "
           "20, an "
           "emergency code or object such as FF10h or 2202h, an abort code such as 06010002)",
           word));
     }
     answer.text += (answer.text.empty() ? "" : "\n") + found;
-    answer.figures["words"].push_back(meaning_json(word, meaning));
+    answer.figures["words"].push_back(host::meaning_json(word, meaning));
   }
   return answer;
 }
 
 Answer list_words() {
-  Answer answer{"", catalogue_json()};
+  Answer answer{"", host::catalogue_json()};
   const char* heading = "";
-  for (const CodeEntry& e : code_catalogue()) {
-    if (heading != title(e.kind))
-      answer.text += fmt::format("{}{}\n", *heading == '\0' ? "" : "\n", title(e.kind));
-    heading = title(e.kind);
+  for (const host::CodeEntry& e : host::code_catalogue()) {
+    if (heading != host::title(e.kind))
+      answer.text += fmt::format("{}{}\n", *heading == '\0' ? "" : "\n", host::title(e.kind));
+    heading = host::title(e.kind);
     answer.text += fmt::format("  {:<12} {:<24} {}\n", e.label, e.name, e.what);
   }
   return answer;
@@ -79,4 +79,4 @@ void add_explain_command(CLI::App& app, int& code) {
   command->callback([a, &code] { code = tell(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -14,7 +14,7 @@
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/host/tables/controller_export.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct ExportArguments {
@@ -23,36 +23,37 @@ struct ExportArguments {
   std::string image;
   std::string out;
   std::string json_file;
-  ExportOptions options;
+  host::ExportOptions options;
 };
 
 struct Source {
   std::string name;
-  TableModel tables;
+  host::TableModel tables;
 };
 
 Source source_of(const ExportArguments& a) {
   if (!a.image.empty()) {
-    const std::string name = shown_name(a.image);
-    return {name, table_model(*read_tables_file(a.image), name)};
+    const std::string name = host::shown_name(a.image);
+    return {name, host::table_model(*host::read_tables_file(a.image), name)};
   }
   if (a.machine.empty() || a.runs.empty())
-    throw UserError("nothing to export: give --image, or --machine and --runs");
-  const MachineFile machine = read_machine_file(a.machine);
-  std::vector<RunsFile> runs;
+    throw host::UserError("nothing to export: give --image, or --machine and --runs");
+  const host::MachineFile machine = host::read_machine_file(a.machine);
+  std::vector<host::RunsFile> runs;
   for (const std::string& path : a.runs)
-    runs.push_back(read_runs_file(path));
-  const auto built = commission(machine, runs, tables_only(ModelKind::abbe_closed));
-  return {a.machine, table_model(built->tables, a.machine)};
+    runs.push_back(host::read_runs_file(path));
+  const auto built =
+      host::commission(machine, runs, host::tables_only(host::ModelKind::abbe_closed));
+  return {a.machine, host::table_model(built->tables, a.machine)};
 }
 
 nlohmann::json vector_json(const Vec3& v) { return {v(0), v(1), v(2)}; }
 
-nlohmann::json export_json(const ControllerExport& result) {
+nlohmann::json export_json(const host::ControllerExport& result) {
   nlohmann::json formats = nlohmann::json::array();
-  for (const ExportedFormat& f : result.formats) {
+  for (const host::ExportedFormat& f : result.formats) {
     nlohmann::json names = nlohmann::json::array();
-    for (const NamedText& file : f.files)
+    for (const host::NamedText& file : f.files)
       names.push_back(file.name);
     formats.push_back({{"format", f.name},
                        {"files", names},
@@ -69,9 +70,10 @@ nlohmann::json export_json(const ControllerExport& result) {
           {"formats", formats}};
 }
 
-void print_format(std::FILE* words, const ExportedFormat& f, const ControllerExport& result) {
+void print_format(std::FILE* words, const host::ExportedFormat& f,
+                  const host::ControllerExport& result) {
   fmt::print(words, "{}:\n", f.name);
-  for (const NamedText& file : f.files)
+  for (const host::NamedText& file : f.files)
     fmt::print(words, "  {}\n", file.name);
   fmt::print(words, "  units: {}; rounding {} µm\n  sign: {}\n  cannot hold: {}\n", f.units,
              f.half_step_um, f.sign, f.not_held);
@@ -95,21 +97,21 @@ std::vector<std::string> inputs_of(const ExportArguments& a) {
 int export_tables_to(const ExportArguments& a) {
   Results results({a.json_file}, inputs_of(a), a.out);
   const Source source = source_of(a);
-  const ControllerExport result = export_tables(source.tables, source.name, a.options);
-  std::vector<NamedText> files;
-  for (const ExportedFormat& format : result.formats)
+  const host::ControllerExport result = host::export_tables(source.tables, source.name, a.options);
+  std::vector<host::NamedText> files;
+  for (const host::ExportedFormat& format : result.formats)
     files.insert(files.end(), format.files.begin(), format.files.end());
   results.add_files(a.out, files);
   results.add(a.json_file, json_text(export_json(result)));
   results.write();
   fmt::print(results.words(), "{}: {} files; entries X {} Y {} Z {}\n", a.out, files.size(),
              result.entries[0], result.entries[1], result.entries[2]);
-  for (const ExportedFormat& format : result.formats)
+  for (const host::ExportedFormat& format : result.formats)
     print_format(results.words(), format, result);
   return 0;
 }
 
-void add_controller_options(CLI::App& command, ExportOptions& o) {
+void add_controller_options(CLI::App& command, host::ExportOptions& o) {
   command
       .add_option("--entries", o.entries,
                   "Most entries of a table: what the controller has room for")
@@ -170,4 +172,4 @@ void add_export_tables_command(CLI::App& app, int& code) {
   });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -11,23 +11,23 @@
 #include "host_sim/experiments/face_gear/report.hpp"
 #include "host_sim/host/measure/map_csv.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct FaceGearArguments : RunArguments {
-  FaceGearOptions options;
+  face_gear::FaceGearOptions options;
   std::string map_folder;  // empty: none
 };
 
 // As volcomp compare reads them.
-void add_maps(const std::string& folder, const FaceGearResult& run, Results& results) {
+void add_maps(const std::string& folder, const face_gear::FaceGearResult& run, Results& results) {
   if (folder.empty()) return;
-  std::vector<NamedText> files;
-  const auto compensated = static_cast<std::size_t>(FaceStage::compensated);
-  for (const FlankMap& flank : run.inspection.at(compensated).maps)
+  std::vector<host::NamedText> files;
+  const auto compensated = static_cast<std::size_t>(face_gear::FaceStage::compensated);
+  for (const face_gear::FlankMap& flank : run.inspection.at(compensated).maps)
     files.push_back({fmt::format("slot{}_{}_um.csv", flank.flank.slot + 1,
-                                 kFaceSideNames[flank.flank.side > 0 ? 0 : 1]),
-                     map_csv(flank.map)});
+                                 face_gear::kFaceSideNames[flank.flank.side > 0 ? 0 : 1]),
+                     host::map_csv(flank.map)});
   results.add_files(folder, files);
 }
 
@@ -35,20 +35,21 @@ int run_face_gear_command(const FaceGearArguments& arguments) {
   Results results = run_results(arguments, {arguments.options.gear});
   const std::unique_ptr<RunView> view = run_view(arguments, results);
   ScenarioBus bus(arguments.node, view.get());
-  FaceGearOptions options = arguments.options;
+  face_gear::FaceGearOptions options = arguments.options;
   options.machine = machine_of(arguments, "yk7280");
   options.make_axes = bus.axes();
   options.cycle_hz = arguments.node.cycle_hz;
-  const FaceGearResult run = run_watched(*view, &bus, [&options](const Progress& progress) {
-    return run_face_gear(options, progress);
-  });
-  fmt::print(results.words(), "{}transport: {}\n", face_gear_summary(run),
+  const face_gear::FaceGearResult run =
+      run_watched(*view, &bus, [&options](const host::Progress& progress) {
+        return face_gear::run_face_gear(options, progress);
+      });
+  fmt::print(results.words(), "{}transport: {}\n", face_gear::face_gear_summary(run),
              describe(arguments.node));
   add_maps(arguments.map_folder, run, results);
-  const nlohmann::json document = face_gear_document(run, run_context(arguments, *view));
-  write_results(arguments, document, face_gear_figures(run), results);
+  const nlohmann::json document = face_gear::face_gear_document(run, run_context(arguments, *view));
+  write_results(arguments, document, face_gear::face_gear_figures(run), results);
   view->ended(document);
-  return face_gear_verdict(run).ok ? 0 : 1;
+  return face_gear::face_gear_verdict(run).ok ? 0 : 1;
 }
 
 }  // namespace
@@ -60,8 +61,8 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
   auto a = std::make_shared<FaceGearArguments>();
   a->command = command;
   a->node.can = "loopback";
-  a->node.cycle_hz = kBusCycleOfFive_hz;
-  FaceGearOptions& options = a->options;
+  a->node.cycle_hz = sim::kBusCycleOfFive_hz;
+  face_gear::FaceGearOptions& options = a->options;
   face_gear
       ->add_option("--gear", options.gear,
                    "The gear: table1 or table3 of the paper, or a TOML file")
@@ -71,16 +72,17 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
                    "Pairs of flanks to map, evenly over the gear; the pitch is of all teeth")
       ->check(CLI::Range(1, kMaxFaceGearTeeth))
       ->capture_default_str();
-  add_choice<FormTruth>(*face_gear, "--truth", options.form,
-                        {{"tables", FormTruth::tables}, {"synthetic", FormTruth::synthetic}},
-                        "Form of the simulated flanks, that of the paper's Tables 7 and 8 or a "
-                        "smooth one");
+  add_choice<face_gear::FormTruth>(
+      *face_gear, "--truth", options.form,
+      {{"tables", face_gear::FormTruth::tables}, {"synthetic", face_gear::FormTruth::synthetic}},
+      "Form of the simulated flanks, that of the paper's Tables 7 and 8 or a "
+      "smooth one");
   face_gear->add_option("--seed", options.seed, "Seed of the errors of machine and gear")
       ->check(seed_number())
       ->capture_default_str();
   face_gear
       ->add_option("--can", a->node.can,
-                   fmt::format("Bus: loopback (node in this process), {}", kLinkForms))
+                   fmt::format("Bus: loopback (node in this process), {}", host::kLinkForms))
       ->capture_default_str();
   face_gear->add_option("--maps", a->map_folder,
                         "Folder for the error maps as CSV, for volcomp compare");
@@ -89,4 +91,4 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
   face_gear->callback([a, &code] { code = run_face_gear_command(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 struct FirmwareChoice {
   std::string board;            // empty: none
@@ -28,4 +28,4 @@ inline CLI::Option* add_firmware_options(CLI::App& command, FirmwareChoice& choi
   return firmware;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

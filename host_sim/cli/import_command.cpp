@@ -18,7 +18,7 @@
 #include "host_sim/host/tables/formats/isg_csv.hpp"
 #include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct ImportArguments {
@@ -36,34 +36,34 @@ struct ImportArguments {
 std::string names_of(const std::vector<std::string>& files) {
   std::string names;
   for (const std::string& file : files)
-    names += (names.empty() ? "" : ", ") + shown_name(file);
+    names += (names.empty() ? "" : ", ") + host::shown_name(file);
   return names;
 }
 
 struct Imported {
-  std::vector<RunsFile> runs;
+  std::vector<host::RunsFile> runs;
   std::string locations;      // CSV; empty: there are none
   std::string origin;         // heads each file as a comment
   nlohmann::json convention;  // of the source
 };
 
-std::vector<NamedText> files_of(const Imported& imported) {
+std::vector<host::NamedText> files_of(const Imported& imported) {
   const std::string head = "# " + imported.origin + "\n";
-  std::vector<NamedText> files;
-  for (const RunsFile& run : imported.runs)
-    files.push_back({fmt::format("runs_{}.csv", run.letter), head + runs_csv(run)});
+  std::vector<host::NamedText> files;
+  for (const host::RunsFile& run : imported.runs)
+    files.push_back({fmt::format("runs_{}.csv", run.letter), head + host::runs_csv(run)});
   if (!imported.locations.empty())
     files.push_back({"location_errors.csv", head + imported.locations});
   return files;
 }
 
 std::string written_text(const ImportArguments& a, const Imported& imported,
-                         const std::vector<NamedText>& files) {
+                         const std::vector<host::NamedText>& files) {
   std::string text;
   for (std::size_t i = 0; i < files.size(); ++i) {
     text += fmt::format("{}/{}", a.out, files[i].name);
     if (i < imported.runs.size()) {
-      const RunsFile& runs = imported.runs[i];
+      const host::RunsFile& runs = imported.runs[i];
       text += fmt::format(": axis {}, {} positions, {}", runs.letter, runs.positions.size(),
                           runs.down.empty() ? "one direction" : "both directions");
     }
@@ -78,7 +78,7 @@ std::string written_text(const ImportArguments& a, const Imported& imported,
 }
 
 nlohmann::json written_json(const ImportArguments& a, const Imported& imported,
-                            const std::vector<NamedText>& files) {
+                            const std::vector<host::NamedText>& files) {
   nlohmann::json axes = nlohmann::json::array();
   for (std::size_t i = 0; i < imported.runs.size(); ++i)
     axes.push_back(run_file_json(imported.runs[i], a.out + "/" + files[i].name));
@@ -94,13 +94,13 @@ nlohmann::json written_json(const ImportArguments& a, const Imported& imported,
       {"location_errors", location}};
 }
 
-using ReadForeign = void (*)(std::istream&, const std::string&, ForeignErrors&);
+using ReadForeign = void (*)(std::istream&, const std::string&, host::ForeignErrors&);
 
 template <class Read>
 int import_with(const ImportArguments& a, const Read& read) {
   Results results({a.json_file}, a.files, a.out);
   const Imported imported = read();
-  const std::vector<NamedText> files = files_of(imported);
+  const std::vector<host::NamedText> files = files_of(imported);
   results.add_files(a.out, files);
   results.add(a.json_file, json_text(written_json(a, imported, files)));
   results.write();
@@ -109,46 +109,47 @@ int import_with(const ImportArguments& a, const Read& read) {
 }
 
 Imported import_errors(const ImportArguments& a, ReadForeign read) {
-  ForeignErrors errors;
+  host::ForeignErrors errors;
   for (const std::string& path : a.files) {
-    InputFile file(path);
+    host::InputFile file(path);
     read(file.stream(), file.name(), errors);
   }
-  ImportRules rules;
+  host::ImportRules rules;
   rules.sign = a.sign == "actual-minus-nominal" ? 1 : -1;
   rules.absent_zero = a.absent == "zero";
-  return {to_runs(errors, names_of(a.files), rules),
-          locations_csv(errors, rules),
+  return {host::to_runs(errors, names_of(a.files), rules),
+          host::locations_csv(errors, rules),
           fmt::format("imported, values of the source are {}{}", a.sign,
                       rules.absent_zero ? "; channels that it lacks are 0" : ""),
           {{"sign", a.sign}}};
 }
 
 // Refuses what a run file cannot hold; entry k stands in line k + 1.
-void check_entries(const RunsFile& runs) {
+void check_entries(const host::RunsFile& runs) {
   for (std::size_t k = 0; k < runs.positions.size(); ++k) {
     const auto fail = [&](const std::string& what) {
-      throw UserError(fmt::format("{}:{}: {}", runs.name, k + 1, what));
+      throw host::UserError(fmt::format("{}:{}: {}", runs.name, k + 1, what));
     };
-    if (!fits_run_file(runs.positions[k])) fail("the position is out of range");
-    for (const RunValues* const run : {&runs.up.front(), &runs.down.front()}) {
-      if (!fits_run_file((*run)[k].cwiseAbs().maxCoeff())) fail("the error is out of range");
+    if (!host::fits_run_file(runs.positions[k])) fail("the position is out of range");
+    for (const host::RunValues* const run : {&runs.up.front(), &runs.down.front()}) {
+      if (!host::fits_run_file((*run)[k].cwiseAbs().maxCoeff())) fail("the error is out of range");
     }
-    if (k > 0 && runs.positions[k] - runs.positions[k - 1] < kNearestTargets)
-      fail(fmt::format("positions nearer than {} {} are one in a run file", kNearestTargets,
-                       is_rotary_letter(runs.letter) ? "rad" : "mm"));
+    if (k > 0 && runs.positions[k] - runs.positions[k - 1] < host::kNearestTargets)
+      fail(fmt::format("positions nearer than {} {} are one in a run file", host::kNearestTargets,
+                       host::is_rotary_letter(runs.letter) ? "rad" : "mm"));
   }
 }
 
 // A trim is what is added to the command, so the error of the axis is minus the trim.
-RunsFile runs_of_comp(const LinuxcncComp& table, const std::string& name, char axis, double unit) {
-  RunsFile runs;
+host::RunsFile runs_of_comp(const host::LinuxcncComp& table, const std::string& name, char axis,
+                            double unit) {
+  host::RunsFile runs;
   runs.name = name;
   runs.letter = axis;
-  const bool rotary = is_rotary_letter(axis);
+  const bool rotary = host::is_rotary_letter(axis);
   const Eigen::Index channel = rotary ? 3 + (axis - 'A') : axis - 'X';
   const auto errors = [&](const std::vector<double>& trim) {
-    RunValues values;
+    host::RunValues values;
     for (const double t : trim) {
       ErrorMotion e = ErrorMotion::Zero();
       e(channel) = -t * unit;
@@ -166,12 +167,12 @@ RunsFile runs_of_comp(const LinuxcncComp& table, const std::string& name, char a
 
 Imported import_linuxcnc(const ImportArguments& a) {
   const char axis = a.axis.front();
-  if (is_rotary_letter(axis) != (a.unit == "deg"))
-    throw UserError(fmt::format("--unit {}: of the wrong kind for axis {}", a.unit, axis));
-  InputFile file(a.files.front());
-  const LinuxcncComp table = read_linuxcnc(file.stream(), file.name(), a.type);
+  if (host::is_rotary_letter(axis) != (a.unit == "deg"))
+    throw host::UserError(fmt::format("--unit {}: of the wrong kind for axis {}", a.unit, axis));
+  host::InputFile file(a.files.front());
+  const host::LinuxcncComp table = host::read_linuxcnc(file.stream(), file.name(), a.type);
   if (a.absent != "zero")
-    throw UserError(fmt::format(
+    throw host::UserError(fmt::format(
         "{}: the file holds one error motion of axis {}; --absent zero writes the other five as 0",
         file.name(), axis));
   const double unit = a.unit == "mm" ? 1.0 : a.unit == "inch" ? 25.4 : kPi / 180.0;
@@ -217,8 +218,8 @@ void add_import_command(CLI::App& app, int& code) {
       app.add_subcommand("import", "Turn error tables of other programs into run files (CSV)");
   import->require_subcommand(1);
   add_error_format(*import, "isg-csv", "Volumetric compensation of ISG and TwinCAT CNC (ISG CSV)",
-                   read_isg_csv, code);
-  add_error_format(*import, "etalon", "Exchange files of Etalon, variant Vendor", read_etalon,
+                   host::read_isg_csv, code);
+  add_error_format(*import, "etalon", "Exchange files of Etalon, variant Vendor", host::read_etalon,
                    code);
 
   auto a = std::make_shared<ImportArguments>();
@@ -236,4 +237,4 @@ void add_import_command(CLI::App& app, int& code) {
   linuxcnc->callback([a, &code] { code = import_with(*a, [&] { return import_linuxcnc(*a); }); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -10,20 +10,22 @@
 #include "host_sim/experiments/internal_helical/figures.hpp"
 #include "host_sim/experiments/internal_helical/report.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct InternalHelicalArguments : RunArguments {
-  InternalHelicalOptions options;
+  internal_helical::InternalHelicalOptions options;
   std::string table_folder;  // empty: none
 };
 
-std::vector<std::string> add_tables(const std::string& folder, const InternalHelicalResult& run,
+std::vector<std::string> add_tables(const std::string& folder,
+                                    const internal_helical::InternalHelicalResult& run,
                                     Results& results) {
   std::vector<std::string> names;
   if (folder.empty()) return names;
-  std::vector<NamedText> files;
-  for (const ControllerFile& file : controller_files(run.gear, run.detail.tables)) {
+  std::vector<host::NamedText> files;
+  for (const internal_helical::ControllerFile& file :
+       internal_helical::controller_files(run.gear, run.detail.tables)) {
     files.push_back({file.name, file.text});
     fmt::print(results.words(), "table: {} ({})\n",
                (std::filesystem::path(folder) / file.name).string(), file.meaning);
@@ -34,7 +36,7 @@ std::vector<std::string> add_tables(const std::string& folder, const InternalHel
 }
 
 int run_internal_helical_command(const InternalHelicalArguments& arguments) {
-  InternalHelicalOptions options = arguments.options;
+  internal_helical::InternalHelicalOptions options = arguments.options;
   options.machine = machine_of(arguments, "internal_grinder");
   Results results = run_results(arguments);
   const std::unique_ptr<RunView> view = run_view(arguments, results);
@@ -44,16 +46,19 @@ int run_internal_helical_command(const InternalHelicalArguments& arguments) {
     bus = std::make_unique<ScenarioBus>(arguments.node, view.get());
     options.make_axes = bus->axes();
   }
-  const InternalHelicalResult run = run_watched(
-      *view, bus.get(),
-      [&options](const Progress& progress) { return run_internal_helical(options, progress); });
-  fmt::print(results.words(), "{}transport: {}\n", internal_helical_summary(run),
+  const internal_helical::InternalHelicalResult run =
+      run_watched(*view, bus.get(), [&options](const host::Progress& progress) {
+        return internal_helical::run_internal_helical(options, progress);
+      });
+  fmt::print(results.words(), "{}transport: {}\n", internal_helical::internal_helical_summary(run),
              describe(arguments.node));
   const std::vector<std::string> tables = add_tables(arguments.table_folder, run, results);
-  const nlohmann::json document = internal_helical_document(run, run_context(arguments, *view));
-  write_results(arguments, document, internal_helical_figures(run, tables), results);
+  const nlohmann::json document =
+      internal_helical::internal_helical_document(run, run_context(arguments, *view));
+  write_results(arguments, document, internal_helical::internal_helical_figures(run, tables),
+                results);
   view->ended(document);
-  return internal_helical_verdict(run).ok ? 0 : 1;
+  return internal_helical::internal_helical_verdict(run).ok ? 0 : 1;
 }
 
 }  // namespace
@@ -67,21 +72,23 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
   helical->add_option("--seeds", a->options.seeds, "Grinders to simulate; medians are over them")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  const auto word = [](LearningWay way) {
-    return std::string(kLearningWays.at(static_cast<std::size_t>(way)));
+  const auto word = [](internal_helical::LearningWay way) {
+    return std::string(internal_helical::kLearningWays.at(static_cast<std::size_t>(way)));
   };
-  const std::map<std::string, LearningWay> wrong{
-      {word(LearningWay::c_alone), LearningWay::c_alone},
-      {word(LearningWay::one_table), LearningWay::one_table},
-      {word(LearningWay::coarse), LearningWay::coarse}};
-  add_choice<LearningWay>(*helical, "--wrong", a->options.way, wrong, "Learn in a wrong way")
+  const std::map<std::string, internal_helical::LearningWay> wrong{
+      {word(internal_helical::LearningWay::c_alone), internal_helical::LearningWay::c_alone},
+      {word(internal_helical::LearningWay::one_table), internal_helical::LearningWay::one_table},
+      {word(internal_helical::LearningWay::coarse), internal_helical::LearningWay::coarse}};
+  add_choice<internal_helical::LearningWay>(*helical, "--wrong", a->options.way, wrong,
+                                            "Learn in a wrong way")
       ->default_str("");
   helical->add_option("--tables", a->table_folder,
                       "Folder for the learned tables as files of controllers");
   add_output_options(*helical, *a);
   helical->add_option(
       "--can", a->node.can,
-      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}", kLinkForms));
+      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}",
+                  host::kLinkForms));
   helical
       ->add_option("--log", a->node.log_file,
                    "Write all frames to this file, as candump -L does (-: standard output)")
@@ -89,4 +96,4 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
   helical->callback([a, &code] { code = run_internal_helical_command(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -10,15 +10,15 @@
 #include "host_sim/experiments/l300g/figures.hpp"
 #include "host_sim/experiments/l300g/report.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct L300gArguments : RunArguments {
-  L300gOptions options;
+  l300g::L300gOptions options;
   std::string gcode_folder;  // empty: none
 };
 
-void add_programs(const std::string& folder, const L300gResult& result, Results& results) {
+void add_programs(const std::string& folder, const l300g::L300gResult& result, Results& results) {
   if (folder.empty()) return;
   results.add_files(folder, {{"inspection_before.ngc", result.before.program},
                              {"inspection_after.ngc", result.after.program}});
@@ -28,18 +28,20 @@ int run_l300g_command(const L300gArguments& arguments) {
   Results results = run_results(arguments, {arguments.options.errors});
   const std::unique_ptr<RunView> view = run_view(arguments, results);
   ScenarioBus bus(arguments.node, view.get());
-  L300gOptions options = arguments.options;
+  l300g::L300gOptions options = arguments.options;
   options.machine = machine_of(arguments, "l300g");
   options.make_axes = bus.axes();
   options.cycle_hz = arguments.node.cycle_hz;
-  const L300gResult result = run_watched(
-      *view, &bus, [&options](const Progress& progress) { return run_l300g(options, progress); });
-  fmt::print(results.words(), "{}transport: {}\n", l300g_summary(result), describe(arguments.node));
+  const l300g::L300gResult result = run_watched(
+      *view, &bus,
+      [&options](const host::Progress& progress) { return l300g::run_l300g(options, progress); });
+  fmt::print(results.words(), "{}transport: {}\n", l300g::l300g_summary(result),
+             describe(arguments.node));
   add_programs(arguments.gcode_folder, result, results);
-  const nlohmann::json document = l300g_document(result, run_context(arguments, *view));
-  write_results(arguments, document, l300g_figures(result), results);
+  const nlohmann::json document = l300g::l300g_document(result, run_context(arguments, *view));
+  write_results(arguments, document, l300g::l300g_figures(result), results);
   view->ended(document);
-  return l300g_verdict(result).ok ? 0 : 1;
+  return l300g::l300g_verdict(result).ok ? 0 : 1;
 }
 
 }  // namespace
@@ -51,28 +53,31 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
   auto a = std::make_shared<L300gArguments>();
   a->command = command;
   a->node.can = "loopback";
-  a->node.cycle_hz = kBusCycleOfFive_hz;
-  L300gOptions& options = a->options;
+  a->node.cycle_hz = sim::kBusCycleOfFive_hz;
+  l300g::L300gOptions& options = a->options;
   add_choice<PathStyle>(*l300g, "--path", options.path,
                         {{"fixed-a", PathStyle::fixed_a}, {"generate", PathStyle::generate}},
                         "How a flank is followed");
-  add_choice<Origin>(*l300g, "--origin", options.origin,
-                     {{"mandrel", Origin::mandrel}, {"nominal", Origin::nominal}},
-                     "Where the axis of A is taken to be")
+  add_choice<l300g::Origin>(
+      *l300g, "--origin", options.origin,
+      {{"mandrel", l300g::Origin::mandrel}, {"nominal", l300g::Origin::nominal}},
+      "Where the axis of A is taken to be")
       ->default_str("nominal");
-  add_choice<TableKind>(*l300g, "--tables", options.tables,
-                        {{"identified", TableKind::identified}, {"means", TableKind::means}},
-                        "What is compensated, all of each error function or its mean");
+  add_choice<sim::TableKind>(
+      *l300g, "--tables", options.tables,
+      {{"identified", sim::TableKind::identified}, {"means", sim::TableKind::means}},
+      "What is compensated, all of each error function or its mean");
   l300g
-      ->add_option("--errors", options.errors,
-                   fmt::format("What is wrong with the machine: {}, or a file", kNamedErrors))
+      ->add_option(
+          "--errors", options.errors,
+          fmt::format("What is wrong with the machine: {}, or a file", l300g::kNamedErrors))
       ->capture_default_str();
   l300g->add_option("--seed", options.seed, "Seed of the phases of the waves")
       ->check(seed_number())
       ->capture_default_str();
   l300g
       ->add_option("--can", a->node.can,
-                   fmt::format("Bus: loopback (node in this process), {}", kLinkForms))
+                   fmt::format("Bus: loopback (node in this process), {}", host::kLinkForms))
       ->capture_default_str();
   l300g->add_option("--gcode", a->gcode_folder,
                     "Folder for the inspection as NC programs, before and after compensation");
@@ -81,4 +86,4 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
   l300g->callback([a, &code] { code = run_l300g_command(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

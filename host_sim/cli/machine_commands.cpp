@@ -15,7 +15,7 @@
 #include "host_sim/host/machine/machine_facts.hpp"
 #include "host_sim/host/machine/machine_summary.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct MachineArguments {
@@ -23,13 +23,13 @@ struct MachineArguments {
   std::string json_file;
 };
 
-using Describe = std::function<std::string(const MachineFile&)>;
+using Describe = std::function<std::string(const host::MachineFile&)>;
 
 int describe_machine(const MachineArguments& a, const Describe& describe) {
   Results results({a.json_file}, {a.path});
-  const MachineFile machine = read_machine_file(a.path);
+  const host::MachineFile machine = host::read_machine_file(a.path);
   const std::string text = describe(machine);
-  results.add(a.json_file, json_text(summary_of(machine)));
+  results.add(a.json_file, json_text(host::summary_of(machine)));
   results.write();
   fmt::print(results.words(), "{}", text);
   return 0;
@@ -48,8 +48,8 @@ void add_description(CLI::App& machine, const std::string& name, const std::stri
 int print_example(const std::string& name) {
   constexpr std::size_t kLargest = std::size_t{1} << 20U;
   if (name.find('/') != std::string::npos)
-    throw UserError(fmt::format("{}: not the name of a machine (volcomp list)", name));
-  fmt::print("{}", read_whole_file(bundled_machine(name), kLargest));
+    throw host::UserError(fmt::format("{}: not the name of a machine (volcomp list)", name));
+  fmt::print("{}", host::read_whole_file(host::bundled_machine(name), kLargest));
   return 0;
 }
 
@@ -75,11 +75,11 @@ int list_everything(const std::string& json_file) {
     result["scenarios"].push_back({{"name", s.name}, {"what", s.what}});
   }
   text += "machines (volcomp machine example NAME):\n";
-  for (const std::string& name : bundled_machines()) {
-    const MachineFile m = read_machine_file(bundled_machine(name));
-    text += fmt::format("  {:17} {:16} {}\n", name, chain_text(m.chain), m.path);
+  for (const std::string& name : host::bundled_machines()) {
+    const host::MachineFile m = host::read_machine_file(host::bundled_machine(name));
+    text += fmt::format("  {:17} {:16} {}\n", name, host::chain_text(m.chain), m.path);
     result["machines"].push_back(
-        {{"name", name}, {"chain", chain_text(m.chain)}, {"file", m.path}});
+        {{"name", name}, {"chain", host::chain_text(m.chain)}, {"file", m.path}});
   }
   results.add(json_file, json_text(result));
   results.write();
@@ -94,14 +94,14 @@ void add_machine_command(CLI::App& app, int& code) {
   machine->require_subcommand(1);
   add_description(
       *machine, "check", "Read a machine file and say in short what it describes",
-      [](const MachineFile& m) {
-        require_authority(m);
-        return short_text(m);
+      [](const host::MachineFile& m) {
+        host::require_authority(m);
+        return host::short_text(m);
       },
       code);
   add_description(
       *machine, "show", "Everything that follows from a machine file",
-      [](const MachineFile& m) { return summary_text(summary_of(m)); }, code);
+      [](const host::MachineFile& m) { return host::summary_text(host::summary_of(m)); }, code);
 
   CLI::App* example = machine->add_subcommand(
       "example", "Print the file of a machine that comes with the program, to begin with");
@@ -118,4 +118,4 @@ void add_list_command(CLI::App& app, int& code) {
   list->callback([json_file, &code] { code = list_everything(*json_file); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -16,7 +16,7 @@
 #include "host_sim/host/io/interruption.hpp"
 #include "host_sim/host/io/version.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 // An empty value is what an unset variable of a shell leaves, and would pass for "not given".
@@ -41,7 +41,7 @@ int run(int argc, char** argv) {
   CLI::App app{
       "Volumetric error compensation for machine tools: simulate, build tables, check machines."};
   app.name("volcomp");
-  app.set_version_flag("--version", std::string("volcomp ") + kVersion);
+  app.set_version_flag("--version", std::string("volcomp ") + host::kVersion);
   app.require_subcommand(1);
   app.footer(exit_code_lines());
   int code = 0;
@@ -74,17 +74,17 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli
 
 int main(int argc, char** argv) {
   try {
-    return volcomp::sim::run(argc, argv);
-  } catch (const volcomp::sim::Interrupted& interrupted) {
+    return volcomp::cli::run(argc, argv);
+  } catch (const volcomp::host::Interrupted& interrupted) {
     static_cast<void>(std::raise(interrupted.signal));  // whoever waits for us shall see why
   } catch (const std::exception& e) {
     fmt::print(stderr, "volcomp: {}\n", e.what());
   } catch (...) {
     fmt::print(stderr, "volcomp: unknown error\n");
   }
-  return volcomp::sim::number(volcomp::sim::ExitCode::unusable);
+  return volcomp::cli::number(volcomp::cli::ExitCode::unusable);
 }

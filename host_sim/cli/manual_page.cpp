@@ -5,7 +5,7 @@
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/host/io/version.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 // The code point that begins at `at`, which moves behind it. Our texts are UTF-8.
@@ -139,7 +139,7 @@ std::string manual_page(const CommandText& program) {
       ".SH DESCRIPTION\n{}\n.PP\n"
       "{}, {} or {} make a script for the shell that completes commands and options.\n"
       ".SH OPTIONS\n",
-      kVersion, bold(program.name), italic("COMMAND"), italic("OPTIONS"), italic("ARGUMENTS"),
+      host::kVersion, bold(program.name), italic("COMMAND"), italic("OPTIONS"), italic("ARGUMENTS"),
       troff(program.description), bold("volcomp completion bash"), bold("zsh"), bold("fish"));
   for (const OptionText& o : program.options)
     text += option_paragraph(o);
@@ -156,4 +156,4 @@ std::string manual_page(const CommandText& program) {
   return text + kExamples + ".SH SEE ALSO\n\\fBvolcomp\\-node\\fR(1), \\fBcandump\\fR(1)\n";
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -5,8 +5,8 @@
 
 #include "host_sim/cli/command_tree.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 [[nodiscard]] std::string manual_page(const CommandText& program);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -17,7 +17,7 @@
 #include "host_sim/host/io/interruption.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct MonitorArguments {
@@ -31,13 +31,13 @@ struct MonitorArguments {
 };
 
 // The machine file, or drives 1 to 5 whose axes are not known: letters after their order.
-BusSettings settings_of(const MonitorArguments& a) {
-  BusSettings settings;
+host::BusSettings settings_of(const MonitorArguments& a) {
+  host::BusSettings settings;
   if (!a.machine.empty()) {
-    settings = bus_settings(read_machine_file(a.machine), 1000.0);
+    settings = host::bus_settings(host::read_machine_file(a.machine), 1000.0);
   } else {
     for (const char letter : {'X', 'Y', 'Z', 'A', 'B'}) {
-      BusAxis axis;
+      host::BusAxis axis;
       axis.letter = letter;
       axis.drive = static_cast<std::uint8_t>(settings.axes.size() + 1);
       axis.rotary = letter == 'A' || letter == 'B';
@@ -84,14 +84,14 @@ class Watch {
   [[nodiscard]] bool whole_log() const { return arguments_.once && !arguments_.log.empty(); }
 
   void print(std::uint64_t now_us) {
-    const BusSnapshot seen = monitor_.snapshot(now_us);
-    fmt::print("{}", arguments_.json ? to_json(seen).dump() + "\n" : describe(seen));
+    const host::BusSnapshot seen = monitor_.snapshot(now_us);
+    fmt::print("{}", arguments_.json ? host::to_json(seen).dump() + "\n" : host::describe(seen));
     finish_standard_output();
     unprinted_ = false;
   }
 
   const MonitorArguments& arguments_;
-  BusMonitor monitor_;
+  host::BusMonitor monitor_;
   std::uint64_t period_us_;
   std::uint64_t next_us_ = 0;
   std::uint64_t last_us_ = 0;
@@ -99,26 +99,26 @@ class Watch {
 };
 
 void watch_log(std::istream& stream, const std::string& name, Watch& watch,
-               const Interruption& interruption) {
-  CsvLines lines(stream, name);
+               const host::Interruption& interruption) {
+  host::CsvLines lines(stream, name);
   std::string line;
   std::uint64_t last_us = 0;
   bool any = false;
   while (lines.any(line)) {
     interruption.check();
-    const std::optional<LoggedFrame> logged = parse_log_line(line, name, lines.line());
+    const std::optional<host::LoggedFrame> logged = host::parse_log_line(line, name, lines.line());
     if (!logged) continue;
     any = true;
-    last_us = latest_time(*logged, last_us, name);
+    last_us = host::latest_time(*logged, last_us, name);
     if (!watch.until(last_us)) return;
     watch.take(last_us, logged->frame);
   }
-  if (!any) throw UserError(fmt::format("{}: holds no frames", name));
+  if (!any) throw host::UserError(fmt::format("{}: holds no frames", name));
 }
 
-void watch_bus(const std::string& name, Watch& watch, const Interruption& interruption) {
+void watch_bus(const std::string& name, Watch& watch, const host::Interruption& interruption) {
   constexpr std::uint32_t kWait_us = 20'000;
-  const std::unique_ptr<FrameLink> link = open_frame_link(name);
+  const std::unique_ptr<host::FrameLink> link = host::open_frame_link(name);
   while (watch.until(link->now_us())) {
     interruption.check();
     link->wait(kWait_us);
@@ -129,19 +129,21 @@ void watch_bus(const std::string& name, Watch& watch, const Interruption& interr
 }
 
 int monitor(const MonitorArguments& a) {
-  if (a.link.empty() == a.log.empty()) throw UserError("monitor needs --can or --log, one of them");
+  if (a.link.empty() == a.log.empty())
+    throw host::UserError("monitor needs --can or --log, one of them");
   if (a.link == "loopback")
-    throw UserError("loopback is a bus inside volcomp run; there is nothing to be heard of it");
+    throw host::UserError(
+        "loopback is a bus inside volcomp run; there is nothing to be heard of it");
   Watch watch(a);
-  const Interruption interruption;
+  const host::Interruption interruption;
   try {
     if (a.log.empty()) {
       watch_bus(a.link, watch, interruption);
     } else {
-      InputFile log(a.log);
+      host::InputFile log(a.log);
       watch_log(log.stream(), log.name(), watch, interruption);
     }
-  } catch (const Interrupted&) {  // that is how it ends
+  } catch (const host::Interrupted&) {  // that is how it ends
   }
   watch.end();
   return 0;
@@ -153,7 +155,7 @@ void add_monitor_command(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand(
       "monitor", "Listen to the bus of a machine: states, positions, offsets, load, errors");
   auto a = std::make_shared<MonitorArguments>();
-  command->add_option("--can", a->link, fmt::format("Bus to listen to: {}", kLinkForms));
+  command->add_option("--can", a->link, fmt::format("Bus to listen to: {}", host::kLinkForms));
   command->add_option("--log", a->log, "Log of candump -L instead (-: standard input)");
   command->add_option("--machine", a->machine,
                       "Machine file (TOML): letters and kinds of its axes (default: drives 1 to 5 "
@@ -171,4 +173,4 @@ void add_monitor_command(CLI::App& app, int& code) {
   command->callback([a, &code] { code = monitor(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

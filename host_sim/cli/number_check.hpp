@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 // From `least` to `most`, both included.
 inline CLI::Validator number_between(double least, double most) {
@@ -38,4 +38,4 @@ inline CLI::Validator seed_number() {
           ""};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

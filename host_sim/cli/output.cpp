@@ -8,12 +8,12 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 // What is printed and a result would write over each other by the second name.
 bool is_standard_output(const std::string& name) {
-  return name == kStandardStream || name == "/dev/stdout";
+  return name == host::kStandardStream || name == "/dev/stdout";
 }
 
 // /dev/null may take any number of results, and is no result that an input could suffer from.
@@ -30,8 +30,8 @@ bool are_one_file(const std::string& a, const std::string& b) {
 // The same for a file to come.
 std::filesystem::path place_of(const std::string& name) {
   std::error_code ignored;
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(file_behind(name), ignored),
-                                           ignored);
+  return std::filesystem::weakly_canonical(
+      std::filesystem::absolute(host::file_behind(name), ignored), ignored);
 }
 
 // The folder need not be there yet.
@@ -55,14 +55,14 @@ Results::Results(const std::vector<std::string>& names, std::vector<std::string>
     : inputs_(std::move(inputs)) {
   for (const std::string& name : names)
     announce(name);
-  if (!folder.empty()) require_folder(folder);
+  if (!folder.empty()) host::require_folder(folder);
   for (const std::string& file : files_announced_)
-    if (folder.empty() || !is_in_folder(file, folder)) require_place(file);
+    if (folder.empty() || !is_in_folder(file, folder)) host::require_place(file);
 }
 
 void Results::announce(const std::string& name) {
   if (is_standard_output(name)) {
-    if (words_ == stderr) throw UserError("only one result can go to standard output (-)");
+    if (words_ == stderr) throw host::UserError("only one result can go to standard output (-)");
     words_ = stderr;
   } else if (!name.empty() && !is_device(name)) {
     refuse_inputs(name);
@@ -74,13 +74,13 @@ void Results::announce(const std::string& name) {
 void Results::refuse_inputs(const std::string& name) const {
   for (const std::string& input : inputs_)
     if (are_one_file(name, input))
-      throw UserError(fmt::format("{}: a result cannot take the place of an input", name));
+      throw host::UserError(fmt::format("{}: a result cannot take the place of an input", name));
 }
 
 void Results::refuse_others(const std::string& name) const {
   for (const std::string& other : files_announced_)
     if (are_one_file(name, other) || place_of(name) == place_of(other))
-      throw UserError(fmt::format("{}: two results cannot have one place", name));
+      throw host::UserError(fmt::format("{}: two results cannot have one place", name));
 }
 
 void Results::add(const std::string& name, std::string_view content) {
@@ -92,9 +92,9 @@ void Results::add(const std::string& name, std::string_view content) {
   }
 }
 
-void Results::add_files(const std::string& folder, const std::vector<NamedText>& files) {
+void Results::add_files(const std::string& folder, const std::vector<host::NamedText>& files) {
   add_folder(folder);
-  for (const NamedText& file : files) {
+  for (const host::NamedText& file : files) {
     const std::string name = (std::filesystem::path(folder) / file.name).string();
     announce(name);
     add(name, file.text);
@@ -104,7 +104,7 @@ void Results::add_files(const std::string& folder, const std::vector<NamedText>&
 void Results::write() {
   if (piped_) {
     if (std::fwrite(piped_->data(), 1, piped_->size(), stdout) != piped_->size())
-      throw UserError("standard output: cannot be written");
+      throw host::UserError("standard output: cannot be written");
     finish_standard_output();
   }
   files_.put_in_place();
@@ -112,7 +112,7 @@ void Results::write() {
 
 void finish_standard_output() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw UserError("standard output: cannot be written");
+    throw host::UserError("standard output: cannot be written");
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

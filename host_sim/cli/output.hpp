@@ -13,7 +13,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/whole_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 // For words about a result: its path, or "standard output".
 [[nodiscard]] std::string shown_output(const std::string& path);
@@ -39,7 +39,7 @@ class Results {
   // Made if need be.
   void add_folder(const std::string& folder) { files_.add_folder(folder); }
   // Files whose names were not known before; refused as above.
-  void add_files(const std::string& folder, const std::vector<NamedText>& files);
+  void add_files(const std::string& folder, const std::vector<host::NamedText>& files);
   void write();
 
  private:
@@ -51,10 +51,10 @@ class Results {
   std::vector<std::string> files_announced_;
   std::FILE* words_ = stdout;
   std::optional<std::string> piped_;
-  WholeFiles files_;
+  host::WholeFiles files_;
 };
 
 // Throws UserError when what was printed has not arrived, a full disk for instance.
 void finish_standard_output();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 class ProgressBar {
  public:
@@ -33,4 +33,4 @@ class ProgressBar {
   bool shown_ = false;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

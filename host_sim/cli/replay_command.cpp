@@ -12,7 +12,7 @@
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/sim/boards/emulated_node.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct ReplayArguments {
@@ -27,43 +27,43 @@ struct ReplayArguments {
 class FirmwareForReplay {
  public:
   explicit FirmwareForReplay(const FirmwareChoice& choice)
-      : board_(emulated_board(choice.board)), image_(choice.image) {}
+      : board_(sim::emulated_board(choice.board)), image_(choice.image) {}
 
-  ReplayResult replay(const std::vector<LoggedFrame>& log, std::uint8_t node_id) {
-    ReplayResult result = run(log, node_id);
+  host::ReplayResult replay(const std::vector<host::LoggedFrame>& log, std::uint8_t node_id) {
+    host::ReplayResult result = run(log, node_id);
     running_->finish();
     return result;
   }
 
  private:
-  ReplayResult run(const std::vector<LoggedFrame>& log, std::uint8_t node_id) {
+  host::ReplayResult run(const std::vector<host::LoggedFrame>& log, std::uint8_t node_id) {
     try {
-      return replay_over_pipe(log, node_id, [this] { return start(); });
-    } catch (const UserError& error) {
-      throw UserError(error.what() + (running_ ? running_->last_words() : std::string()));
+      return host::replay_over_pipe(log, node_id, [this] { return start(); });
+    } catch (const host::UserError& error) {
+      throw host::UserError(error.what() + (running_ ? running_->last_words() : std::string()));
     }
   }
-  std::shared_ptr<PipeLink> start() {
+  std::shared_ptr<host::PipeLink> start() {
     running_.reset();  // first, since there is one at a time
-    running_ = std::make_shared<EmulatedNode>(board_, image_);
+    running_ = std::make_shared<sim::EmulatedNode>(board_, image_);
     return {running_, &running_->pipe()};
   }
 
-  EmulatedBoard board_;
+  sim::EmulatedBoard board_;
   std::filesystem::path image_;
-  std::shared_ptr<EmulatedNode> running_;
+  std::shared_ptr<sim::EmulatedNode> running_;
 };
 
-ReplayResult replay_as_asked(const ReplayArguments& arguments) {
-  const std::vector<LoggedFrame> log = read_can_log(arguments.log);
+host::ReplayResult replay_as_asked(const ReplayArguments& arguments) {
+  const std::vector<host::LoggedFrame> log = host::read_can_log(arguments.log);
   const auto node_id = static_cast<std::uint8_t>(arguments.node_id);
   if (arguments.firmware.chosen())
     return FirmwareForReplay(arguments.firmware).replay(log, node_id);
-  if (arguments.image.empty()) return replay(log, node_id, {});
-  return replay(log, node_id, read_image_file(arguments.image));
+  if (arguments.image.empty()) return host::replay(log, node_id, {});
+  return host::replay(log, node_id, host::read_image_file(arguments.image));
 }
 
-nlohmann::json to_json(const ReplayResult& r) {
+nlohmann::json to_json(const host::ReplayResult& r) {
   nlohmann::json difference;
   if (r.difference) {
     difference = {{"line", r.difference->line},
@@ -82,10 +82,10 @@ nlohmann::json to_json(const ReplayResult& r) {
 int replay_log(const ReplayArguments& arguments) {
   Results results({arguments.json_file},
                   {arguments.log, arguments.image, arguments.firmware.image.string()});
-  const ReplayResult result = replay_as_asked(arguments);
+  const host::ReplayResult result = replay_as_asked(arguments);
   results.add(arguments.json_file, json_text(to_json(result)));
   results.write();
-  fmt::print(results.words(), "{}", describe(result));
+  fmt::print(results.words(), "{}", host::describe(result));
   return result.equal() ? 0 : 1;
 }
 
@@ -107,4 +107,4 @@ void add_replay_command(CLI::App& app, int& code) {
   command->callback([a, &code] { code = replay_log(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

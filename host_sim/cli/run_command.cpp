@@ -13,11 +13,11 @@
 #include "host_sim/experiments/xyfz/report.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct XyfzArguments : RunArguments {
-  XyfzOptions options;
+  xyfz::XyfzOptions options;
   std::size_t knots = kDefaultKnots;
   bool one_diagonal = false;
 };
@@ -25,31 +25,31 @@ struct XyfzArguments : RunArguments {
 // Runs run_xyfz or one of its kind with the node where it was asked for.
 template <class Result>
 Result run_scenario(const XyfzArguments& arguments, RunView& view,
-                    Result (*scenario)(const XyfzOptions&, const Progress&)) {
-  XyfzOptions options = arguments.options;
+                    Result (*scenario)(const xyfz::XyfzOptions&, const host::Progress&)) {
+  xyfz::XyfzOptions options = arguments.options;
   std::unique_ptr<ScenarioBus> bus;
   if (arguments.node.integrated()) {
-    options.make_cell = watched_integrated_cells("XYZ", view);
+    options.make_cell = sim::watched_integrated_cells("XYZ", view);
   } else {
     bus = std::make_unique<ScenarioBus>(arguments.node, &view);
-    options.make_cell = bus->cells(read_machine_file(options.machine));
+    options.make_cell = bus->cells(host::read_machine_file(options.machine));
   }
   return run_watched(view, bus.get(),
-                     [&](const Progress& progress) { return scenario(options, progress); });
+                     [&](const host::Progress& progress) { return scenario(options, progress); });
 }
 
 int run_diagonal_only(const XyfzArguments& arguments) {
   Results results = run_results(arguments);
   const std::unique_ptr<RunView> view = run_view(arguments, results);
-  const OneDiagonal result = run_scenario(arguments, *view, run_one_diagonal);
-  fmt::print(results.words(), "{}transport: {}\n", one_diagonal_summary(result),
+  const xyfz::OneDiagonal result = run_scenario(arguments, *view, xyfz::run_one_diagonal);
+  fmt::print(results.words(), "{}transport: {}\n", xyfz::one_diagonal_summary(result),
              describe(arguments.node));
-  write_results(arguments, {}, one_diagonal_figures(result), results);
+  write_results(arguments, {}, xyfz::one_diagonal_figures(result), results);
   return result.ok() ? 0 : 1;
 }
 
 int run_xyfz_command(XyfzArguments& arguments) {
-  XyfzOptions& options = arguments.options;
+  xyfz::XyfzOptions& options = arguments.options;
   options.knots = std::min(arguments.knots, knots_at(arguments.node));
   options.machine = machine_of(arguments, "xyfz");
   if (!arguments.report_folder.empty()) {
@@ -58,20 +58,21 @@ int run_xyfz_command(XyfzArguments& arguments) {
   if (arguments.one_diagonal) return run_diagonal_only(arguments);
   Results results = run_results(arguments);
   const std::unique_ptr<RunView> view = run_view(arguments, results);
-  XyfzResult result = run_scenario(arguments, *view, run_xyfz);
+  xyfz::XyfzResult result = run_scenario(arguments, *view, xyfz::run_xyfz);
   result.options.make_cell = {};  // the bus has ended
-  fmt::print(results.words(), "{}transport: {}\n", xyfz_summary(result), describe(arguments.node));
-  const nlohmann::json document = xyfz_document(result, run_context(arguments, *view));
-  write_results(arguments, document, xyfz_figures(result), results);
+  fmt::print(results.words(), "{}transport: {}\n", xyfz::xyfz_summary(result),
+             describe(arguments.node));
+  const nlohmann::json document = xyfz::xyfz_document(result, run_context(arguments, *view));
+  write_results(arguments, document, xyfz::xyfz_figures(result), results);
   view->ended(document);
-  return xyfz_verdict(result).ok ? 0 : 1;
+  return xyfz::xyfz_verdict(result).ok ? 0 : 1;
 }
 
 // Returns the options that make sense only with a node somewhere.
 std::vector<CLI::Option*> add_node_options(CLI::App& xyfz, NodePlace& node) {
-  xyfz.add_option(
-      "--can", node.can,
-      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}", kLinkForms));
+  xyfz.add_option("--can", node.can,
+                  fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}",
+                              host::kLinkForms));
   add_firmware_options(xyfz, node.firmware, "Compensate by the node as firmware",
                        " or, with --can vcan0 to join, a53 (Cortex-A53 with an SJA1000)");
   return add_bus_options(xyfz, node);
@@ -116,7 +117,7 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
     }
     const FirmwareChoice& firmware = a->node.firmware;
     if (firmware.chosen() && !a->node.can.empty() &&
-        !emulated_board(firmware.board).has_can_controller)
+        !sim::emulated_board(firmware.board).has_can_controller)
       throw CLI::ExcludesError("--firmware " + firmware.board, "--can");
     code = run_xyfz_command(*a);
   });
@@ -126,4 +127,4 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   add_run_machine_command(*run, a->command, code);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -4,13 +4,13 @@
 
 #include "host_sim/host/machine/chain_string.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
-nlohmann::json run_file_json(const RunsFile& runs, const std::string& path) {
+nlohmann::json run_file_json(const host::RunsFile& runs, const std::string& path) {
   const auto [low, high] = std::minmax_element(runs.positions.begin(), runs.positions.end());
   return {{"axis", std::string(1, runs.letter)},
           {"file", path},
-          {"unit", is_rotary_letter(runs.letter) ? "rad" : "mm"},
+          {"unit", host::is_rotary_letter(runs.letter) ? "rad" : "mm"},
           {"targets", runs.positions.size()},
           {"from", *low},
           {"to", *high},
@@ -23,4 +23,4 @@ nlohmann::json run_values_json() {
   return {{"meaning", "actual - nominal"}, {"length_unit", "mm"}, {"angle_unit", "rad"}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -5,12 +5,12 @@
 
 #include "host_sim/host/tables/runs_csv.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 // {"axis", "file", "unit" of the targets, "targets", "from", "to", "runs_up", "runs_down", "rows"}
-[[nodiscard]] nlohmann::json run_file_json(const RunsFile& runs, const std::string& path);
+[[nodiscard]] nlohmann::json run_file_json(const host::RunsFile& runs, const std::string& path);
 
 // What is the same in all of them.
 [[nodiscard]] nlohmann::json run_values_json();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -10,44 +10,46 @@
 #include "host_sim/experiments/any_machine/figures.hpp"
 #include "host_sim/experiments/any_machine/report.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct MachineArguments : RunArguments {
-  MachineOptions options;
+  any_machine::MachineOptions options;
 };
 
-std::string letters_of(const MachineFile& machine) {
+std::string letters_of(const host::MachineFile& machine) {
   std::string letters;
-  for (const AxisFile& axis : machine.axes)
+  for (const host::AxisFile& axis : machine.axes)
     letters += axis.letter;
   return letters;
 }
 
 int run_machine_command(const MachineArguments& arguments) {
-  MachineOptions options = arguments.options;
+  any_machine::MachineOptions options = arguments.options;
   options.machine = machine_of(arguments, "trunnion");
   Results results = run_results(arguments);
   const std::unique_ptr<RunView> view = run_view(arguments, results);
-  const MachineFile file = read_machine_file(options.machine);
+  const host::MachineFile file = host::read_machine_file(options.machine);
   std::unique_ptr<ScenarioBus> bus;
   if (arguments.node.integrated()) {
-    options.make_cell = watched_integrated_cells(letters_of(file), *view);
+    options.make_cell = sim::watched_integrated_cells(letters_of(file), *view);
   } else {
     bus = std::make_unique<ScenarioBus>(arguments.node, view.get());
     options.make_cell = bus->cells(file);
     options.knots = knots_at(arguments.node);
   }
-  MachineResult result = run_watched(*view, bus.get(), [&options](const Progress& progress) {
-    return run_machine(options, progress);
-  });
+  any_machine::MachineResult result =
+      run_watched(*view, bus.get(), [&options](const host::Progress& progress) {
+        return any_machine::run_machine(options, progress);
+      });
   result.options.make_cell = {};  // the bus has ended
-  fmt::print(results.words(), "{}transport: {}\n", machine_summary(result),
+  fmt::print(results.words(), "{}transport: {}\n", any_machine::machine_summary(result),
              describe(arguments.node));
-  const nlohmann::json document = machine_document(result, run_context(arguments, *view));
-  write_results(arguments, document, machine_figures(result), results);
+  const nlohmann::json document =
+      any_machine::machine_document(result, run_context(arguments, *view));
+  write_results(arguments, document, any_machine::machine_figures(result), results);
   view->ended(document);
-  return machine_verdict(result).ok ? 0 : 1;
+  return any_machine::machine_verdict(result).ok ? 0 : 1;
 }
 
 }  // namespace
@@ -57,8 +59,8 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
       "machine", "Any machine file: errors at random, measure, compensate, verify");
   auto a = std::make_shared<MachineArguments>();
   a->command = command;
-  a->node.cycle_hz = kBusCycleOfFive_hz;
-  MachineOptions& options = a->options;
+  a->node.cycle_hz = sim::kBusCycleOfFive_hz;
+  any_machine::MachineOptions& options = a->options;
   machine->add_option("--seed", options.seed, "Seed of the machine, of the places and of the noise")
       ->check(seed_number())
       ->capture_default_str();
@@ -73,7 +75,8 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
       ->capture_default_str();
   machine->add_option(
       "--can", a->node.can,
-      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}", kLinkForms));
+      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}",
+                  host::kLinkForms));
   add_output_options(*machine, *a);
   const std::vector<CLI::Option*> on_a_bus = add_bus_options(*machine, a->node);
   machine->callback([a, on_a_bus, &code] {
@@ -85,4 +88,4 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
   });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -8,7 +8,7 @@
 #include "host_sim/host/report/page/report.hpp"
 #include "host_sim/sim/controller/tick_tables.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct ReportFiles {
@@ -62,7 +62,7 @@ std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node) {
 }
 
 std::filesystem::path machine_of(const RunArguments& arguments, const std::string& bundled) {
-  return arguments.machine.empty() ? bundled_machine(bundled)
+  return arguments.machine.empty() ? host::bundled_machine(bundled)
                                    : std::filesystem::path(arguments.machine);
 }
 
@@ -71,9 +71,10 @@ std::unique_ptr<RunView> run_view(const RunArguments& arguments, const Results& 
                                    results.words());
 }
 
-RunContext run_context(const RunArguments& arguments, const RunView& view) {
+host::RunContext run_context(const RunArguments& arguments, const RunView& view) {
   return {arguments.command, describe(arguments.node), [&view] {
-            return view.ticks().periods() > 0 ? tick_tables(view.ticks()) : nlohmann::json::array();
+            return view.ticks().periods() > 0 ? sim::tick_tables(view.ticks())
+                                              : nlohmann::json::array();
           }};
 }
 
@@ -105,8 +106,8 @@ std::vector<std::string> with_report(std::vector<std::string> names, const std::
 void add_report(Results& results, const std::string& folder, const nlohmann::json& document) {
   const ReportFiles report = report_files(folder);
   results.add_folder(folder);
-  results.add(report.data, report_text(document));
-  results.add(report.page, report_html(document));
+  results.add(report.data, host::report_text(document));
+  results.add(report.page, host::report_html(document));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -16,7 +16,7 @@
 #include "host_sim/cli/scenario_bus.hpp"
 #include "host_sim/host/report/document.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 struct RunArguments {
   std::string machine;        // empty: the one that comes with the program
@@ -42,7 +42,7 @@ std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node);
 // Looks on from the beginning of the run; must outlive every machine and bus of it.
 [[nodiscard]] std::unique_ptr<RunView> run_view(const RunArguments& arguments,
                                                 const Results& results);
-[[nodiscard]] RunContext run_context(const RunArguments& arguments, const RunView& view);
+[[nodiscard]] host::RunContext run_context(const RunArguments& arguments, const RunView& view);
 // Where the figures, the log and the report of a run go, before anything is read: the machine file
 // and `more_inputs`.
 [[nodiscard]] Results run_results(const RunArguments& arguments,
@@ -88,13 +88,13 @@ auto run_with_bar(ScenarioBus* bus, const Scenario& scenario) {
 template <class Scenario>
 auto run_watched(RunView& view, ScenarioBus* bus, const Scenario& scenario) {
   try {
-    return run_with_bar(bus, [&](const Progress& bar) {
+    return run_with_bar(bus, [&](const host::Progress& bar) {
       return scenario([&](double done, const std::string& what) {
         bar(done, what);
         view.progress(done, what);
       });
     });
-  } catch (const Interrupted&) {
+  } catch (const host::Interrupted&) {
     throw;
   } catch (const std::exception& reason) {
     view.failed(reason.what());
@@ -102,4 +102,4 @@ auto run_watched(RunView& view, ScenarioBus* bus, const Scenario& scenario) {
   }
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

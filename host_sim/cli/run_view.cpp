@@ -8,7 +8,7 @@
 
 #include "host_sim/host/report/page/report.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kMoment{50};
@@ -24,13 +24,13 @@ RunView::RunView(const LiveChoice& choice, const std::string& command, const std
                  std::FILE* words)
     : choice_(choice), words_(words), feed_(command, transport) {
   if (!choice.port) return;
-  server_ = std::make_unique<LiveServer>(*choice.port, [this] {
+  server_ = std::make_unique<sim::LiveServer>(*choice.port, [this] {
     return feed_.state().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   });
   say(words_, "live: " + server_->address());
 }
 
-void RunView::cycle(const MachineSnapshot& snapshot) {
+void RunView::cycle(const sim::MachineSnapshot& snapshot) {
   interruption_.check();
   feed_.cycle(snapshot);
 }
@@ -41,7 +41,8 @@ void RunView::progress(double done, const std::string& what) {
 }
 
 void RunView::ended(const nlohmann::json& document) {
-  if (server_ && choice_.stay) server_->offer_report(report_html(document), report_text(document));
+  if (server_ && choice_.stay)
+    server_->offer_report(host::report_html(document), host::report_text(document));
   feed_.ended(document, choice_.stay);
   if (!server_) return;
   if (choice_.stay) {
@@ -76,4 +77,4 @@ void RunView::stay() const {
     std::this_thread::sleep_for(kMoment);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -12,7 +12,7 @@
 #include "host_sim/sim/live/live_feed.hpp"
 #include "host_sim/sim/live/live_server.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 inline constexpr std::uint16_t kLivePort = 8470;
 
@@ -21,7 +21,7 @@ struct LiveChoice {
   bool stay = false;                  // after the run, until Ctrl+C
 };
 
-class RunView final : public MachineWatch {
+class RunView final : public sim::MachineWatch {
  public:
   // Says in `words` where the page is. Throws UserError when its port cannot be had.
   RunView(const LiveChoice& choice, const std::string& command, const std::string& transport,
@@ -29,10 +29,10 @@ class RunView final : public MachineWatch {
 
   // Of every machine of the run. Throws Interrupted.
   [[nodiscard]] std::uint32_t enter() override { return feed_.enter(); }
-  void cycle(const MachineSnapshot& snapshot) override;
+  void cycle(const sim::MachineSnapshot& snapshot) override;
   void progress(double done, const std::string& what);
 
-  [[nodiscard]] const TickStatistics& ticks() const { return feed_.ticks(); }
+  [[nodiscard]] const sim::TickStatistics& ticks() const { return feed_.ticks(); }
 
   // Returns when the pages that look on have seen it, or with Ctrl+C where the page is to stay.
   void ended(const nlohmann::json& document);
@@ -44,9 +44,9 @@ class RunView final : public MachineWatch {
 
   LiveChoice choice_;
   std::FILE* words_;
-  LiveFeed feed_;
-  Interruption interruption_;  // a run leaves no temporary folder, and tells its page
-  std::unique_ptr<LiveServer> server_;
+  sim::LiveFeed feed_;
+  host::Interruption interruption_;  // a run leaves no temporary folder, and tells its page
+  std::unique_ptr<sim::LiveServer> server_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -5,12 +5,12 @@
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/nmt.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 std::string describe(const NodePlace& place) {
   if (place.integrated()) return "integrated";
   if (place.firmware.chosen()) {
-    const EmulatedBoard& board = emulated_board(place.firmware.board);
+    const sim::EmulatedBoard& board = sim::emulated_board(place.firmware.board);
     return fmt::format("firmware on {} ({} in QEMU), {}{:g} Hz, lock step", board.processor,
                        board.machine, place.can.empty() ? "" : "CAN " + place.can + ", ",
                        place.cycle_hz);
@@ -20,37 +20,37 @@ std::string describe(const NodePlace& place) {
 }
 
 std::size_t knots_at(const NodePlace& place) {
-  return place.firmware.chosen() ? emulated_board(place.firmware.board).knots : kDefaultKnots;
+  return place.firmware.chosen() ? sim::emulated_board(place.firmware.board).knots : kDefaultKnots;
 }
 
-ScenarioBus::ScenarioBus(const NodePlace& place, MachineWatch* watch)
+ScenarioBus::ScenarioBus(const NodePlace& place, sim::MachineWatch* watch)
     : cycle_hz_(place.cycle_hz), watch_(watch) {
   join(place);
   if (place.log_file.empty()) return;
   const std::string name = place.firmware.chosen() ? place.firmware.board : place.can;
   // Without folder or device, so that two logs of the same run are the same file.
-  log_ = std::make_unique<CanLogWriter>(place.log_file, name.substr(0, name.find(':')));
+  log_ = std::make_unique<host::CanLogWriter>(place.log_file, name.substr(0, name.find(':')));
   const bool machine_time = link_ == nullptr || link_->turn_by_turn();
-  recorder_ = std::make_unique<BusRecorder>(
-      *log_, machine_time ? BusRecorder::Clock::machine : BusRecorder::Clock::wall);
+  recorder_ = std::make_unique<sim::BusRecorder>(
+      *log_, machine_time ? sim::BusRecorder::Clock::machine : sim::BusRecorder::Clock::wall);
 }
 
 void ScenarioBus::join(const NodePlace& place) {
   if (place.firmware.chosen()) {
-    board_ = std::make_unique<EmulatedNode>(emulated_board(place.firmware.board),
-                                            place.firmware.image, place.can);
+    board_ = std::make_unique<sim::EmulatedNode>(sim::emulated_board(place.firmware.board),
+                                                 place.firmware.image, place.can);
     link_ = &board_->link();
   } else if (place.can != "loopback") {
-    opened_ = open_frame_link(place.can);
+    opened_ = host::open_frame_link(place.can);
     link_ = opened_.get();
   }
-  if (link_ != nullptr) gateway_ = std::make_unique<CanGateway>(*link_);
+  if (link_ != nullptr) gateway_ = std::make_unique<sim::CanGateway>(*link_);
 }
 
-BusAxesFactory ScenarioBus::axes() {
-  BusAxesFactory make = gateway_ ? gateway_axes(*gateway_) : loopback_axes();
-  if (recorder_) make = recorded(std::move(make), *recorder_);
-  return watch_ != nullptr ? watched(std::move(make), *watch_) : make;
+sim::BusAxesFactory ScenarioBus::axes() {
+  sim::BusAxesFactory make = gateway_ ? sim::gateway_axes(*gateway_) : sim::loopback_axes();
+  if (recorder_) make = sim::recorded(std::move(make), *recorder_);
+  return watch_ != nullptr ? sim::watched(std::move(make), *watch_) : make;
 }
 
 void ScenarioBus::switch_off() {
@@ -69,4 +69,4 @@ void ScenarioBus::finish() {
   if (board_) board_->finish();
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

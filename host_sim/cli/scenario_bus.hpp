@@ -8,13 +8,13 @@
 #include "host_sim/sim/boards/emulated_node.hpp"
 #include "host_sim/sim/controller/bus_recorder.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 struct NodePlace {
   std::string can;          // loopback or a link; empty: integrated, or firmware
   FirmwareChoice firmware;  // instead of `can`, or joined to it by a CAN controller of its own
   std::string log_file;     // empty: none
-  double cycle_hz = kBusCycle_hz;
+  double cycle_hz = sim::kBusCycle_hz;
 
   [[nodiscard]] bool integrated() const { return can.empty() && !firmware.chosen(); }
 };
@@ -28,7 +28,7 @@ struct NodePlace {
 class ScenarioBus {
  public:
   // `watch`, if any, sees every cycle of every machine; it must outlive them.
-  explicit ScenarioBus(const NodePlace& place, MachineWatch* watch = nullptr);
+  explicit ScenarioBus(const NodePlace& place, sim::MachineWatch* watch = nullptr);
 
   // Does the work; what goes wrong in it is told together with what the firmware said last.
   template <class Work>
@@ -36,9 +36,9 @@ class ScenarioBus {
     return board_ ? board_->with_last_words(work) : work();
   }
   // The bus must outlive what is made.
-  [[nodiscard]] BusAxesFactory axes();
-  [[nodiscard]] CellFactory cells(const MachineFile& machine) {
-    return bus_cells(machine, cycle_hz_, axes());
+  [[nodiscard]] sim::BusAxesFactory axes();
+  [[nodiscard]] sim::CellFactory cells(const host::MachineFile& machine) {
+    return sim::bus_cells(machine, cycle_hz_, axes());
   }
   // The machine is switched off: a node elsewhere goes back to PRE-OPERATIONAL, where it waits for
   // the next controller and service tools may store what it has.
@@ -50,13 +50,13 @@ class ScenarioBus {
   void join(const NodePlace& place);
 
   double cycle_hz_;
-  MachineWatch* watch_;
-  std::unique_ptr<EmulatedNode> board_;
-  std::unique_ptr<FrameLink> opened_;
-  FrameLink* link_ = nullptr;  // to a node that is not in this process
-  std::unique_ptr<CanGateway> gateway_;
-  std::unique_ptr<CanLogWriter> log_;
-  std::unique_ptr<BusRecorder> recorder_;
+  sim::MachineWatch* watch_;
+  std::unique_ptr<sim::EmulatedNode> board_;
+  std::unique_ptr<host::FrameLink> opened_;
+  host::FrameLink* link_ = nullptr;  // to a node that is not in this process
+  std::unique_ptr<sim::CanGateway> gateway_;
+  std::unique_ptr<host::CanLogWriter> log_;
+  std::unique_ptr<sim::BusRecorder> recorder_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

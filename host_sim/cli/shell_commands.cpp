@@ -9,7 +9,7 @@
 #include "host_sim/cli/completion.hpp"
 #include "host_sim/cli/manual_page.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 
 void add_completion_command(CLI::App& app, int& code) {
   CLI::App* command =
@@ -35,4 +35,4 @@ void add_man_command(CLI::App& app, int& code) {
   });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -14,15 +14,15 @@
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct SimulateArguments {
   std::string machine;  // empty: the one that comes with the program
-  std::uint64_t machine_seed = kXyfzMachineSeed;
-  Instruments instruments;
+  std::uint64_t machine_seed = xyfz::kXyfzMachineSeed;
+  xyfz::Instruments instruments;
   std::size_t runs = 5;
-  DiagonalPlan plan;
+  xyfz::DiagonalPlan plan;
   int volume_points = 100;
   std::string out;
   std::string json_file;
@@ -30,21 +30,21 @@ struct SimulateArguments {
   NodePlace node;
 };
 
-SimulatedMachine machine_of(const SimulateArguments& a) {
-  return simulated_machine(
-      a.machine.empty() ? bundled_machine("xyfz") : std::filesystem::path(a.machine),
+xyfz::SimulatedMachine machine_of(const SimulateArguments& a) {
+  return xyfz::simulated_machine(
+      a.machine.empty() ? host::bundled_machine("xyfz") : std::filesystem::path(a.machine),
       a.machine_seed);
 }
 
 int simulate_run_files(const SimulateArguments& a) {
   Results results({a.json_file}, {a.machine}, a.out);
-  const SimulatedMachine simulated = machine_of(a);
-  std::vector<NamedText> files;
+  const xyfz::SimulatedMachine simulated = machine_of(a);
+  std::vector<host::NamedText> files;
   std::string text;
   nlohmann::json axes = nlohmann::json::array();
-  for (const RunsFile& runs : simulate_runs(simulated, a.instruments, a.runs)) {
+  for (const host::RunsFile& runs : xyfz::simulate_runs(simulated, a.instruments, a.runs)) {
     const std::string path = (std::filesystem::path(a.out) / runs.name).string();
-    files.push_back({runs.name, runs_csv(runs)});
+    files.push_back({runs.name, host::runs_csv(runs)});
     text += path + "\n";
     axes.push_back(run_file_json(runs, path));
   }
@@ -63,7 +63,7 @@ int simulate_run_files(const SimulateArguments& a) {
 }
 
 // What the node on the bus was found to do.
-std::string node_words(const BusAxes& axes) {
+std::string node_words(const sim::BusAxes& axes) {
   const std::uint8_t id = axes.controller().settings().node;
   const std::uint32_t crc = axes.controller().report().active_crc;
   if (crc == 0) return fmt::format("node {} has no tables: nothing is compensated", id);
@@ -73,26 +73,27 @@ std::string node_words(const BusAxes& axes) {
 // `measure(cell, progress)` on the machine with whatever compensation was asked for; the words say
 // which.
 template <class Measure>
-auto on_machine(const SimulateArguments& a, const SimulatedMachine& simulated,
+auto on_machine(const SimulateArguments& a, const xyfz::SimulatedMachine& simulated,
                 const Measure& measure, std::string& words) {
   std::unique_ptr<ScenarioBus> bus;
   if (!a.node.can.empty()) bus = std::make_unique<ScenarioBus>(a.node);
-  return run_with_bar(bus.get(), [&](const Progress& progress) {
+  return run_with_bar(bus.get(), [&](const host::Progress& progress) {
     progress(0.0, "starting the machine");
-    const MachineFile& machine = simulated.machine;
-    std::unique_ptr<MotionCell> cell;
-    const BusAxes* axes = nullptr;
+    const host::MachineFile& machine = simulated.machine;
+    std::unique_ptr<sim::MotionCell> cell;
+    const sim::BusAxes* axes = nullptr;
     if (bus) {
-      BusSettings settings = bus_settings(machine, a.node.cycle_hz);
+      host::BusSettings settings = host::bus_settings(machine, a.node.cycle_hz);
       settings.node_brings_tables = true;
       auto on_bus = bus->axes()(settings, {});
       axes = on_bus.get();
-      cell = std::make_unique<MotionCell>(simulated.truth, std::move(on_bus));
+      cell = std::make_unique<sim::MotionCell>(simulated.truth, std::move(on_bus));
     } else {
-      const auto image = a.tables.empty() ? std::vector<std::uint8_t>() : read_image_file(a.tables);
-      cell = make_integrated_cell(simulated.truth, machine.correction, image);
+      const auto image =
+          a.tables.empty() ? std::vector<std::uint8_t>() : host::read_image_file(a.tables);
+      cell = sim::make_integrated_cell(simulated.truth, machine.correction, image);
     }
-    cell->place(travel_box(machine).lo);
+    cell->place(sim::travel_box(machine).lo);
     words = axes != nullptr    ? node_words(*axes)
             : a.tables.empty() ? "nothing is compensated"
                                : "compensated with " + a.tables;
@@ -105,7 +106,7 @@ auto on_machine(const SimulateArguments& a, const SimulatedMachine& simulated,
 
 void check(const SimulateArguments& a) {
   if (a.node.can == "loopback")
-    throw UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
+    throw host::UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
 }
 
 // Writes what `csv` makes of the measurement, and says what `extent` calls it.
@@ -114,11 +115,11 @@ int simulate_file(const SimulateArguments& a, const Measure& measure, const Csv&
                   const Extent& extent) {
   check(a);
   Results results({a.out, a.node.log_file}, {a.machine, a.tables});
-  const SimulatedMachine simulated = machine_of(a);
+  const xyfz::SimulatedMachine simulated = machine_of(a);
   std::string words;
   const auto file = on_machine(
       a, simulated,
-      [&](MotionCell& cell, const Progress& progress) {
+      [&](sim::MotionCell& cell, const host::Progress& progress) {
         return measure(cell, simulated.machine, progress);
       },
       words);
@@ -131,11 +132,11 @@ int simulate_file(const SimulateArguments& a, const Measure& measure, const Csv&
 int simulate_diagonal_file(const SimulateArguments& a) {
   return simulate_file(
       a,
-      [&](MotionCell& cell, const MachineFile& machine, const Progress& progress) {
-        return simulate_diagonals(cell, machine, a.plan, a.instruments, progress);
+      [&](sim::MotionCell& cell, const host::MachineFile& machine, const host::Progress& progress) {
+        return xyfz::simulate_diagonals(cell, machine, a.plan, a.instruments, progress);
       },
-      diagonals_csv,
-      [&](const DiagonalsFile& file) {
+      host::diagonals_csv,
+      [&](const host::DiagonalsFile& file) {
         return fmt::format("{} diagonals, {} targets, {} runs up and down", file.diagonals.size(),
                            a.plan.points, a.plan.runs);
       });
@@ -144,12 +145,12 @@ int simulate_diagonal_file(const SimulateArguments& a) {
 int simulate_volume_file(const SimulateArguments& a) {
   return simulate_file(
       a,
-      [&](MotionCell& cell, const MachineFile& machine, const Progress& progress) {
+      [&](sim::MotionCell& cell, const host::MachineFile& machine, const host::Progress& progress) {
         progress(0.0, "places of the volume");
-        return simulate_volume(cell, machine, a.volume_points, a.instruments.seed);
+        return xyfz::simulate_volume(cell, machine, a.volume_points, a.instruments.seed);
       },
-      volume_csv,
-      [](const VolumeFile& file) { return fmt::format("{} places", file.points.size()); });
+      host::volume_csv,
+      [](const host::VolumeFile& file) { return fmt::format("{} places", file.points.size()); });
 }
 
 std::shared_ptr<SimulateArguments> add_machine_options(CLI::App& command) {
@@ -171,7 +172,7 @@ void add_compensation_options(CLI::App& command, SimulateArguments& a) {
       "--can", a.node.can,
       fmt::format("Drives and controller of the machine on this bus, compensated by the node there "
                   "with the tables it has: {}",
-                  kLinkForms));
+                  host::kLinkForms));
   command
       .add_option("--tables", a.tables,
                   "Image file to compensate with, without a bus (default: no compensation)")
@@ -180,7 +181,7 @@ void add_compensation_options(CLI::App& command, SimulateArguments& a) {
     option->needs(can);
 }
 
-void add_perfect(CLI::App& command, Instruments& instruments) {
+void add_perfect(CLI::App& command, xyfz::Instruments& instruments) {
   command.add_flag(
       "--perfect", instruments.perfect,
       "Instruments without errors (default: 0.7 µm and 0.7 µrad per reading and more)");
@@ -230,4 +231,4 @@ void add_simulate_command(CLI::App& app, int& code) {
   volume->callback([v, &code] { code = simulate_volume_file(*v); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

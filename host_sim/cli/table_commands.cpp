@@ -16,7 +16,7 @@
 #include "host_sim/host/bus/thermal_diagnosis.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct BuildArguments {
@@ -33,17 +33,18 @@ struct BuildArguments {
   std::size_t knots = kDefaultKnots;
 };
 
-bool is_rotary(const MachineFile& machine, std::size_t a) {
+bool is_rotary(const host::MachineFile& machine, std::size_t a) {
   return machine.chain.axis(a).kind == JointKind::rotary;
 }
 
-std::string closed_text(const std::optional<TurnGap>& gap) {
+std::string closed_text(const std::optional<host::TurnGap>& gap) {
   if (!gap) return "";
   return fmt::format("; ends of the turn {:.2f} µm, {:.2f} µrad apart, closed", 1e3 * gap->mm,
                      1e6 * gap->rad);
 }
 
-std::string axis_line(const MachineFile& machine, const Commissioned& tables, std::size_t a) {
+std::string axis_line(const host::MachineFile& machine, const host::Commissioned& tables,
+                      std::size_t a) {
   const BuiltTable& b = *tables.built[a];
   const Iso230Figures& f = b.positioning;
   const double scale = is_rotary(machine, a) ? 1e6 : 1e3;
@@ -55,7 +56,7 @@ std::string axis_line(const MachineFile& machine, const Commissioned& tables, st
       scale * f.M, is_rotary(machine, a) ? "µrad" : "µm", closed_text(tables.gaps[a]));
 }
 
-std::string validity_text(const MachineFile& machine, const Provenance& provenance) {
+std::string validity_text(const host::MachineFile& machine, const Provenance& provenance) {
   std::string text;
   for (std::size_t a = 0; a < machine.axes.size(); ++a) {
     const AxisExpansion& e = machine.thermal.expansion.at(a);
@@ -65,11 +66,11 @@ std::string validity_text(const MachineFile& machine, const Provenance& provenan
                         provenance.temperature_C, e.input);
   }
   if (provenance.expires_unix_s != 0)
-    text += fmt::format("expires {} UTC\n", date_text(provenance.expires_unix_s));
+    text += fmt::format("expires {} UTC\n", host::date_text(provenance.expires_unix_s));
   return text;
 }
 
-std::string words_of(const MachineFile& machine, const Commissioned& tables) {
+std::string words_of(const host::MachineFile& machine, const host::Commissioned& tables) {
   std::string text;
   for (std::size_t a = 0; a < machine.axes.size(); ++a)
     text += axis_line(machine, tables, a);
@@ -86,7 +87,8 @@ std::string words_of(const MachineFile& machine, const Commissioned& tables) {
 }
 
 // Figures after ISO 230-2 in um or urad.
-nlohmann::json axis_json(const MachineFile& machine, const Commissioned& tables, std::size_t a) {
+nlohmann::json axis_json(const host::MachineFile& machine, const host::Commissioned& tables,
+                         std::size_t a) {
   const BuiltTable& b = *tables.built[a];
   const Iso230Figures& f = b.positioning;
   const double scale = is_rotary(machine, a) ? 1e6 : 1e3;
@@ -101,12 +103,12 @@ nlohmann::json axis_json(const MachineFile& machine, const Commissioned& tables,
                      {"E", scale * f.E},
                      {"B", scale * f.B},
                      {"M", scale * f.M}}}};
-  if (const std::optional<TurnGap>& gap = tables.gaps[a])
+  if (const std::optional<host::TurnGap>& gap = tables.gaps[a])
     j["turn_closed"] = {{"um", 1e3 * gap->mm}, {"urad", 1e6 * gap->rad}};
   return j;
 }
 
-nlohmann::json build_json(const MachineFile& machine, const Commissioned& tables,
+nlohmann::json build_json(const host::MachineFile& machine, const host::Commissioned& tables,
                           const std::vector<std::uint8_t>& image) {
   nlohmann::json axes = nlohmann::json::array();
   for (std::size_t a = 0; a < machine.axes.size(); ++a)
@@ -120,7 +122,7 @@ nlohmann::json build_json(const MachineFile& machine, const Commissioned& tables
                    {"warnings", tables.warnings},
                    {"axes", axes}};
   if (tables.tables.provenance.expires_unix_s != 0)
-    j["expires_utc"] = date_text(tables.tables.provenance.expires_unix_s);
+    j["expires_utc"] = host::date_text(tables.tables.provenance.expires_unix_s);
   if (machine.squareness) {
     const XyfzSquareness& p = tables.parameters;
     j["squareness_urad"] = {{"a_xy", 1e6 * p.a_xy}, {"a_xz", 1e6 * p.a_xz}, {"a_yz", 1e6 * p.a_yz}};
@@ -128,11 +130,11 @@ nlohmann::json build_json(const MachineFile& machine, const Commissioned& tables
   return j;
 }
 
-CommissionOptions options_of(const BuildArguments& arguments) {
-  CommissionOptions options;
-  options.model = arguments.model == "naive"  ? ModelKind::naive
-                  : arguments.model == "abbe" ? ModelKind::abbe
-                                              : ModelKind::abbe_closed;
+host::CommissionOptions options_of(const BuildArguments& arguments) {
+  host::CommissionOptions options;
+  options.model = arguments.model == "naive"  ? host::ModelKind::naive
+                  : arguments.model == "abbe" ? host::ModelKind::abbe
+                                              : host::ModelKind::abbe_closed;
   options.slope = arguments.slope == "end" ? SlopeFit::end_points : SlopeFit::least_squares;
   options.allow_resampling = !arguments.no_resampling;
   options.knots = arguments.knots;
@@ -143,11 +145,11 @@ int build_tables(const BuildArguments& arguments) {
   std::vector<std::string> inputs = arguments.runs;
   inputs.push_back(arguments.machine);
   Results results({arguments.out, arguments.json_file}, std::move(inputs));
-  const MachineFile machine = read_machine_file(arguments.machine);
-  std::vector<RunsFile> runs;
+  const host::MachineFile machine = host::read_machine_file(arguments.machine);
+  std::vector<host::RunsFile> runs;
   for (const std::string& path : arguments.runs)
-    runs.push_back(read_runs_file(path));
-  const auto tables = commission(machine, runs, options_of(arguments));
+    runs.push_back(host::read_runs_file(path));
+  const auto tables = host::commission(machine, runs, options_of(arguments));
   Provenance& provenance = tables->tables.provenance;
   provenance.built_unix_s = static_cast<std::int64_t>(std::time(nullptr));
   if (arguments.temperature_C)
@@ -158,7 +160,7 @@ int build_tables(const BuildArguments& arguments) {
         provenance.built_unix_s + static_cast<std::int64_t>(std::ceil(86'400.0 * days));
   }
   arguments.stamp.copy(provenance.stamp.data(), provenance.stamp.size());
-  const std::vector<std::uint8_t> image = make_image(tables->tables);
+  const std::vector<std::uint8_t> image = host::make_image(tables->tables);
   results.add(arguments.out, {reinterpret_cast<const char*>(image.data()), image.size()});
   results.add(arguments.json_file, json_text(build_json(machine, *tables, image)));
   results.write();
@@ -202,9 +204,9 @@ void add_build_tables_command(CLI::App& app, int& code) {
   build
       ->add_option("--expires", a->expires_days,
                    "Days until the tables expire, 0: never (default: that of the machine file)")
-      ->check(number_between(0.0, kMostExpiry_days));
+      ->check(number_between(0.0, host::kMostExpiry_days));
   build->add_option("--stamp", a->stamp, "Operator, up to 16 characters")->capture_default_str();
   build->callback([a, &code] { code = build_tables(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -11,7 +11,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/verification.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::cli {
 namespace {
 
 struct VerifyArguments {
@@ -19,7 +19,7 @@ struct VerifyArguments {
   std::string after;
   std::vector<std::string> volume;  // before, after
   std::string uncertainty_file;
-  UncertaintyStatement stated;
+  host::UncertaintyStatement stated;
   std::optional<double> limit_um;
   std::string machine;
   std::string tables;
@@ -30,46 +30,52 @@ struct VerifyArguments {
   std::string command;
 };
 
-DiagonalBox box_of(const VerifyArguments& a, const MachineFile& machine) {
-  if (a.box_mm.empty()) return travel_of(machine);
+DiagonalBox box_of(const VerifyArguments& a, const host::MachineFile& machine) {
+  if (a.box_mm.empty()) return host::travel_of(machine);
   DiagonalBox box;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     box.lo(i) = a.box_mm.at(2 * k);
     box.hi(i) = a.box_mm.at(2 * k + 1);
     if (!(box.lo(i) < box.hi(i)))
-      throw UserError(fmt::format("--box-mm: {:g} is not below {:g}", box.lo(i), box.hi(i)));
+      throw host::UserError(fmt::format("--box-mm: {:g} is not below {:g}", box.lo(i), box.hi(i)));
   }
   return box;
 }
 
-VerificationInput read_input(const VerifyArguments& a) {
-  VerificationInput input{
-      read_diagonals_file(a.before), read_diagonals_file(a.after), {}, {}, {}, a.limit_um, {}};
+host::VerificationInput read_input(const VerifyArguments& a) {
+  host::VerificationInput input{host::read_diagonals_file(a.before),
+                                host::read_diagonals_file(a.after),
+                                {},
+                                {},
+                                {},
+                                a.limit_um,
+                                {}};
   if (!a.volume.empty()) {
-    input.volume_before = read_volume_file(a.volume.at(0));
-    input.volume_after = read_volume_file(a.volume.at(1));
+    input.volume_before = host::read_volume_file(a.volume.at(0));
+    input.volume_after = host::read_volume_file(a.volume.at(1));
   }
-  if (!a.uncertainty_file.empty()) input.uncertainty = read_uncertainty_file(a.uncertainty_file);
+  if (!a.uncertainty_file.empty())
+    input.uncertainty = host::read_uncertainty_file(a.uncertainty_file);
   input.uncertainty = input.uncertainty.overridden_by(a.stated);
   if (!a.tables.empty()) {
-    const MachineFile machine = read_machine_file(a.machine);
+    const host::MachineFile machine = host::read_machine_file(a.machine);
     input.tables.emplace(machine, a.tables, box_of(a, machine));
   }
   return input;
 }
 
-Origins origins_of(const VerifyArguments& a) {
-  Origins origins;
-  add_origin(origins, "before", a.before);
-  add_origin(origins, "after", a.after);
+host::Origins origins_of(const VerifyArguments& a) {
+  host::Origins origins;
+  host::add_origin(origins, "before", a.before);
+  host::add_origin(origins, "after", a.after);
   if (!a.volume.empty()) {
-    add_origin(origins, "volume before", a.volume.at(0));
-    add_origin(origins, "volume after", a.volume.at(1));
+    host::add_origin(origins, "volume before", a.volume.at(0));
+    host::add_origin(origins, "volume after", a.volume.at(1));
   }
-  if (!a.uncertainty_file.empty()) add_origin(origins, "uncertainty", a.uncertainty_file);
-  if (!a.machine.empty()) add_origin(origins, "machine file", a.machine);
-  if (!a.tables.empty()) add_origin(origins, "table image", a.tables);
+  if (!a.uncertainty_file.empty()) host::add_origin(origins, "uncertainty", a.uncertainty_file);
+  if (!a.machine.empty()) host::add_origin(origins, "machine file", a.machine);
+  if (!a.tables.empty()) host::add_origin(origins, "table image", a.tables);
   return origins;
 }
 
@@ -82,21 +88,21 @@ std::vector<std::string> inputs_of(const VerifyArguments& a) {
 int verify_files(const VerifyArguments& a) {
   Results results(with_report({a.json_file, a.csv_file}, a.report_folder), inputs_of(a),
                   a.report_folder);
-  const VerificationInput input = read_input(a);
-  const VerificationResult result = verify(input);
+  const host::VerificationInput input = read_input(a);
+  const host::VerificationResult result = host::verify(input);
   if (!a.report_folder.empty())
     add_report(results, a.report_folder,
-               verification_document(input, result, {a.command, {}}, origins_of(a)));
-  results.add(a.json_file, json_text(verification_json(input, result)));
-  results.add(a.csv_file, verification_csv(result));
+               host::verification_document(input, result, {a.command, {}}, origins_of(a)));
+  results.add(a.json_file, json_text(host::verification_json(input, result)));
+  results.add(a.csv_file, host::verification_csv(result));
   results.write();
-  fmt::print(results.words(), "{}", verification_text(input, result));
+  fmt::print(results.words(), "{}", host::verification_text(input, result));
   if (!a.report_folder.empty())
     fmt::print(results.words(), "report: {}/report.html\n", a.report_folder);
   return result.ok ? 0 : 1;
 }
 
-void add_uncertainty_options(CLI::App& verify, UncertaintyStatement& s) {
+void add_uncertainty_options(CLI::App& verify, host::UncertaintyStatement& s) {
   const CLI::Validator not_negative = number_between(0.0, 1e6);
   const auto add = [&](const char* name, std::optional<double>& value, const char* what) {
     verify.add_option(name, value, fmt::format("{} (default: left out)", what))
@@ -157,4 +163,4 @@ void add_verify_command(CLI::App& app, int argc, char** argv, int& code) {
   verify->callback([a, &code] { code = verify_files(*a); });
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::cli

@@ -79,7 +79,7 @@ bool counters_agree(const BusWorld& world, std::uint64_t cycles_before) {
 // What must not change.
 struct Baseline {
   Ports ports;
-  Offsets offsets{};
+  host::Offsets offsets{};
   std::uint64_t cycles_before = 0;  // the node counted its first
   std::size_t heap_bytes = 0;
 };

@@ -55,7 +55,7 @@ Flank flank_of(const json& in) {
 L300gCase::L300gCase(const json& in)
     : arm{number(in.at("LR")), number(in.at("Bc"))},
       datum{number(in.at("X0")), number(in.at("Y0"))} {
-  require(MachineChain::build(l300g(arm, datum), chain));
+  require(MachineChain::build(l300g_machine(arm, datum), chain));
 }
 
 }  // namespace volcomp::cases

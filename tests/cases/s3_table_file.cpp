@@ -13,42 +13,42 @@ namespace volcomp::cases {
 namespace {
 
 std::string enc_comp(const json& in) {
-  const sim::EncCompTable table{in.at("axis"),         numbers(in.at("t")), number(in.at("min")),
-                                number(in.at("step")), in.at("modulo"),     in.at("rotary")};
+  const host::EncCompTable table{in.at("axis"),         numbers(in.at("t")), number(in.at("min")),
+                                 number(in.at("step")), in.at("modulo"),     in.at("rotary")};
   std::string text;
-  require(sim::write_enc_comp(table, text));
-  require(sim::write_enc_comp(sim::read_enc_comp(text, table.rotary), text));
+  require(host::write_enc_comp(table, text));
+  require(host::write_enc_comp(host::read_enc_comp(text, table.rotary), text));
   return text;
 }
 
 std::string cec(const json& in) {
-  const sim::CecTable table{in.at("table"),      in.at("input"),       in.at("output"),
-                            numbers(in.at("t")), number(in.at("min")), number(in.at("step")),
-                            in.at("direction"),  in.at("modulo"),      in.at("rotary"),
-                            in.at("sign")};
+  const host::CecTable table{in.at("table"),      in.at("input"),       in.at("output"),
+                             numbers(in.at("t")), number(in.at("min")), number(in.at("step")),
+                             in.at("direction"),  in.at("modulo"),      in.at("rotary"),
+                             in.at("sign")};
   std::string text;
-  require(sim::write_cec(table, text));
-  require(sim::write_cec(sim::read_cec(text, table.rotary, table.sign), text));
+  require(host::write_cec(table, text));
+  require(host::write_cec(host::read_cec(text, table.rotary, table.sign), text));
   return text;
 }
 
 std::string linuxcnc(const json& in) {
-  const sim::LinuxcncComp table{in.at("type"), numbers(in.at("nominal")), numbers(in.at("fwd")),
-                                numbers(in.at("rev"))};
+  const host::LinuxcncComp table{in.at("type"), numbers(in.at("nominal")), numbers(in.at("fwd")),
+                                 numbers(in.at("rev"))};
   std::string text;
-  require(sim::write_linuxcnc(table, text));
+  require(host::write_linuxcnc(table, text));
   std::istringstream written(text);
-  require(sim::write_linuxcnc(sim::read_linuxcnc(written, "written", table.type), text));
+  require(host::write_linuxcnc(host::read_linuxcnc(written, "written", table.type), text));
   return text;
 }
 
 std::string ssfk(const json& in) {
-  const sim::SsfkTable table{in.at("log_axis"),         in.at("name"),
-                             numbers(in.at("nominal")), numbers(in.at("fwd")),
-                             numbers(in.at("rev")),     in.at("rotary")};
+  const host::SsfkTable table{in.at("log_axis"),         in.at("name"),
+                              numbers(in.at("nominal")), numbers(in.at("fwd")),
+                              numbers(in.at("rev")),     in.at("rotary")};
   std::string text;
-  require(sim::write_ssfk(table, text));
-  require(sim::write_ssfk(sim::read_ssfk(text, table.rotary), text));
+  require(host::write_ssfk(table, text));
+  require(host::write_ssfk(host::read_ssfk(text, table.rotary), text));
   return text;
 }
 

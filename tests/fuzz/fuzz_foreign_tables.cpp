@@ -13,7 +13,7 @@
 
 namespace {
 
-using namespace volcomp::sim;
+using namespace volcomp::host;
 
 void check(bool good) {
   if (!good) __builtin_trap();
@@ -30,7 +30,7 @@ void read_errors(void (*read)(std::istream&, const std::string&, ForeignErrors&)
     write_runs(written, runs);
     try {
       check(read_runs(written, "runs.csv").positions.size() == runs.positions.size());
-    } catch (const volcomp::sim::UserError&) {
+    } catch (const volcomp::host::UserError&) {
       check(false);
     }
   }
@@ -68,7 +68,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   try {
     read_any(data[0], std::string(reinterpret_cast<const char*>(data) + 1, size - 1));
-  } catch (const volcomp::sim::UserError&) {
+  } catch (const volcomp::host::UserError&) {
     return 0;
   }
   return 0;

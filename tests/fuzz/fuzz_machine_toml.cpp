@@ -5,12 +5,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const auto file = volcomp::sim::parse_machine(
+    const auto file = volcomp::host::parse_machine(
         std::string(reinterpret_cast<const char*>(data), size), "machine.toml");
     volcomp::MachineChain chain;
     if (!volcomp::MachineChain::build(file.chain.description(), chain).ok()) __builtin_trap();
     if (file.axes.size() != chain.axis_count()) __builtin_trap();
-  } catch (const volcomp::sim::UserError&) {
+  } catch (const volcomp::host::UserError&) {
     return 0;
   }
   return 0;

@@ -14,7 +14,7 @@ constexpr double kUnitsPerDegree = static_cast<double>(kUnitsPerTurn) / 360.0;
 inline const SwingArm kProbeArm{173.7135, -39.025 * kPi / 180.0};
 inline const L300gDatum kProbeDatum{0.0, 168.8053};
 
-inline MachineDescription probing_machine() { return l300g(kProbeArm, kProbeDatum); }
+inline MachineDescription probing_machine() { return l300g_machine(kProbeArm, kProbeDatum); }
 
 // X 0…300 mm, Y 150…350 mm, B −60…0°, A periodic.
 inline MachineTables probing_tables(double delta_nm, double epsilon, Random& random) {

@@ -177,12 +177,12 @@ void second_sync_without_counter(BusWorld& world, Random& random, int cycles) {
 // While the controller itself downloads tables.
 void second_sdo_client(BusWorld& world, Random& random, int cycles) {
   world.controller().load_tables(bus_machine().other_image);
-  SdoChannel& sdo = world.intruder().sdo();
+  host::SdoChannel& sdo = world.intruder().sdo();
   for (int i = 0; i < cycles; ++i) {
     if (sdo.idle()) {
       sdo.clear();
       const bool reads = random.uniform() < 0.5;
-      if (reads) sdo.read({0x1008, 0}, 64, "name", [](const SdoChannel::Bytes&) {});
+      if (reads) sdo.read({0x1008, 0}, 64, "name", [](const host::SdoChannel::Bytes&) {});
       if (!reads) sdo.write_value<std::uint32_t>({0x1020, 1}, 1, "configuration date");
     }
     world.run(1);
@@ -193,7 +193,7 @@ void second_sdo_client(BusWorld& world, Random& random, int cycles) {
 }
 
 void download_broken_off(BusWorld& world, Random& random, int cycles) {
-  SdoChannel& sdo = world.intruder().sdo();
+  host::SdoChannel& sdo = world.intruder().sdo();
   sdo.clear();
   sdo.write({0x2110, 1}, bus_machine().other_image, "tables");
   world.run(static_cast<int>(random.uniform(1.0, 30.0)));
@@ -237,8 +237,8 @@ std::vector<Fault> faults() {
 }
 
 // Offsets of an undisturbed machine at the place that approach() goes to.
-Offsets undisturbed() {
-  static const Offsets offsets = [] {
+host::Offsets undisturbed() {
+  static const host::Offsets offsets = [] {
     BusWorld world(1);
     EXPECT_TRUE(world.approach());
     return world.offsets();

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kFeed_mm_s = 10'000.0 / 60.0;
 
-std::vector<Offsets> offsets_along(MotionCell& cell, const Diagonal& line) {
-  std::vector<Offsets> offsets;
+std::vector<host::Offsets> offsets_along(MotionCell& cell, const Diagonal& line) {
+  std::vector<host::Offsets> offsets;
   cell.place(line.start);
   cell.move_to(line.end, kFeed_mm_s,
                [&](const MotionCell& c) { offsets.push_back(c.axes().offset()); });
@@ -27,7 +27,7 @@ TEST(Bus, OffsetsAreThoseOfTheIntegratedFormToTheBit) {
   const auto integrated = make_integrated_cell(m.truth, m.file.correction, m.image);
   const auto bus = bus_cells(m.file, kBusCycle_hz)(m.truth, m.file.correction, m.image);
   const Diagonal line = body_diagonals(travel_box(m.file))[kPnp];
-  const std::vector<Offsets> expected = offsets_along(*integrated, line);
+  const std::vector<host::Offsets> expected = offsets_along(*integrated, line);
   ASSERT_GT(expected.size(), 1000U);
   EXPECT_EQ(offsets_along(*bus, line), expected);
 }
@@ -39,7 +39,7 @@ TEST(Bus, HasRoomForTheCycleOfThreeAxesWithTheLongestFrames) {
   axes.bring_up();
   const std::uint64_t busy_ns = axes.bus().bus().busy_ns();
   const std::uint64_t begin_ns = axes.bus().bus().now_ns();
-  const Targets target = axes.target();
+  const host::Targets target = axes.target();
   for (int i = 0; i < 1000; ++i)
     axes.cycle(target);
   const double load = static_cast<double>(axes.bus().bus().busy_ns() - busy_ns) /
@@ -51,8 +51,8 @@ TEST(Bus, HasRoomForTheCycleOfThreeAxesWithTheLongestFrames) {
 
 TEST(Bus, LineAtTenMetresPerMinuteIsCompensatedWithinTwoNanometres) {
   const BusMachine& m = bus_machine();
-  const Dynamics d =
-      run_dynamics(m.truth, m.file, *m.commissioned, bus_cells(m.file, kBusCycle_hz));
+  const xyfz::Dynamics d =
+      xyfz::run_dynamics(m.truth, m.file, *m.commissioned, bus_cells(m.file, kBusCycle_hz));
   EXPECT_LE(d.line_worst_nm, 2.0);
   EXPECT_GT(d.line_worst_nm, 0.0);
 }
@@ -61,7 +61,7 @@ TEST(Bus, LineAtTenMetresPerMinuteIsCompensatedWithinTwoNanometres) {
 TEST(Bus, ManyJourneysLaterTheOffsetsAreTheSame) {
   BusWorld world(5);
   ASSERT_TRUE(world.approach());
-  const Offsets before = world.offsets();
+  const host::Offsets before = world.offsets();
   world.run(20'000);
   ASSERT_TRUE(world.approach());
   EXPECT_EQ(world.offsets(), before);

@@ -34,13 +34,15 @@ MachineTables shifted(MachineTables tables) {
 
 BusMachine make_bus_machine() {
   BusMachine m;
-  m.file = read_machine_file(bundled_machine("xyfz"));
+  m.file = host::read_machine_file(host::bundled_machine("xyfz"));
   m.file.correction.tick_hz = kBusCycle_hz;
-  m.truth = make_xyfz_truth(m.file, kXyfzMachineSeed, tune_xyfz(m.file, kXyfzMachineSeed));
+  m.truth = xyfz::make_xyfz_truth(m.file, xyfz::kXyfzMachineSeed,
+                                  xyfz::tune_xyfz(m.file, xyfz::kXyfzMachineSeed));
   const Campaign campaign = perfect_campaign(m.truth, m.file);
-  m.commissioned = commission(campaign.machine, campaign.runs, tables_only(ModelKind::abbe_closed));
-  m.image = make_image(m.commissioned->tables);
-  m.other_image = make_image(shifted(m.commissioned->tables));
+  m.commissioned = host::commission(campaign.machine, campaign.runs,
+                                    host::tables_only(host::ModelKind::abbe_closed));
+  m.image = host::make_image(m.commissioned->tables);
+  m.other_image = host::make_image(shifted(m.commissioned->tables));
   return m;
 }
 
@@ -58,7 +60,9 @@ const BusMachine& bus_machine() {
   return machine;
 }
 
-BusSettings bus_machine_settings() { return bus_settings(bus_machine().file, kBusCycle_hz); }
+host::BusSettings bus_machine_settings() {
+  return host::bus_settings(bus_machine().file, kBusCycle_hz);
+}
 
 Intruder::Intruder(SimulatedBus& bus)
     : sdo_(bus_machine_settings().node), port_(&bus.attach(*this, "intruder")) {}
@@ -71,7 +75,7 @@ BusWorld::BusWorld(std::uint64_t seed, const std::vector<std::uint8_t>& image)
       goal_(path_) {
   for (std::size_t a = 0; a < kBusMachineAxes; ++a)
     watch(a);
-  axes_.stand_at(pose_of(kStart));
+  axes_.stand_at(host::pose_of(kStart));
   axes_.bring_up();
 }
 
@@ -121,7 +125,7 @@ bool BusWorld::go_to(const Vec3& mm) {
   step_nm_ = 400'000;
   int quiet = 0;
   for (int i = 0; i < kLongest && quiet < kSettle; ++i) {
-    const Offsets before = offsets();
+    const host::Offsets before = offsets();
     step(goal);
     const bool still = at(goal) && offsets() == before && (node().any_status & kRamping) == 0;
     quiet = still ? quiet + 1 : 0;

@@ -17,14 +17,14 @@ namespace volcomp::sim {
 // that differ in their values.
 inline constexpr std::size_t kBusMachineAxes = 3;
 struct BusMachine {
-  MachineFile file;
+  host::MachineFile file;
   TrueMachine truth;
-  std::unique_ptr<Commissioned> commissioned;
+  std::unique_ptr<host::Commissioned> commissioned;
   std::vector<std::uint8_t> image;
   std::vector<std::uint8_t> other_image;
 };
 [[nodiscard]] const BusMachine& bus_machine();
-[[nodiscard]] BusSettings bus_machine_settings();
+[[nodiscard]] host::BusSettings bus_machine_settings();
 
 // Another participant on the bus: an SDO client to the compensation node, and single frames.
 class Intruder {
@@ -33,7 +33,7 @@ class Intruder {
 
   void send(const hal::CanFrame& frame) { static_cast<void>(port_->send(frame)); }
   void connect(bool on) { port_->connect(on); }
-  [[nodiscard]] SdoChannel& sdo() { return sdo_; }
+  [[nodiscard]] host::SdoChannel& sdo() { return sdo_; }
 
   void receive(const hal::CanFrame& frame, std::uint64_t now_us) { sdo_.receive(frame, now_us); }
   void poll(std::uint64_t now_us) { sdo_.poll(now_us); }
@@ -43,7 +43,7 @@ class Intruder {
   void taken(std::uint64_t /*now_us*/) { sdo_.taken(); }
 
  private:
-  SdoChannel sdo_;
+  host::SdoChannel sdo_;
   SimulatedBus::Port* port_;
 };
 
@@ -86,7 +86,7 @@ class BusWorld {
   [[nodiscard]] hal::LoopbackBus& bus() { return axes_.bus().bus(); }
   [[nodiscard]] Intruder& intruder() { return intruder_; }
   [[nodiscard]] const node::NodeObjects& node() const { return axes_.node()->objects(); }
-  [[nodiscard]] Offsets offsets() const { return axes_.offset(); }
+  [[nodiscard]] host::Offsets offsets() const { return axes_.offset(); }
   [[nodiscard]] std::uint64_t cycles() const { return axes_.cycles(); }
 
  private:

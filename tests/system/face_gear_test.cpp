@@ -25,19 +25,19 @@ constexpr double kBall_mm = 0.5;
 FaceGear generated_gear() {
   FaceGear gear = face_gear_of_table_3();
   gear.relief = {};
-  require(derive(gear), "gear");
+  host::require(derive(gear), "gear");
   return gear;
 }
 
 FaceGrid grid_of(const FaceGear& gear) {
   FaceGrid grid;
-  require(make_face_grid(gear, face_grid_of_table_3(), grid), "grid");
+  host::require(make_face_grid(gear, face_grid_of_table_3(), grid), "grid");
   return grid;
 }
 
 FaceFlank flank_on(const FaceGear& gear, int side, int slot = 0) {
   FaceFlank flank;
-  require(choose_flank(gear, side, slot, flank), "flank");
+  host::require(choose_flank(gear, side, slot, flank), "flank");
   return flank;
 }
 
@@ -56,13 +56,13 @@ ErrorMap measured(const FaceGear& gear, const ErrorMap& form, int side, const Mo
     }
   }
   double removed = 0.0;
-  require(zero_at_centre(map, removed), "map");
+  host::require(zero_at_centre(map, removed), "map");
   return map;
 }
 
 ErrorMap difference(const ErrorMap& a, const ErrorMap& b) {
   MapDifference d;
-  require(compare_maps(a, b, d), "maps");
+  host::require(compare_maps(a, b, d), "maps");
   return d.difference;
 }
 
@@ -97,9 +97,10 @@ BothFlanks against_truth(const Move& move) {
   const FaceGear gear = generated_gear();
   BothFlanks both;
   for (std::size_t side = 0; side < 2; ++side) {
-    const ErrorMap form = published_map(PublishedMap::centre, side);
-    const ErrorMap off = difference(measured(gear, form, kFaceSides[side], move), form);
-    const ErrorMap printed = difference(published_map(PublishedMap::machine, side), form);
+    const ErrorMap form = face_gear::published_map(face_gear::PublishedMap::centre, side);
+    const ErrorMap off = difference(measured(gear, form, face_gear::kFaceSides[side], move), form);
+    const ErrorMap printed =
+        difference(face_gear::published_map(face_gear::PublishedMap::machine, side), form);
     for (std::size_t i = 0; i < kGridCells; ++i)
       both.add(off.cells()[i], printed.cells()[i]);
   }
@@ -133,7 +134,7 @@ TEST(FaceSimulation, ThirtyTouchesShowTheFrameToAFifthOfAMicrometre) {
   for (int draw = 0; draw < kDraws; ++draw) {
     std::vector<FaceTouchPoint> points;
     for (const int slot : {0, 28, 57}) {
-      for (const int side : kFaceSides) {
+      for (const int side : face_gear::kFaceSides) {
         const FaceFlank flank = flank_on(gear, side, slot);
         for (const auto& [r, c] : {std::pair{3, 7}, {1, 1}, {1, 13}, {5, 13}, {5, 1}}) {
           const FaceGridNode& node =
@@ -161,18 +162,19 @@ TEST(FaceSimulation, ThirtyTouchesShowTheFrameToAFifthOfAMicrometre) {
 
 // --- by touches
 
-FaceGearResult run(const std::string& gear, FormTruth form, std::uint64_t seed) {
-  FaceGearOptions options;
-  options.machine = bundled_machine("yk7280");
+face_gear::FaceGearResult run(const std::string& gear, face_gear::FormTruth form,
+                              std::uint64_t seed) {
+  face_gear::FaceGearOptions options;
+  options.machine = host::bundled_machine("yk7280");
   options.gear = gear;
   options.form = form;
   options.seed = seed;
   options.cycle_hz = 50.0;  // the slower, the fewer cycles; a touch does not wait for one
-  return run_face_gear(options, [](double, const std::string&) {});
+  return face_gear::run_face_gear(options, [](double, const std::string&) {});
 }
 
-const FaceGearResult& table_3() {
-  static const FaceGearResult result = run("table3", FormTruth::tables, 1);
+const face_gear::FaceGearResult& table_3() {
+  static const face_gear::FaceGearResult result = run("table3", face_gear::FormTruth::tables, 1);
   return result;
 }
 
@@ -191,7 +193,7 @@ TEST(FaceGear, FrameAndCompensationBringTheMapsToTheGear) {
 // Out of centre by 43 µm: F_p of one ball is twice that along the pitch circle, less what the
 // direction of touching takes away.
 TEST(FaceGear, AGearOutOfCentreIsNoPitchError) {
-  const FaceGearResult& r = table_3();
+  const face_gear::FaceGearResult& r = table_3();
   for (std::size_t side = 0; side < 2; ++side) {
     EXPECT_NEAR(r.inspection[0].pitch[side].figures.total, 2.0 * 43.0, 15.0);
     EXPECT_NEAR(r.inspection[2].pitch[side].figures.total, r.true_pitch[side].figures.total, 3.0);
@@ -200,22 +202,26 @@ TEST(FaceGear, AGearOutOfCentreIsNoPitchError) {
 }
 
 TEST(FaceGear, TheProfileOfTheTablesHasTheGradeOfTheMeasuringCentre) {
-  for (const FlankMap& map : table_3().inspection[2].maps)
+  for (const face_gear::FlankMap& map : table_3().inspection[2].maps)
     EXPECT_TRUE(map.profile.has_value());
   // 4.3 µm: the largest range of a column over rows 2 to 6 in Tables 7 and 8.
-  EXPECT_NE(grade_text(table_3().inspection[2]).find("grade 5"), std::string::npos);
-  EXPECT_TRUE(face_gear_verdict(table_3()).ok);
+  EXPECT_NE(face_gear::grade_text(table_3().inspection[2]).find("grade 5"), std::string::npos);
+  EXPECT_TRUE(face_gear::face_gear_verdict(table_3()).ok);
 }
 
 TEST(FaceGear, OtherGearsFormsAndSeedsPassToo) {
   for (const std::uint64_t seed : {2U, 3U}) {
-    EXPECT_TRUE(face_gear_verdict(run("table1", FormTruth::synthetic, seed)).ok) << seed;
-    EXPECT_TRUE(face_gear_verdict(run("table3", FormTruth::synthetic, seed)).ok) << seed;
+    EXPECT_TRUE(
+        face_gear::face_gear_verdict(run("table1", face_gear::FormTruth::synthetic, seed)).ok)
+        << seed;
+    EXPECT_TRUE(
+        face_gear::face_gear_verdict(run("table3", face_gear::FormTruth::synthetic, seed)).ok)
+        << seed;
   }
 }
 
 TEST(FaceGear, WhatThePaperSaysOfItsTables) {
-  for (const PaperStatement& s : paper_statements()) {
+  for (const face_gear::PaperStatement& s : face_gear::paper_statements()) {
     const double wanted = std::string(s.key) == "left_row5" ? 4.6 : s.stated;  // the tables say 4.6
     EXPECT_NEAR(s.found, wanted, 1e-9) << s.what;
   }
@@ -223,49 +229,51 @@ TEST(FaceGear, WhatThePaperSaysOfItsTables) {
 
 // A pit of 0.3 mm where row 3 and column 5 meet: more than any flank can be off.
 TEST(FaceGear, ACellThatIsNoFlankIsMarkedMissingAndThereIsNoGrade) {
-  const MachineFile file = read_machine_file(bundled_machine("yk7280"));
+  const host::MachineFile file = host::read_machine_file(host::bundled_machine("yk7280"));
   const FaceGear gear = face_gear_of_table_3();
   const FaceGrid grid = grid_of(gear);
   const Vec3 pit = grid[2][4].point;
-  const FaceHall hall{
+  const face_gear::FaceHall hall{
       file,
-      make_yk7280_truth(file, 1),
+      face_gear::make_yk7280_truth(file, 1),
       gear,
-      nominal_mounting(),
+      face_gear::nominal_mounting(),
       [&](int, int, const Vec3& foot) { return (foot - pit).norm() < 0.5 ? -0.3 : 0.0; },
       loopback_axes(),
       50.0};
   const MachineTables tables =
       tables_of(identify_axes(hall.truth, file), file, file.chain.description(),
                 TableKind::identified, kDefaultKnots);
-  FaceStation station(hall, tables, nominal_mounting());
-  FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
+  face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
+  face_gear::FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
   inspector.use(inspector.frame_from_one_ball());
-  const FlankMap map = inspector.map({1, 0});
+  const face_gear::FlankMap map = inspector.map({1, 0});
   EXPECT_EQ(map.map.missing(), 1U);
   EXPECT_FALSE(map.map.has(2, 4));
   EXPECT_FALSE(map.profile.has_value());
   ASSERT_EQ(map.missing.size(), 1U);
   EXPECT_EQ(map.missing.front().rfind("row 3, column 5: ", 0), 0U) << map.missing.front();
-  FaceInspection inspection;
+  face_gear::FaceInspection inspection;
   inspection.maps.push_back(map);
-  EXPECT_NE(grade_text(inspection).find("no grade"), std::string::npos);
+  EXPECT_NE(face_gear::grade_text(inspection).find("no grade"), std::string::npos);
 }
 
 TEST(FaceGear, AFrameIsStaleAfterTheArmWasDeployedAnew) {
-  const MachineFile file = read_machine_file(bundled_machine("yk7280"));
+  const host::MachineFile file = host::read_machine_file(host::bundled_machine("yk7280"));
   const FaceGear gear = face_gear_of_table_3();
   const FaceGrid grid = grid_of(gear);
-  const FaceHall hall{file, make_yk7280_truth(file, 1), gear, true_mounting(), {}, loopback_axes(),
-                      50.0};
+  const face_gear::FaceHall hall{file, face_gear::make_yk7280_truth(file, 1),
+                                 gear, face_gear::true_mounting(),
+                                 {},   loopback_axes(),
+                                 50.0};
   const MachineTables tables = tables_of(identify_axes(hall.truth, file), file,
                                          file.chain.description(), TableKind::none, kDefaultKnots);
-  FaceStation station(hall, tables, nominal_mounting());
-  FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
+  face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
+  face_gear::FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
   inspector.use(inspector.frame_from_one_ball());
   station.deploy_arm();
-  EXPECT_THROW(static_cast<void>(inspector.map({1, 0})), UserError);
-  EXPECT_THROW(static_cast<void>(inspector.pitch(1)), UserError);
+  EXPECT_THROW(static_cast<void>(inspector.map({1, 0})), host::UserError);
+  EXPECT_THROW(static_cast<void>(inspector.pitch(1)), host::UserError);
   inspector.use(inspector.frame_from_one_ball());
   EXPECT_EQ(inspector.map({1, 0}).map.missing(), 0U);
 }

@@ -15,24 +15,30 @@ namespace volcomp::sim {
 namespace {
 
 TEST(Flanks, AreJudgedByTheNodeAsTheyAreHere) {
-  const MachineFile file = read_machine_file(bundled_machine("yk7280"));
-  const FaceHall hall{
-      file,           make_yk7280_truth(file, 1), face_gear_of_table_3(), nominal_mounting(), {},
-      loopback_axes()};
+  const host::MachineFile file = host::read_machine_file(host::bundled_machine("yk7280"));
+  const face_gear::FaceHall hall{file,
+                                 face_gear::make_yk7280_truth(file, 1),
+                                 face_gear_of_table_3(),
+                                 face_gear::nominal_mounting(),
+                                 {},
+                                 loopback_axes()};
   const MachineTables tables =
       tables_of(identify_axes(hall.truth, file), file, file.chain.description(),
                 TableKind::identified, kDefaultKnots);
   FaceGrid grid;
   ASSERT_TRUE(make_face_grid(hall.gear, face_grid_of_table_3(), grid).ok());
-  FaceStation station(hall, tables, nominal_mounting());
+  face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
   const double radius = file.probe->radius_mm;
-  for (const FlankName& name : {FlankName{1, 0}, FlankName{-1, 0}, FlankName{1, 43}}) {
+  for (const face_gear::FlankName& name :
+       {face_gear::FlankName{1, 0}, face_gear::FlankName{-1, 0}, face_gear::FlankName{1, 43}}) {
     for (const std::size_t row : {0U, 3U, 6U}) {
       const FaceGridNode& node = grid[row][7];
-      const FaceStationTouch found = station.touch(name, {node.point, node.normal}, row, 7);
+      const face_gear::FaceStationTouch found =
+          station.touch(name, {node.point, node.normal}, row, 7);
       FaceFlank flank;
       ASSERT_TRUE(choose_flank(hall.gear, name.side, name.slot, flank).ok());
-      const FaceTouch here = judge_touch(hall.gear, flank, {radius, kGate_mm}, found.ball);
+      const FaceTouch here =
+          judge_touch(hall.gear, flank, {radius, face_gear::kGate_mm}, found.ball);
       EXPECT_EQ(found.judgement.verdict, Reason::ok);
       EXPECT_EQ(found.judgement.verdict, here.verdict);
       EXPECT_EQ(found.judgement.foot, here.foot.reason);

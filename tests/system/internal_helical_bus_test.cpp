@@ -27,14 +27,17 @@ constexpr std::size_t kC = 2;
 constexpr std::size_t kSomewhere = 20;  // a node of the stroke
 constexpr std::uint16_t kProcessStateId = canopen::kTpdo1 + 127;
 
-const MachineFile& machine() {
-  static const MachineFile file = read_machine_file(bundled_machine("internal_grinder"));
+const host::MachineFile& machine() {
+  static const host::MachineFile file =
+      host::read_machine_file(host::bundled_machine("internal_grinder"));
   return file;
 }
 
-WatchedStrokes watched(LearningWay way) {
-  static const FlankGrinding grinding(grinding_job(machine()), {});
-  return watched_strokes(grinding_job(machine()), grinding.flank_per_x(), way);
+host::WatchedStrokes watched(internal_helical::LearningWay way) {
+  static const internal_helical::FlankGrinding grinding(internal_helical::grinding_job(machine()),
+                                                        {});
+  return internal_helical::watched_strokes(internal_helical::grinding_job(machine()),
+                                           grinding.flank_per_x(), way);
 }
 
 void replace(std::string& text, const std::string& from, const std::string& to) {
@@ -42,12 +45,13 @@ void replace(std::string& text, const std::string& from, const std::string& to) 
 }
 
 struct Grinding {
-  GrindingProcess process{grinding_job(machine()), {}, 1};
+  internal_helical::GrindingProcess process{internal_helical::grinding_job(machine()), {}, 1};
 
-  std::vector<StrokeTrace> grind(GrinderControl& control, int passes) {
-    const auto sync = [&control](const StrokeStep& step) { control.cycle(step); };
+  std::vector<internal_helical::StrokeTrace> grind(internal_helical::GrinderControl& control,
+                                                   int passes) {
+    const auto sync = [&control](const internal_helical::StrokeStep& step) { control.cycle(step); };
     process.rest(sync);
-    std::vector<StrokeTrace> traces;
+    std::vector<internal_helical::StrokeTrace> traces;
     traces.reserve(static_cast<std::size_t>(passes));
     for (int i = 0; i < passes; ++i)
       traces.push_back(process.pass(sync));
@@ -56,14 +60,16 @@ struct Grinding {
 };
 
 struct GrindingOnTheBus : Grinding {
-  explicit GrindingOnTheBus(LearningWay way = LearningWay::right)
-      : grinder(grinder_axes(machine(), watched(way), loopback_axes()), process.standing(),
-                process.plant()) {}
+  explicit GrindingOnTheBus(
+      internal_helical::LearningWay way = internal_helical::LearningWay::right)
+      : grinder(internal_helical::grinder_axes(machine(), watched(way), loopback_axes()),
+                process.standing(), process.plant()) {}
 
-  BusGrinder grinder;
+  internal_helical::BusGrinder grinder;
 };
 
-void expect_equal(const std::vector<StrokeTrace>& a, const std::vector<StrokeTrace>& b) {
+void expect_equal(const std::vector<internal_helical::StrokeTrace>& a,
+                  const std::vector<internal_helical::StrokeTrace>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t pass = 0; pass < a.size(); ++pass) {
     ASSERT_EQ(a[pass].at.size(), b[pass].at.size());
@@ -75,7 +81,8 @@ void expect_equal(const std::vector<StrokeTrace>& a, const std::vector<StrokeTra
 }
 
 // The node gives float.
-void expect_equal(const LearnedTables& node, const LearnedTables& tables) {
+void expect_equal(const internal_helical::LearnedTables& node,
+                  const internal_helical::LearnedTables& tables) {
   const auto expect_floats = [](const std::vector<double>& a, const std::vector<double>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -88,12 +95,13 @@ void expect_equal(const LearnedTables& node, const LearnedTables& tables) {
   expect_floats(node.slot, tables.slot);
 }
 
-class EitherForm : public testing::TestWithParam<LearningWay> {};
+class EitherForm : public testing::TestWithParam<internal_helical::LearningWay> {};
 
 // Learned after four slots, used in the next four: the axes do the same to the last bit.
 TEST_P(EitherForm, MovesTheAxesAlike) {
   Grinding beside;
-  IntegratedGrinder integrated(watched(GetParam()), GetParam(), beside.process.plant());
+  internal_helical::IntegratedGrinder integrated(watched(GetParam()), GetParam(),
+                                                 beside.process.plant());
   GrindingOnTheBus bus(GetParam());
   for (int update = 0; update < 2; ++update) {
     expect_equal(bus.grind(bus.grinder, 4), beside.grind(integrated, 4));
@@ -101,11 +109,11 @@ TEST_P(EitherForm, MovesTheAxesAlike) {
     integrated.learn();
   }
   expect_equal(bus.grind(bus.grinder, 4), beside.grind(integrated, 4));
-  const LearnedTables learned = integrated.tables();
+  const internal_helical::LearnedTables learned = integrated.tables();
   expect_equal(bus.grinder.tables(), learned);
   EXPECT_GT(std::abs(learned.stroke[0].at(kSomewhere)), 1e-7);  // not nothing, alike
-  const MonitorView seen = bus.grinder.view();
-  const MonitorView here = integrated.view();
+  const internal_helical::MonitorView seen = bus.grinder.view();
+  const internal_helical::MonitorView here = integrated.view();
   for (std::size_t d = 0; d < 2; ++d) {
     ASSERT_EQ(seen.stroke[d].size(), here.stroke[d].size());
     for (std::size_t j = 0; j < here.stroke[d].size(); ++j)
@@ -115,30 +123,33 @@ TEST_P(EitherForm, MovesTheAxesAlike) {
 }
 
 INSTANTIATE_TEST_SUITE_P(InternalHelicalBus, EitherForm,
-                         testing::Values(LearningWay::right, LearningWay::c_alone,
-                                         LearningWay::coarse));
+                         testing::Values(internal_helical::LearningWay::right,
+                                         internal_helical::LearningWay::c_alone,
+                                         internal_helical::LearningWay::coarse));
 
 // The whole scenario, on a smaller gear and cut to two updates.
 TEST(InternalHelicalBus, TheGearComesOutAlike) {
-  const TemporaryFolder folder;
-  std::string text = text_of_file(bundled_machine("internal_grinder"));
+  const host::TemporaryFolder folder;
+  std::string text = host::text_of_file(host::bundled_machine("internal_grinder"));
   replace(text, "teeth = 79", "teeth = 51");
   replace(text, "radius_mm = 40.0", "radius_mm = 25.0");
   replace(text, "width_mm = 45.0", "width_mm = 20.0");
   replace(text, "overrun_mm = 10.0", "overrun_mm = 4.0");
-  InternalHelicalOptions options;
+  internal_helical::InternalHelicalOptions options;
   options.seeds = 1;
   options.updates = 2;
   options.machine = folder.path() / "small.toml";
-  write_whole_file(options.machine, text);
+  host::write_whole_file(options.machine, text);
   const auto quiet = [](double, const std::string&) {};
-  const InternalHelicalResult beside = run_internal_helical(options, quiet);
+  const internal_helical::InternalHelicalResult beside =
+      internal_helical::run_internal_helical(options, quiet);
   options.make_axes = loopback_axes();
-  const InternalHelicalResult bus = run_internal_helical(options, quiet);
+  const internal_helical::InternalHelicalResult bus =
+      internal_helical::run_internal_helical(options, quiet);
   EXPECT_EQ(bus.seed[0].learning_um, beside.seed[0].learning_um);
   for (const bool after : {false, true}) {
-    const GroundGear& a = after ? bus.seed[0].after : bus.seed[0].before;
-    const GroundGear& b = after ? beside.seed[0].after : beside.seed[0].before;
+    const internal_helical::GroundGear& a = after ? bus.seed[0].after : bus.seed[0].before;
+    const internal_helical::GroundGear& b = after ? beside.seed[0].after : beside.seed[0].before;
     EXPECT_EQ(a.inspection.F_alpha, b.inspection.F_alpha);
     for (std::size_t side = 0; side < 2; ++side)
       EXPECT_EQ(a.inspection.pitch[side].position, b.inspection.pitch[side].position);
@@ -147,25 +158,27 @@ TEST(InternalHelicalBus, TheGearComesOutAlike) {
 }
 
 TEST(InternalHelicalBus, OneTableForBothDirectionsIsRefused) {
-  InternalHelicalOptions options;
+  internal_helical::InternalHelicalOptions options;
   options.seeds = 1;
-  options.way = LearningWay::one_table;
+  options.way = internal_helical::LearningWay::one_table;
   options.make_axes = loopback_axes();
-  options.machine = bundled_machine("internal_grinder");
+  options.machine = host::bundled_machine("internal_grinder");
   EXPECT_THAT(complaint_of([&] {
-                static_cast<void>(run_internal_helical(options, [](double, const std::string&) {}));
+                static_cast<void>(internal_helical::run_internal_helical(
+                    options, [](double, const std::string&) {}));
               }),
               HasSubstr("--wrong one-table"));
 }
 
 TEST(InternalHelicalBus, MachinesThatCannotDoItAreRefused) {
-  const std::string text = text_of_file(bundled_machine("internal_grinder"));
+  const std::string text = host::text_of_file(host::bundled_machine("internal_grinder"));
   const auto with = [&text](const std::string& from, const std::string& to) {
     std::string changed = text;
     replace(changed, from, to);
     return complaint_of([&changed] {
-      static_cast<void>(grinder_axes(parse_machine(changed, "mine.toml"),
-                                     watched(LearningWay::right), loopback_axes()));
+      static_cast<void>(internal_helical::grinder_axes(
+          host::parse_machine(changed, "mine.toml"), watched(internal_helical::LearningWay::right),
+          loopback_axes()));
     });
   };
   EXPECT_THAT(with("axes = [\"C\"]", "axes = [\"X\"]"),
@@ -173,8 +186,9 @@ TEST(InternalHelicalBus, MachinesThatCannotDoItAreRefused) {
   EXPECT_THAT(with("rate_rad_per_s = 0.2", "rate_rad_per_s = 0.1"),
               HasSubstr("mine.toml: 'rate_rad_per_s' of [correction] must be at least 0.102"));
   EXPECT_THAT(complaint_of([] {
-                static_cast<void>(grinder_axes(read_machine_file(bundled_machine("xyfz")),
-                                               watched(LearningWay::right), loopback_axes()));
+                static_cast<void>(internal_helical::grinder_axes(
+                    host::read_machine_file(host::bundled_machine("xyfz")),
+                    watched(internal_helical::LearningWay::right), loopback_axes()));
               }),
               HasSubstr("the axes must be X Z C, not X Y Z"));
 }
@@ -209,7 +223,7 @@ class DisturbedGrinder : public testing::Test {
       return hal::LoopbackBus::Fate{now && frame.id == id && receiver.name() == "node", false, 0};
     };
     axes().bus().bus().set_fault_hook(lost);
-    world_.process.pass([&](const StrokeStep& step) {
+    world_.process.pass([&](const internal_helical::StrokeStep& step) {
       if (step.in_face) ++in_face;
       axes().controller().send_process_state(step);
       axes().run_cycle({wrapped(step.x), wrapped(step.z), wrapped(step.c)});
@@ -222,7 +236,7 @@ class DisturbedGrinder : public testing::Test {
   Counts counts() {
     Counts c;
     const auto read = [this](std::uint8_t sub) {
-      return number(world_.grinder.read({0x2510, sub}, 4, "count"));
+      return host::number(world_.grinder.read({0x2510, sub}, 4, "count"));
     };
     for (std::size_t use = 0; use < c.frames.size(); ++use)
       c.frames[use] = read(static_cast<std::uint8_t>(use + 1));
@@ -290,8 +304,8 @@ TEST_F(DisturbedGrinder, StopsWithoutADrive) {
 
 // Tables of another feed are put aside, and learning says which feed they are for.
 TEST_F(DisturbedGrinder, UsesTablesForTheirFeedOnly) {
-  world_.process.pass([this](const StrokeStep& step) {
-    StrokeStep faster = step;
+  world_.process.pass([this](const internal_helical::StrokeStep& step) {
+    internal_helical::StrokeStep faster = step;
     faster.feed_nm_per_s = 20'000'000;
     world_.grinder.cycle(faster);
   });

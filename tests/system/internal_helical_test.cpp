@@ -18,37 +18,39 @@
 namespace volcomp::sim {
 namespace {
 
-InternalHelicalResult run(LearningWay way, int seeds) {
-  InternalHelicalOptions options;
-  options.machine = bundled_machine("internal_grinder");
+internal_helical::InternalHelicalResult run(internal_helical::LearningWay way, int seeds) {
+  internal_helical::InternalHelicalOptions options;
+  options.machine = host::bundled_machine("internal_grinder");
   options.way = way;
   options.seeds = seeds;
-  return run_internal_helical(options, [](double, const std::string&) {});
+  return internal_helical::run_internal_helical(options, [](double, const std::string&) {});
 }
 
-const InternalHelicalResult& right_way() {
-  static const InternalHelicalResult result = run(LearningWay::right, 16);
+const internal_helical::InternalHelicalResult& right_way() {
+  static const internal_helical::InternalHelicalResult result =
+      run(internal_helical::LearningWay::right, 16);
   return result;
 }
 
 TEST(InternalHelical, MediansOfSixteenSeedsLieInTheSpecifiedRanges) {
-  for (const HelicalMeasure& m : helical_measures(right_way())) {
+  for (const internal_helical::HelicalMeasure& m :
+       internal_helical::helical_measures(right_way())) {
     EXPECT_TRUE(m.ok()) << m.name << ' ' << m.side << (m.after ? " after: " : " before: ")
                         << m.found.median << " um";
   }
-  EXPECT_TRUE(internal_helical_verdict(right_way()).ok);
+  EXPECT_TRUE(internal_helical::internal_helical_verdict(right_way()).ok);
 }
 
 TEST(InternalHelical, SynchronisationErrorFallsByFiveInSixUpdates) {
-  for (const SeedResult& seed : right_way().seed)
+  for (const internal_helical::SeedResult& seed : right_way().seed)
     EXPECT_GT(seed.before.sync_rms_um, 5.0 * seed.after.sync_rms_um);
-  EXPECT_NEAR(sync_spread(right_way(), false).median, 3.1, 0.15);
-  EXPECT_NEAR(sync_spread(right_way(), true).median, 0.47, 0.05);
+  EXPECT_NEAR(internal_helical::sync_spread(right_way(), false).median, 3.1, 0.15);
+  EXPECT_NEAR(internal_helical::sync_spread(right_way(), true).median, 0.47, 0.05);
 }
 
 // A controller that is corrected well still shows the lag (finding F6).
 TEST(InternalHelical, TheLagOfZStays) {
-  for (const SeedResult& seed : right_way().seed) {
+  for (const internal_helical::SeedResult& seed : right_way().seed) {
     EXPECT_NEAR(seed.before.z_peak_mm, 0.170, 0.001);
     EXPECT_NEAR(seed.after.z_peak_mm, 0.170, 0.001);
   }
@@ -63,23 +65,26 @@ TEST(InternalHelical, GeometryHoldsAgainstTheExactEnvelope) {
 }
 
 TEST(InternalHelical, LearningCAloneBreaksTheHelix) {
-  const WrongWay wrong = wrong_way(run(LearningWay::c_alone, 3));
+  const internal_helical::WrongWay wrong =
+      internal_helical::wrong_way(run(internal_helical::LearningWay::c_alone, 3));
   EXPECT_GT(wrong.found, 80.0);
   EXPECT_TRUE(wrong.beyond());
 }
 
 TEST(InternalHelical, OneTableForBothDirectionsKeepsTheLag) {
-  const InternalHelicalResult result = run(LearningWay::one_table, 3);
-  EXPECT_GT(wrong_way(result).found, 1.2);
-  EXPECT_FALSE(internal_helical_verdict(result).ok);
+  const internal_helical::InternalHelicalResult result =
+      run(internal_helical::LearningWay::one_table, 3);
+  EXPECT_GT(internal_helical::wrong_way(result).found, 1.2);
+  EXPECT_FALSE(internal_helical::internal_helical_verdict(result).ok);
 }
 
 TEST(InternalHelical, NodesOfAMillimetreMissTheRipple) {
-  EXPECT_GT(wrong_way(run(LearningWay::coarse, 3)).found, 9.5);
+  EXPECT_GT(internal_helical::wrong_way(run(internal_helical::LearningWay::coarse, 3)).found, 9.5);
 }
 
 TEST(InternalHelical, TheSameSeedIsTheSameGear) {
-  const InternalHelicalResult again = run(LearningWay::right, 1);
+  const internal_helical::InternalHelicalResult again =
+      run(internal_helical::LearningWay::right, 1);
   EXPECT_EQ(again.seed[0].learning_um, right_way().seed[0].learning_um);
   EXPECT_EQ(again.seed[0].after.inspection.pitch[0].position,
             right_way().seed[0].after.inspection.pitch[0].position);
@@ -87,33 +92,35 @@ TEST(InternalHelical, TheSameSeedIsTheSameGear) {
 
 // Every file, read back, asks for what was learned.
 TEST(InternalHelical, ControllerFilesSayWhatWasLearned) {
-  const InternalHelicalResult& result = right_way();
-  const LearnedTables& t = result.detail.tables;
-  const std::vector<ControllerFile> files = controller_files(result.gear, t);
+  const internal_helical::InternalHelicalResult& result = right_way();
+  const internal_helical::LearnedTables& t = result.detail.tables;
+  const std::vector<internal_helical::ControllerFile> files =
+      internal_helical::controller_files(result.gear, t);
   ASSERT_EQ(files.size(), 5U);
-  const CecTable up = read_cec(files[0].text, true, 1);
-  const CecTable down = read_cec(files[1].text, true, 1);
-  const EncCompTable slots = read_enc_comp(files[2].text, true);
+  const host::CecTable up = host::read_cec(files[0].text, true, 1);
+  const host::CecTable down = host::read_cec(files[1].text, true, 1);
+  const host::EncCompTable slots = host::read_enc_comp(files[2].text, true);
   std::istringstream comp(files[3].text);
-  const LinuxcncComp linuxcnc = read_linuxcnc(comp, files[3].name, 1);
-  const SsfkTable isg = read_ssfk(files[4].text, false);
+  const host::LinuxcncComp linuxcnc = host::read_linuxcnc(comp, files[3].name, 1);
+  const host::SsfkTable isg = host::read_ssfk(files[4].text, false);
   const double p = result.gear.screw_parameter();
-  constexpr double kRounding_rad = 0.51e-6 * kRadPerDegree;
+  constexpr double kRounding_rad = 0.51e-6 * internal_helical::kRadPerDegree;
   for (std::size_t j = 0; j < t.stroke[0].size(); ++j) {
     const double z = t.z0_mm + t.pitch_mm * static_cast<double>(j);
-    EXPECT_NEAR(offset_at(up, z, 1), t.stroke[0][j], kRounding_rad);
-    EXPECT_NEAR(offset_at(down, z, -1), t.stroke[1][j], kRounding_rad);
-    EXPECT_NEAR(offset_at(linuxcnc, z, 1), p * t.stroke[0][j], 0.51e-6);
-    EXPECT_NEAR(offset_at(isg, z, -1), p * t.stroke[1][j], 0.51e-4);
+    EXPECT_NEAR(host::offset_at(up, z, 1), t.stroke[0][j], kRounding_rad);
+    EXPECT_NEAR(host::offset_at(down, z, -1), t.stroke[1][j], kRounding_rad);
+    EXPECT_NEAR(host::offset_at(linuxcnc, z, 1), p * t.stroke[0][j], 0.51e-6);
+    EXPECT_NEAR(host::offset_at(isg, z, -1), p * t.stroke[1][j], 0.51e-4);
   }
   for (std::size_t k = 0; k < t.slot.size(); ++k) {
-    const double c = slot_place(result.gear, static_cast<std::uint16_t>(k)) / kRadPerDegree;
-    EXPECT_NEAR(offset_at(slots, c), t.slot[k], 3.0 * kRounding_rad) << k;
+    const double c = internal_helical::slot_place(result.gear, static_cast<std::uint16_t>(k)) /
+                     internal_helical::kRadPerDegree;
+    EXPECT_NEAR(host::offset_at(slots, c), t.slot[k], 3.0 * kRounding_rad) << k;
   }
 }
 
 TEST(InternalHelical, FiguresAndReportAreComplete) {
-  const nlohmann::json j = internal_helical_figures(right_way(), {"a"});
+  const nlohmann::json j = internal_helical::internal_helical_figures(right_way(), {"a"});
   for (const char* name : {"Fp", "fp"}) {
     for (const char* side : {"left", "right"})
       EXPECT_GT(j[name][side]["before"]["median"], j[name][side]["after"]["median"]);
@@ -122,7 +129,7 @@ TEST(InternalHelical, FiguresAndReportAreComplete) {
   EXPECT_EQ(j["grades"].size(), 20U);
   EXPECT_EQ(j["signals"]["before"]["slots"]["verdict"], "compensate");
   EXPECT_EQ(j["tables_written"].size(), 1U);
-  EXPECT_EQ(internal_helical_document(right_way(), {})["sections"].size(), 15U);
+  EXPECT_EQ(internal_helical::internal_helical_document(right_way(), {})["sections"].size(), 15U);
 }
 
 }  // namespace

@@ -60,17 +60,19 @@ std::vector<Station> stations_of(const std::vector<Block>& blocks) {
 // The machine with these errors, what identification finds of them, and both programs.
 struct Planned {
   explicit Planned(const std::string& errors)
-      : file(read_machine_file(bundled_machine("l300g"))),
-        truth(make_l300g_truth(file, grinder_errors(errors), 1)),
-        setup{grinder_geometry(file.chain), master_gear(), PathStyle::fixed_a, 1.4935} {
+      : file(host::read_machine_file(host::bundled_machine("l300g"))),
+        truth(l300g::make_l300g_truth(file, l300g::grinder_errors(errors), 1)),
+        setup{l300g::grinder_geometry(file.chain), l300g::master_gear(), PathStyle::fixed_a,
+              1.4935} {
     const IdentifiedModel model(identify_axes(truth, file), TableKind::identified, file.chain);
-    before = inspection_program(setup, "before", no_offset);
-    after = inspection_program(
-        setup, "after", [&](const Pose& q) { return compensation_at(model.volumetric(), q); });
+    before = l300g::inspection_program(setup, "before", l300g::no_offset);
+    after = l300g::inspection_program(setup, "after", [&](const Pose& q) {
+      return l300g::compensation_at(model.volumetric(), q);
+    });
   }
-  MachineFile file;
+  host::MachineFile file;
   TrueMachine truth;
-  InspectionSetup setup;
+  l300g::InspectionSetup setup;
   std::string before;
   std::string after;
 };
@@ -101,9 +103,9 @@ TEST(L300gProgram, HasTheWordsOfATouchAndNoOthers) {
   EXPECT_EQ(blocks.back().at('M'), 2.0);
   const InvoluteGear& gear = p8.setup.gear;
   std::size_t planned = 0;
-  for (const FlankSide side : kSides)
-    planned += profile_touches(gear, side).size() + lead_touches(gear, side).size() +
-               pitch_touches(gear, side).size();
+  for (const FlankSide side : l300g::kSides)
+    planned += l300g::profile_touches(gear, side).size() + l300g::lead_touches(gear, side).size() +
+               l300g::pitch_touches(gear, side).size();
   EXPECT_EQ(touches, planned);
 }
 

@@ -16,22 +16,22 @@ namespace {
 constexpr double kTolerance_um = 0.2;
 constexpr double kVaried_um = 0.4;  // where the small variation is in
 
-L300gResult run(const std::string& errors, PathStyle path = PathStyle::fixed_a,
-                Origin origin = Origin::nominal, TableKind tables = TableKind::identified,
-                std::uint64_t seed = 1) {
-  L300gOptions options;
-  options.machine = bundled_machine("l300g");
+l300g::L300gResult run(const std::string& errors, PathStyle path = PathStyle::fixed_a,
+                       l300g::Origin origin = l300g::Origin::nominal,
+                       TableKind tables = TableKind::identified, std::uint64_t seed = 1) {
+  l300g::L300gOptions options;
+  options.machine = host::bundled_machine("l300g");
   options.errors = errors;
   options.path = path;
   options.origin = origin;
   options.tables = tables;
   options.seed = seed;
   options.cycle_hz = 50.0;  // the slower, the fewer cycles; a touch does not wait for one
-  return run_l300g(options, [](double, const std::string&) {});
+  return l300g::run_l300g(options, [](double, const std::string&) {});
 }
 
-const L300gResult& p8() {
-  static const L300gResult result = run("p8");
+const l300g::L300gResult& p8() {
+  static const l300g::L300gResult result = run("p8");
   return result;
 }
 
@@ -40,24 +40,25 @@ struct Wanted {
   int grade_left, grade_right;
 };
 
-void expect_total(const std::array<FlankTrace, 2>& trace, const Wanted& wanted, double tolerance) {
+void expect_total(const std::array<l300g::FlankTrace, 2>& trace, const Wanted& wanted,
+                  double tolerance) {
   EXPECT_NEAR(trace[0].figures.total, wanted.left, tolerance) << "left";
   EXPECT_NEAR(trace[1].figures.total, wanted.right, tolerance) << "right";
   EXPECT_EQ(trace[0].grade_1995, wanted.grade_left);
   EXPECT_EQ(trace[1].grade_1995, wanted.grade_right);
 }
 
-void expect_good_gear(const GearInspection& gear, double tolerance) {
+void expect_good_gear(const l300g::GearInspection& gear, double tolerance) {
   expect_total(gear.profile, {5.59, 5.59, 4, 4}, tolerance);
   expect_total(gear.lead, {4.82, 4.82, 4, 4}, tolerance);
-  for (const FlankTrace& profile : gear.profile) {
+  for (const l300g::FlankTrace& profile : gear.profile) {
     EXPECT_NEAR(profile.figures.form, 4.40, tolerance);
     EXPECT_NEAR(profile.figures.slope, 3.40, tolerance);
   }
 }
 
 TEST(L300g, AGoodMachineFindsTheGearAsItIs) {
-  const L300gResult result = run("none");
+  const l300g::L300gResult result = run("none");
   expect_good_gear(result.before, kTolerance_um);
   expect_good_gear(result.after, kTolerance_um);
   expect_good_gear(result.truth, kTolerance_um);
@@ -70,18 +71,18 @@ TEST(L300g, P8SpoilsTheProfileAndCompensationPutsItRight) {
   EXPECT_NEAR(p8().before.profile[0].figures.slope, 20.7, kTolerance_um);
   EXPECT_NEAR(p8().before.profile[1].figures.slope, 20.6, kTolerance_um);
   expect_good_gear(p8().after, kTolerance_um);
-  EXPECT_TRUE(l300g_verdict(p8()).ok);
+  EXPECT_TRUE(l300g::l300g_verdict(p8()).ok);
 }
 
 // In words, it is what the grades of each flank say (worse, better or neither) and nothing else.
 TEST(L300g, TheVerdictSaysWhatTheGradesSay) {
   const auto claim_of = [](std::array<int, 2> profile, std::array<int, 2> lead) {
-    auto changed = std::make_unique<L300gResult>(p8());
+    auto changed = std::make_unique<l300g::L300gResult>(p8());
     for (std::size_t side = 0; side < 2; ++side) {
       changed->before.profile[side].grade_1995 = profile[side];
       changed->before.lead[side].grade_1995 = lead[side];
     }
-    return l300g_verdict(*changed).text;
+    return l300g::l300g_verdict(*changed).text;
   };
   using testing::HasSubstr;
   EXPECT_THAT(claim_of({8, 8}, {4, 4}), HasSubstr("the profile lost its grade, the lead did not"));
@@ -102,7 +103,7 @@ TEST(L300g, OrientationIsWhatTheAxesAddUpTo) {
 
 // Section 5.3: the errors that the paper has measured cannot do what the paper shows.
 TEST(L300g, Table2AloneLeavesTheGradeAlone) {
-  const L300gResult result = run("table2");
+  const l300g::L300gResult result = run("table2");
   expect_total(result.before.profile, {5.50, 4.65, 4, 3}, kTolerance_um);
   expect_total(result.before.lead, {4.82, 4.82, 4, 4}, kTolerance_um);
   EXPECT_NEAR(result.before.profile[0].figures.slope, 2.93, kTolerance_um);
@@ -111,7 +112,7 @@ TEST(L300g, Table2AloneLeavesTheGradeAlone) {
 }
 
 TEST(L300g, WithTheOriginOfTheMandrelNothingIsLeftToCompensate) {
-  const L300gResult result = run("p8", PathStyle::fixed_a, Origin::mandrel);
+  const l300g::L300gResult result = run("p8", PathStyle::fixed_a, l300g::Origin::mandrel);
   EXPECT_NEAR(result.calibration.fit.geometric.y, 168.8573, 1e-4);
   expect_total(result.before.profile, {5.64, 5.58, 4, 4}, kTolerance_um);
   expect_total(result.before.lead, {4.82, 4.82, 4, 4}, kTolerance_um);
@@ -119,7 +120,7 @@ TEST(L300g, WithTheOriginOfTheMandrelNothingIsLeftToCompensate) {
 }
 
 TEST(L300g, GeneratingPathSeesLittleOfP8) {
-  const L300gResult result = run("p8", PathStyle::generate);
+  const l300g::L300gResult result = run("p8", PathStyle::generate);
   expect_total(result.before.profile, {6.89, 7.11, 5, 5}, kTolerance_um);
   expect_total(result.before.lead, {4.83, 4.83, 4, 4}, kTolerance_um);
   expect_good_gear(result.after, kTolerance_um);
@@ -127,15 +128,15 @@ TEST(L300g, GeneratingPathSeesLittleOfP8) {
 
 // No table of the axes holds the length of the arm.
 TEST(L300g, AShortArmSpoilsTheGeneratingPathForGood) {
-  const L300gResult result = run("short-arm", PathStyle::generate);
+  const l300g::L300gResult result = run("short-arm", PathStyle::generate);
   expect_total(result.before.profile, {22.8, 22.8, 8, 8}, kTolerance_um);
   expect_total(result.after.profile, {22.8, 22.8, 8, 8}, kTolerance_um);
   expect_total(result.before.lead, {4.83, 4.83, 4, 4}, kTolerance_um);
-  EXPECT_FALSE(l300g_verdict(result).ok);
+  EXPECT_FALSE(l300g::l300g_verdict(result).ok);
 }
 
 TEST(L300g, ASlopeOfASpoilsTheGeneratingPath) {
-  const L300gResult result = run("a-slope", PathStyle::generate);
+  const l300g::L300gResult result = run("a-slope", PathStyle::generate);
   expect_total(result.before.profile, {20.4, 20.4, 8, 8}, kTolerance_um);
   expect_total(result.before.lead, {4.83, 4.83, 4, 4}, kTolerance_um);
   expect_good_gear(result.after, kTolerance_um);
@@ -145,8 +146,8 @@ TEST(L300g, ASlopeOfASpoilsTheGeneratingPath) {
 
 TEST(L300g, SmallVariationIsCompensatedWhateverItsPhases) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const L300gResult result =
-        run("p8-variation", PathStyle::fixed_a, Origin::nominal, TableKind::identified, seed);
+    const l300g::L300gResult result = run("p8-variation", PathStyle::fixed_a,
+                                          l300g::Origin::nominal, TableKind::identified, seed);
     EXPECT_EQ(result.before.profile[0].grade_1995, 8) << seed;
     EXPECT_EQ(result.before.profile[1].grade_1995, 8) << seed;
     expect_total(result.after.profile, {5.61, 5.58, 4, 4}, kVaried_um);
@@ -159,7 +160,7 @@ TEST(L300g, SmallVariationIsCompensatedWhateverItsPhases) {
 
 // Section 3; (0.277, 0.095, 0.156) σ of Y0, Z0, R_c.
 TEST(L300g, ProbeCalibrationIsThatOfThePaper) {
-  const MandrelCalibration good = run("none").calibration;
+  const l300g::MandrelCalibration good = run("none").calibration;
   EXPECT_EQ(good.y.size(), 162U);
   EXPECT_NEAR(good.rc, 1.4935, 1e-5);
   EXPECT_NEAR(good.fit.geometric.y, 168.8053, 1e-5);
@@ -170,19 +171,19 @@ TEST(L300g, ProbeCalibrationIsThatOfThePaper) {
       good.fit.cofactors(0, 2) / std::sqrt(good.fit.cofactors(0, 0) * good.fit.cofactors(2, 2)),
       -0.86, 0.005);
   // An arm 0.17 mm shorter than believed: the believed one is longer.
-  const MandrelCalibration shortened = run("short-arm", PathStyle::generate).calibration;
+  const l300g::MandrelCalibration shortened = run("short-arm", PathStyle::generate).calibration;
   EXPECT_NEAR(shortened.rc - 1.4935, 0.17 * 0.1097, 1e-4);
 }
 
 TEST(L300g, TrapsOfTheCalibrationAreThoseOfTheSpecification) {
-  EXPECT_NEAR(p8().longer_arm.radius / kLongerArm_mm, 0.1097, 1e-4);
-  EXPECT_NEAR(p8().longer_arm.y0 / kLongerArm_mm, -0.0921, 1e-4);
-  EXPECT_NEAR(p8().longer_arm.rms / kLongerArm_mm, 6.9e-3, 1e-4);
+  EXPECT_NEAR(p8().longer_arm.radius / l300g::kLongerArm_mm, 0.1097, 1e-4);
+  EXPECT_NEAR(p8().longer_arm.y0 / l300g::kLongerArm_mm, -0.0921, 1e-4);
+  EXPECT_NEAR(p8().longer_arm.rms / l300g::kLongerArm_mm, 6.9e-3, 1e-4);
   const double radius_um[] = {0.32, 8.0, 31.9};
   const double z0_um[] = {-3.6, -18.0, -36.0};
   const double rms_um[] = {0.80, 4.0, 8.3};
-  for (std::size_t i = 0; i < kHigherPivots_mm.size(); ++i) {
-    const MandrelEffect& e = p8().higher_pivot[i];
+  for (std::size_t i = 0; i < l300g::kHigherPivots_mm.size(); ++i) {
+    const l300g::MandrelEffect& e = p8().higher_pivot[i];
     EXPECT_NEAR(kUmPerMm * e.radius, radius_um[i], 0.05);
     EXPECT_NEAR(kUmPerMm * e.z0, z0_um[i], 0.5);
     EXPECT_NEAR(kUmPerMm * e.rms, rms_um[i], 0.05);
@@ -211,12 +212,12 @@ TEST(L300g, PointsDoNotDependOnTheDirection) {
 }
 
 TEST(L300g, JsonHoldsEveryPromisedFigure) {
-  const nlohmann::json j = l300g_figures(p8());
+  const nlohmann::json j = l300g::l300g_figures(p8());
   for (const char* key : {"Rc", "rc", "u_rc", "Y0", "Z0"})
     EXPECT_TRUE(j["probe"][key].is_number()) << key;
   EXPECT_TRUE(j["identify"]["max_error"].is_number());
   for (const char* when : {"before", "after"}) {
-    for (const char* side : kSideNames) {
+    for (const char* side : l300g::kSideNames) {
       for (const char* what : {"profile", "lead"}) {
         for (const char* key : {"F", "ff", "fH", "grade1995", "grade2013"})
           EXPECT_TRUE(j[what][when][side][key].is_number()) << what << key;
@@ -233,8 +234,8 @@ TEST(L300g, JsonHoldsEveryPromisedFigure) {
 
 TEST(L300g, SameSeedSameFiguresOtherSeedOthers) {
   const auto figures = [](std::uint64_t seed) {
-    return l300g_figures(run("p8-variation", PathStyle::fixed_a, Origin::nominal,
-                             TableKind::identified, seed))
+    return l300g::l300g_figures(run("p8-variation", PathStyle::fixed_a, l300g::Origin::nominal,
+                                    TableKind::identified, seed))
         .dump();
   };
   EXPECT_EQ(figures(7), figures(7));

@@ -16,14 +16,14 @@ namespace {
 
 constexpr double kNm = 1e-6;  // mm
 
-const MachineFile& trunnion() {
-  static const MachineFile file = read_machine_file(bundled_machine("trunnion"));
+const host::MachineFile& trunnion() {
+  static const host::MachineFile file = host::read_machine_file(host::bundled_machine("trunnion"));
   return file;
 }
 
 // A fork head on three slides, and nothing under the workpiece.
-const MachineFile& fork_head() {
-  static const MachineFile file = parse_machine(R"(
+const host::MachineFile& fork_head() {
+  static const host::MachineFile file = host::parse_machine(R"(
 name = "fork head"
 id = 6001
 convention = "body"
@@ -39,32 +39,33 @@ axis = [
 ]
 correction = { axes = ["X", "Y", "Z"] }
 )",
-                                                "fork_head.toml");
+                                                            "fork_head.toml");
   return file;
 }
 
-MachineOptions quick(std::uint64_t seed = 1) {
-  MachineOptions options;
+any_machine::MachineOptions quick(std::uint64_t seed = 1) {
+  any_machine::MachineOptions options;
   options.seed = seed;
   options.places = 40;
   return options;
 }
 
-MachineResult run(const MachineFile& file, const TrueMachine& truth,
-                  const MachineOptions& options = quick()) {
-  return run_machine_with(file, truth, options, [](double, const std::string&) {});
+any_machine::MachineResult run(const host::MachineFile& file, const TrueMachine& truth,
+                               const any_machine::MachineOptions& options = quick()) {
+  return any_machine::run_machine_with(file, truth, options, [](double, const std::string&) {});
 }
 
-std::vector<PlaceReading> sphere_of(const MachineFile& file, const TrueMachine& truth) {
+std::vector<any_machine::PlaceReading> sphere_of(const host::MachineFile& file,
+                                                 const TrueMachine& truth) {
   const auto cell = make_integrated_cell(truth, file.correction, {});
-  cell->place(plan_sphere_test(file).poses.front());
-  return measure_sphere(*cell, file.chain, plan_sphere_test(file));
+  cell->place(any_machine::plan_sphere_test(file).poses.front());
+  return any_machine::measure_sphere(*cell, file.chain, any_machine::plan_sphere_test(file));
 }
 
 TrueMachine with_location(char axis, const ErrorMotion& location) {
-  TrueMachine truth = ideal_machine(trunnion());
+  TrueMachine truth = any_machine::ideal_machine(trunnion());
   const std::size_t a = trunnion().axis_index(axis);
-  set_location(trunnion().chain.axis(a), location, truth.axis[a]);
+  any_machine::set_location(trunnion().chain.axis(a), location, truth.axis[a]);
   return truth;
 }
 
@@ -73,7 +74,7 @@ ErrorMotion only(Eigen::Index channel, double value) { return value * ErrorMotio
 // --- the ball on the table
 
 TEST(MachineRun, TheBallStaysAtTheToolOfAnIdealMachine) {
-  const SpherePlan plan = plan_sphere_test(trunnion());
+  const any_machine::SpherePlan plan = any_machine::plan_sphere_test(trunnion());
   EXPECT_GT(plan.poses.size(), 30U);
   for (const Pose& q : plan.poses) {
     const PointPair points = ideal_points(trunnion().chain, q, trunnion().chain.tool_point());
@@ -92,7 +93,7 @@ TEST(MachineRun, ATableBesideItsPlaceShowsChordsOfACircle) {
   constexpr double kOff_mm = 0.01;
   const auto readings = sphere_of(trunnion(), with_location('C', only(0, kOff_mm)));
   ASSERT_GT(readings.size(), 30U);
-  for (const PlaceReading& r : readings)
+  for (const any_machine::PlaceReading& r : readings)
     EXPECT_NEAR(r.deviation_mm.norm(), 2.0 * kOff_mm * std::abs(std::sin(0.5 * r.pose[4])),
                 1.5 * kNm);
 }
@@ -100,7 +101,8 @@ TEST(MachineRun, ATableBesideItsPlaceShowsChordsOfACircle) {
 // EZ0A: the same about A, whatever C does.
 TEST(MachineRun, ATrunnionBesideItsPlaceShowsChordsToo) {
   constexpr double kOff_mm = 0.01;
-  for (const PlaceReading& r : sphere_of(trunnion(), with_location('A', only(2, kOff_mm))))
+  for (const any_machine::PlaceReading& r :
+       sphere_of(trunnion(), with_location('A', only(2, kOff_mm))))
     EXPECT_NEAR(r.deviation_mm.norm(), 2.0 * kOff_mm * std::abs(std::sin(0.5 * r.pose[3])),
                 1.5 * kNm);
 }
@@ -108,8 +110,9 @@ TEST(MachineRun, ATrunnionBesideItsPlaceShowsChordsToo) {
 // EA0C tilts the table: the angle, seen from the turned table, times the lever of the ball.
 TEST(MachineRun, ATiltedTableShowsTheLeverOfTheBall) {
   constexpr double kTilt = 20e-6;
-  const Vec3 ball = plan_sphere_test(trunnion()).ball;
-  for (const PlaceReading& r : sphere_of(trunnion(), with_location('C', only(3, kTilt)))) {
+  const Vec3 ball = any_machine::plan_sphere_test(trunnion()).ball;
+  for (const any_machine::PlaceReading& r :
+       sphere_of(trunnion(), with_location('C', only(3, kTilt)))) {
     // The table turns by -C.
     const Vec3 seen = kTilt * Vec3(std::cos(r.pose[4]), std::sin(r.pose[4]), 0.0);
     const Vec3 expected = (seen - Vec3(kTilt, 0.0, 0.0)).cross(ball);
@@ -122,18 +125,18 @@ TEST(MachineRun, ATiltedTableShowsTheLeverOfTheBall) {
 
 // What is left is that targets are rounded to a nanometre or 2.9 nrad.
 TEST(MachineRun, WithoutErrorsNothingIsOff) {
-  const MachineResult result = run(trunnion(), ideal_machine(trunnion()));
+  const any_machine::MachineResult result = run(trunnion(), any_machine::ideal_machine(trunnion()));
   EXPECT_LT(result.after.lines_max_um(), 1e-3);
   EXPECT_LT(result.after.volume.rms_um, 1e-3);
   EXPECT_LT(result.after.sphere_um().rms_um, 1e-3);
   EXPECT_LT(result.after.tilt_max_rad(), 5e-9);
-  for (const PlaceReading& r : result.after.place)
-    EXPECT_EQ(r.offset, Offsets{});
+  for (const any_machine::PlaceReading& r : result.after.place)
+    EXPECT_EQ(r.offset, host::Offsets{});
 }
 
 // Rotary axes elsewhere, and nothing else: all of it is in the tables.
 TEST(MachineRun, APlaceOfARotaryAxisIsPutRight) {
-  const MachineResult result = run(trunnion(), with_location('C', only(0, 0.015)));
+  const any_machine::MachineResult result = run(trunnion(), with_location('C', only(0, 0.015)));
   EXPECT_NEAR(result.before.sphere_um().max_um, 30.0, 0.1);  // a diameter
   EXPECT_LT(result.after.sphere_um().max_um, 0.05);
 }
@@ -150,9 +153,10 @@ TrueMachine smooth(TrueMachine truth) {
 }
 
 TEST(MachineRun, WhatTablesCanHoldIsPutRightToNanometres) {
-  for (const MachineFile* file : {&trunnion(), &fork_head()}) {
+  for (const host::MachineFile* file : {&trunnion(), &fork_head()}) {
     for (const std::uint64_t seed : {1U, 2U}) {
-      const MachineResult result = run(*file, smooth(draw_machine(*file, seed)), quick(seed));
+      const any_machine::MachineResult result =
+          run(*file, smooth(any_machine::draw_machine(*file, seed)), quick(seed));
       EXPECT_GT(result.before.lines_max_um(), 5.0) << file->name;
       EXPECT_GT(result.before.volume.max_um, 10.0) << file->name;
       EXPECT_GT(result.before.sphere_um().max_um, 10.0) << file->name;
@@ -166,7 +170,8 @@ TEST(MachineRun, WhatTablesCanHoldIsPutRightToNanometres) {
 
 // Three slides cannot turn a tool: what is reported is what was there.
 TEST(MachineRun, WithoutOrientingAxesTheDirectionOfTheToolIsReported) {
-  const MachineResult result = run(fork_head(), smooth(draw_machine(fork_head(), 1)));
+  const any_machine::MachineResult result =
+      run(fork_head(), smooth(any_machine::draw_machine(fork_head(), 1)));
   EXPECT_GT(result.before.tilt_max_rad(), 2e-5);
   EXPECT_NEAR(result.after.tilt_max_rad(), result.before.tilt_max_rad(), 1e-8);
   EXPECT_EQ(result.before.steerable_max_rad(), 0.0);
@@ -175,13 +180,13 @@ TEST(MachineRun, WithoutOrientingAxesTheDirectionOfTheToolIsReported) {
 // The trunnion turns it back wherever its table does not nearly stand along the tool.
 TEST(MachineRun, OrientingAxesHoldTheDirectionOfTheTool) {
   for (const std::uint64_t seed : {1U, 2U}) {
-    const MachineResult result =
-        run(trunnion(), smooth(draw_machine(trunnion(), seed)), quick(seed));
+    const any_machine::MachineResult result =
+        run(trunnion(), smooth(any_machine::draw_machine(trunnion(), seed)), quick(seed));
     EXPECT_GT(result.before.steerable_max_rad(), 5e-5);
     EXPECT_LT(result.after.steerable_max_rad(), 0.5e-6);
     int gripped = 0;
     for (std::size_t i = 0; i < result.after.place.size(); ++i) {
-      const PlaceReading& after = result.after.place[i];
+      const any_machine::PlaceReading& after = result.after.place[i];
       if (std::abs(std::sin(after.pose[3])) <= 0.1) continue;  // the table tilted by A
       ++gripped;
       EXPECT_LT(after.tilt_rad, 0.5e-6) << i;
@@ -193,9 +198,10 @@ TEST(MachineRun, OrientingAxesHoldTheDirectionOfTheTool) {
 // With reversal and ripple. An axis that stands while others turn is moved by its offset alone and
 // may turn round without its command doing so: the largest reversal, seen from the first pose.
 TEST(MachineRun, AnyMachineIsPutRight) {
-  for (const MachineFile* file : {&trunnion(), &fork_head()}) {
-    const MachineResult result = run(*file, draw_machine(*file, 2), quick(2));
-    EXPECT_TRUE(machine_verdict(result).ok) << machine_summary(result);
+  for (const host::MachineFile* file : {&trunnion(), &fork_head()}) {
+    const any_machine::MachineResult result =
+        run(*file, any_machine::draw_machine(*file, 2), quick(2));
+    EXPECT_TRUE(any_machine::machine_verdict(result).ok) << any_machine::machine_summary(result);
     EXPECT_LT(result.after.volume.max_um, 1.5) << file->name;
     EXPECT_LT(result.after.sphere_um().max_um, 2.5) << file->name;
   }
@@ -203,34 +209,36 @@ TEST(MachineRun, AnyMachineIsPutRight) {
 
 TEST(MachineRun, MachinesOfThePapersRunFromTheirFiles) {
   for (const char* name : {"xyfz", "l300g", "yk7280"}) {
-    const MachineFile file = read_machine_file(bundled_machine(name));
-    const MachineResult result = run(file, draw_machine(file, 3), quick(3));
-    EXPECT_TRUE(machine_verdict(result).ok) << machine_summary(result);
+    const host::MachineFile file = host::read_machine_file(host::bundled_machine(name));
+    const any_machine::MachineResult result =
+        run(file, any_machine::draw_machine(file, 3), quick(3));
+    EXPECT_TRUE(any_machine::machine_verdict(result).ok) << any_machine::machine_summary(result);
     EXPECT_EQ(result.before.sphere.empty(), std::string(name) == "xyfz");
   }
 }
 
 TEST(MachineRun, RealisticInstrumentsLeaveMicrometres) {
-  MachineOptions options = quick();
+  any_machine::MachineOptions options = quick();
   options.noise = true;
-  const MachineResult result = run(trunnion(), draw_machine(trunnion(), 1), options);
-  EXPECT_TRUE(machine_verdict(result).ok) << machine_summary(result);
+  const any_machine::MachineResult result =
+      run(trunnion(), any_machine::draw_machine(trunnion(), 1), options);
+  EXPECT_TRUE(any_machine::machine_verdict(result).ok) << any_machine::machine_summary(result);
   EXPECT_GT(result.after.volume.max_um, 0.5);  // more than perfect instruments would leave
 }
 
 // Over the bus the same offsets come out, to the last bit of the drives' units: those of the rotary
 // ones are two of the tick's, or 0.5 nm at the tool point. The drives stand where they stood.
 TEST(MachineRun, OverTheBusTheSameComesOut) {
-  MachineFile file = trunnion();
+  host::MachineFile file = trunnion();
   file.correction.tick_hz = kBusCycleOfFive_hz;
-  MachineOptions options = quick();
+  any_machine::MachineOptions options = quick();
   options.places = 15;
-  const TrueMachine truth = draw_machine(file, 1);
-  const MachineResult beside = run(file, truth, options);
+  const TrueMachine truth = any_machine::draw_machine(file, 1);
+  const any_machine::MachineResult beside = run(file, truth, options);
   options.make_cell = bus_cells(file, kBusCycleOfFive_hz);
-  const MachineResult on_bus = run(file, truth, options);
-  const auto expect_same = [](const std::vector<PlaceReading>& a,
-                              const std::vector<PlaceReading>& b) {
+  const any_machine::MachineResult on_bus = run(file, truth, options);
+  const auto expect_same = [](const std::vector<any_machine::PlaceReading>& a,
+                              const std::vector<any_machine::PlaceReading>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
       for (std::size_t axis = 0; axis < 5; ++axis)
@@ -246,18 +254,19 @@ TEST(MachineRun, OverTheBusTheSameComesOut) {
 
 // However the values are meant, the tables are the same.
 TEST(MachineRun, ConventionAndSideOfTheFileChangeNoTable) {
-  const TrueMachine truth = draw_machine(trunnion(), 1);
-  CommissionOptions how = tables_only(ModelKind::abbe_closed);
+  const TrueMachine truth = any_machine::draw_machine(trunnion(), 1);
+  host::CommissionOptions how = host::tables_only(host::ModelKind::abbe_closed);
   how.slope = SlopeFit::keep;
-  std::unique_ptr<Commissioned> first;
+  std::unique_ptr<host::Commissioned> first;
   for (const Convention convention : {Convention::relative, Convention::body}) {
     for (const Side side : {Side::moving, Side::fixed}) {
-      MachineFile file = trunnion();
+      host::MachineFile file = trunnion();
       file.convention = convention;
       file.side = side;
       Random unused(0);
-      const Campaign campaign = measure_any_machine(truth, file, no_noise(), 1, unused);
-      auto tables = commission(campaign.machine, campaign.runs, how);
+      const Campaign campaign =
+          any_machine::measure_any_machine(truth, file, no_noise(), 1, unused);
+      auto tables = host::commission(campaign.machine, campaign.runs, how);
       if (!first) {
         first = std::move(tables);
         continue;
@@ -279,8 +288,8 @@ TEST(MachineRun, ConventionAndSideOfTheFileChangeNoTable) {
 
 TEST(MachineRun, AFileWithItsErrorsAtTheReferenceHoldsThePlaceOfARotaryAxis) {
   Random unused(0);
-  const Campaign campaign =
-      measure_any_machine(with_location('C', only(1, 0.012)), trunnion(), no_noise(), 1, unused);
+  const Campaign campaign = any_machine::measure_any_machine(with_location('C', only(1, 0.012)),
+                                                             trunnion(), no_noise(), 1, unused);
   EXPECT_NEAR(campaign.machine.axes[4].at_reference(1), 0.012, 1e-9);
   EXPECT_NEAR(campaign.machine.axes[4].at_reference(0), 0.0, 1e-9);
   EXPECT_NEAR(campaign.machine.axes[3].at_reference.norm(), 0.0, 1e-9);

@@ -21,11 +21,11 @@ constexpr double kArmLevel = -39.025 * kPi / 180.0;
 class Bench {
  public:
   explicit Bench(TableKind tables, std::vector<std::int64_t> bounces_ns = {})
-      : truth_(make_l300g_truth(file_, grinder_errors("p8"), 1)) {
+      : truth_(l300g::make_l300g_truth(file_, l300g::grinder_errors("p8"), 1)) {
     const MachineTables contents = tables_of(identify_axes(truth_, file_), file_,
                                              file_.chain.description(), tables, kDefaultKnots);
-    auto axes =
-        std::make_unique<BusAxes>(bus_settings(file_, kBusCycleOfFive_hz), make_image(contents));
+    auto axes = std::make_unique<BusAxes>(host::bus_settings(file_, kBusCycleOfFive_hz),
+                                          host::make_image(contents));
     axes_ = axes.get();
     axes->mount(TouchProbe(truth_, wall_, {file_.probe->radius_mm, {}, 10'000, bounces_ns}));
     cell_ = std::make_unique<MotionCell>(truth_, std::move(axes));
@@ -45,17 +45,17 @@ class Bench {
   std::string refusal() {
     try {
       touch();
-    } catch (const UserError& e) {
+    } catch (const host::UserError& e) {
       return e.what();
     }
     return {};
   }
   [[nodiscard]] BusAxes& axes() { return *axes_; }
   [[nodiscard]] Prober& prober() { return *prober_; }
-  [[nodiscard]] const MachineFile& file() const { return file_; }
+  [[nodiscard]] const host::MachineFile& file() const { return file_; }
 
  private:
-  MachineFile file_ = read_machine_file(bundled_machine("l300g"));
+  host::MachineFile file_ = host::read_machine_file(host::bundled_machine("l300g"));
   TrueMachine truth_;
   Plane wall_{Vec3(0.0, kWall_mm, 0.0), Vec3::UnitY()};
   BusAxes* axes_ = nullptr;
@@ -121,7 +121,7 @@ TEST(Points, BadSettingsAreRefusedByName) {
   Bench bench(TableKind::identified);
   NodeProbe probe = node_probe(bench.file());
   probe.radius.coefficient[0] = 30.0;
-  EXPECT_THROW(bench.prober().configure(probe), UserError);
+  EXPECT_THROW(bench.prober().configure(probe), host::UserError);
 }
 
 }  // namespace

@@ -113,11 +113,11 @@ TEST(ReportParts, LiveStateIsThatOfTheLastPeriod) {
 
 TEST(ReportParts, LivePageTellsTheOutcome) {
   LiveFeed feed("", "");
-  ReportParts parts;
+  host::ReportParts parts;
   parts.verdict = {true, "as good as it gets"};
-  parts.before_after = before_after_table({{"error", 8.0, 2.0}}, "");
-  parts.provenance = provenance({}, {});
-  feed.ended(report_document(parts), false);
+  parts.before_after = host::before_after_table({{"error", 8.0, 2.0}}, "");
+  parts.provenance = host::provenance({}, {});
+  feed.ended(host::report_document(parts), false);
   const json state = feed.state();
   EXPECT_EQ(state["phase"], "ended");
   EXPECT_EQ(state["outcome"]["verdict"]["text"], "as good as it gets");
@@ -140,7 +140,7 @@ TEST(ReportParts, OnlyOwnNamesReachTheServer) {
 }
 
 TEST(ReportParts, ChangeIsOfTheAmountBefore) {
-  const json table = before_after_table({{"error", 8.0, 2.0}, {"nothing", 0.0, 1.0}}, "");
+  const json table = host::before_after_table({{"error", 8.0, 2.0}, {"nothing", 0.0, 1.0}}, "");
   const json& rows = table["rows"];
   EXPECT_DOUBLE_EQ(rows[0][4], -75.0);
   EXPECT_TRUE(rows[1][4].is_null());
@@ -151,7 +151,8 @@ TEST(ReportParts, ChangeIsOfTheAmountBefore) {
 TEST(ReportParts, MagnificationIsRoundAndFits) {
   const std::vector<Vec3> points{{0.0, 0.0, 0.0}, {500.0, 300.0, 400.0}};
   for (const double longest_mm : {1e-5, 0.013, 0.041, 0.3, 2.0}) {
-    const json map = volume_map("", points, {{"a", {{longest_mm, 0.0, 0.0}, {0.0, 0.0, 0.0}}}}, "");
+    const json map =
+        host::volume_map("", points, {{"a", {{longest_mm, 0.0, 0.0}, {0.0, 0.0, 0.0}}}}, "");
     const double factor = map["magnification"];
     const double drawn_mm = factor * longest_mm;
     EXPECT_LE(drawn_mm, 60.0 * (1.0 + 1e-9));
@@ -165,9 +166,9 @@ TEST(ReportParts, MagnificationIsRoundAndFits) {
 
 // Three runs at two targets, worked out by hand after ISO 230-2.
 TEST(ReportParts, PositioningFromReadings) {
-  const Positioning p = evaluate_positioning('X', false, "before", {0.0, 100.0},
-                                             {{0.001, 0.004}, {0.002, 0.004}, {0.003, 0.004}},
-                                             {{0.000, 0.002}, {0.000, 0.003}, {0.000, 0.004}});
+  const host::Positioning p = host::evaluate_positioning(
+      'X', false, "before", {0.0, 100.0}, {{0.001, 0.004}, {0.002, 0.004}, {0.003, 0.004}},
+      {{0.000, 0.002}, {0.000, 0.003}, {0.000, 0.004}});
   EXPECT_NEAR(p.up.mean[0], 0.002, 1e-15);
   EXPECT_NEAR(p.up.deviation[0], 0.001, 1e-15);
   EXPECT_NEAR(p.down.mean[1], 0.003, 1e-15);
@@ -181,8 +182,9 @@ TEST(ReportParts, PositioningFromReadings) {
 
 // FIPS 180-4, examples of NIST.
 TEST(ReportParts, Sha256OfKnownTexts) {
-  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(host::sha256("abc"),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(host::sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
 }  // namespace

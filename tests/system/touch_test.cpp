@@ -30,7 +30,7 @@ class Grinder {
  public:
   explicit Grinder(const Plane& plane, std::vector<std::int64_t> bounces_ns = {}) {
     truth_.chain = file_.chain;
-    auto axes = std::make_unique<BusAxes>(bus_settings(file_, kBusCycleOfFive_hz),
+    auto axes = std::make_unique<BusAxes>(host::bus_settings(file_, kBusCycleOfFive_hz),
                                           std::vector<std::uint8_t>{});
     bus_ = axes.get();
     TouchProbe::Settings probe;
@@ -74,7 +74,7 @@ class Grinder {
     }
   }
 
-  MachineFile file_ = read_machine_file(bundled_machine("l300g"));
+  host::MachineFile file_ = host::read_machine_file(host::bundled_machine("l300g"));
   TrueMachine truth_;
   BusAxes* bus_ = nullptr;
   std::unique_ptr<MotionCell> cell_;
@@ -172,7 +172,7 @@ TEST(TouchOnTheBus, ADriveThatMissesTheEdgeIsNamed) {
   grinder.bus().break_probe_line(2, true);
   const Touch touch = grinder.cell().probe_to(kBeyond, kSpeed_mm_s, kBegin, 20.0);
   EXPECT_TRUE(touch.touched);
-  EXPECT_EQ(touch.latched, (std::array<bool, kMostAxes>{true, true, false, true, false}));
+  EXPECT_EQ(touch.latched, (std::array<bool, host::kMostAxes>{true, true, false, true, false}));
   EXPECT_EQ(grinder.latch_frames(), 6);
 }
 

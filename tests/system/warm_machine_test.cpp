@@ -21,7 +21,7 @@ std::vector<std::uint8_t> growing_image() {
   tables.provenance.expires_unix_s = k2030;
   for (std::size_t a = 0; a < kBusMachineAxes; ++a)
     tables.expansion[a] = {kSteel_per_K, 0.0F, static_cast<std::uint8_t>(a)};
-  return make_image(tables);
+  return host::make_image(tables);
 }
 
 TrueMachine warm_truth() {

@@ -19,14 +19,14 @@ constexpr int kVolumePoints = 50;
 constexpr int kTickPoints = 10'000;
 #endif
 
-const XyfzResult& result() {
-  static const XyfzResult r = [] {
-    XyfzOptions options;
-    options.machine = bundled_machine("xyfz");
+const xyfz::XyfzResult& result() {
+  static const xyfz::XyfzResult r = [] {
+    xyfz::XyfzOptions options;
+    options.machine = host::bundled_machine("xyfz");
     options.draws = kDraws;
     options.volume_points = kVolumePoints;
     options.tick_points = kTickPoints;
-    return run_xyfz(options, [](double, const std::string&) {});
+    return xyfz::run_xyfz(options, [](double, const std::string&) {});
   }();
   return r;
 }
@@ -54,7 +54,7 @@ TEST(Xyfz, ClosedModelReachesThePapersRateWithRealisticInstruments) {
 // A single diagonal certifies nothing (section 10): all of them, the faces and the volume must be
 // good.
 TEST(Xyfz, ClosedModelIsGoodOnEveryDiagonalFaceAndInTheVolume) {
-  const ModeResult& closed = result().mode[3];
+  const xyfz::ModeResult& closed = result().mode[3];
   for (const MeasuredDiagonal& d : closed.body)
     EXPECT_LT(d.max_abs_um, 1.0) << d.name;
   EXPECT_LT(closed.faces_max_um(), 1.5);
@@ -64,7 +64,7 @@ TEST(Xyfz, ClosedModelIsGoodOnEveryDiagonalFaceAndInTheVolume) {
 // Section 9: the paper's variant is fine on the paper's diagonal and ten times worse on another
 // one.
 TEST(Xyfz, PapersVariantHidesItsErrorOnOneDiagonal) {
-  const ModeResult& paper = result().mode[2];
+  const xyfz::ModeResult& paper = result().mode[2];
   EXPECT_GE(result().rate(2), 87.07);
   double worst = 0.0;
   for (const MeasuredDiagonal& d : paper.body)
@@ -80,8 +80,8 @@ TEST(Xyfz, TickAndMotionStayWithinTheirBounds) {
 }
 
 TEST(Xyfz, SquarenessOfTheTruthIsNotWhatTheBallBarReads) {
-  const XyfzTuning tuning = result().tuning;
-  const TrueMachine truth = make_xyfz_truth(result().machine, kXyfzMachineSeed, tuning);
+  const xyfz::XyfzTuning tuning = result().tuning;
+  const TrueMachine truth = xyfz::make_xyfz_truth(result().machine, xyfz::kXyfzMachineSeed, tuning);
   const double difference = truth.directions[0].y() - result().machine.squareness->measured.a_xy;
   EXPECT_GT(std::abs(difference),
             5e-6);  // section 3.6: tens of µrad, which is why the closure exists
@@ -94,13 +94,13 @@ TEST(Xyfz, LeverSelfTestPasses) {
 }
 
 TEST(Xyfz, SameSeedSameFiguresOtherSeedOthers) {
-  XyfzOptions options;
-  options.machine = bundled_machine("xyfz");
+  xyfz::XyfzOptions options;
+  options.machine = host::bundled_machine("xyfz");
   options.draws = 2;
   options.volume_points = 20;
   const auto figures = [&](std::uint64_t seed) {
     options.seed = seed;
-    return xyfz_figures(run_xyfz(options, [](double, const std::string&) {}));
+    return xyfz::xyfz_figures(xyfz::run_xyfz(options, [](double, const std::string&) {}));
   };
   EXPECT_EQ(figures(7).dump(), figures(7).dump());
   const nlohmann::json seven = figures(7);
@@ -110,8 +110,8 @@ TEST(Xyfz, SameSeedSameFiguresOtherSeedOthers) {
 }
 
 TEST(Xyfz, JsonHoldsEveryPromisedFigure) {
-  const nlohmann::json j = xyfz_figures(result());
-  for (const char* mode : kModeNames) {
+  const nlohmann::json j = xyfz::xyfz_figures(result());
+  for (const char* mode : xyfz::kModeNames) {
     for (const char* d : {"PPP", "NPP", "PNP", "PPN"})
       EXPECT_TRUE(j["diagonals_um"][mode][d].is_number()) << mode << d;
     EXPECT_TRUE(j["faces_max_um"][mode].is_number());

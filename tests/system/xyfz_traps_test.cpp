@@ -12,9 +12,10 @@ namespace {
 class XyfzTraps : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    file = std::make_unique<MachineFile>(read_machine_file(bundled_machine("xyfz")));
-    truth = std::make_unique<TrueMachine>(
-        make_xyfz_truth(*file, kXyfzMachineSeed, tune_xyfz(*file, kXyfzMachineSeed)));
+    file =
+        std::make_unique<host::MachineFile>(host::read_machine_file(host::bundled_machine("xyfz")));
+    truth = std::make_unique<TrueMachine>(xyfz::make_xyfz_truth(
+        *file, xyfz::kXyfzMachineSeed, xyfz::tune_xyfz(*file, xyfz::kXyfzMachineSeed)));
     campaign = std::make_unique<Campaign>(perfect_campaign(*truth, *file));
   }
   static void TearDownTestSuite() {
@@ -24,10 +25,10 @@ class XyfzTraps : public testing::Test {
   }
 
   // Reduction of the PNP maximum, machine moving, noise-free.
-  static double rate(const MachineFile& as_believed, CommissionOptions options) {
+  static double rate(const host::MachineFile& as_believed, host::CommissionOptions options) {
     options.bound = false;
-    const auto tables = commission(as_believed, campaign->runs, options);
-    return improvement_percent(pnp_um({}), pnp_um(make_image(tables->tables)));
+    const auto tables = host::commission(as_believed, campaign->runs, options);
+    return improvement_percent(pnp_um({}), pnp_um(host::make_image(tables->tables)));
   }
 
   static double pnp_um(const std::vector<std::uint8_t>& image) {
@@ -39,56 +40,57 @@ class XyfzTraps : public testing::Test {
         .max_abs_um;
   }
 
-  static inline std::unique_ptr<MachineFile> file;
+  static inline std::unique_ptr<host::MachineFile> file;
   static inline std::unique_ptr<TrueMachine> truth;
   static inline std::unique_ptr<Campaign> campaign;
   static constexpr double kPaper = 87.07;
 };
 
 TEST_F(XyfzTraps, NoMistakeReachesThePapersRate) {
-  EXPECT_GT(rate(campaign->machine, {ModelKind::abbe}), kPaper);
+  EXPECT_GT(rate(campaign->machine, {host::ModelKind::abbe}), kPaper);
 }
 
 TEST_F(XyfzTraps, LeverFromPointToHeadInsteadOfHeadToPoint) {
-  MachineFile wrong = campaign->machine;
-  for (AxisFile& a : wrong.axes)
+  host::MachineFile wrong = campaign->machine;
+  for (host::AxisFile& a : wrong.axes)
     a.sensed.at_zero = -a.sensed.at_zero;
-  EXPECT_LT(rate(wrong, {ModelKind::abbe}), 87.0);
+  EXPECT_LT(rate(wrong, {host::ModelKind::abbe}), 87.0);
 }
 
 TEST_F(XyfzTraps, MovingSensedPointIgnored) {
-  MachineFile wrong = campaign->machine;
-  for (AxisFile& a : wrong.axes)
+  host::MachineFile wrong = campaign->machine;
+  for (host::AxisFile& a : wrong.axes)
     a.sensed.kappa = 0;
-  EXPECT_LT(rate(wrong, {ModelKind::abbe}), 87.0);
+  EXPECT_LT(rate(wrong, {host::ModelKind::abbe}), 87.0);
 }
 
 TEST_F(XyfzTraps, SignOfSquarenessXy) {
-  MachineFile wrong = campaign->machine;
+  host::MachineFile wrong = campaign->machine;
   wrong.squareness->measured.a_xy *= -1.0;
-  EXPECT_LT(rate(wrong, {ModelKind::abbe}), 87.0);
+  EXPECT_LT(rate(wrong, {host::ModelKind::abbe}), 87.0);
 }
 
 TEST_F(XyfzTraps, NoTransferToTheHeads) {
-  MachineFile wrong = campaign->machine;
-  for (AxisFile& a : wrong.axes)
+  host::MachineFile wrong = campaign->machine;
+  for (host::AxisFile& a : wrong.axes)
     a.sensed = {};
-  EXPECT_LT(rate(wrong, {ModelKind::abbe}), 87.0);
+  EXPECT_LT(rate(wrong, {host::ModelKind::abbe}), 87.0);
 }
 
 TEST_F(XyfzTraps, SquarenessCountedTwice) {
-  EXPECT_LT(rate(campaign->machine, {ModelKind::abbe, SlopeFit::keep}), 87.0);
+  EXPECT_LT(rate(campaign->machine, {host::ModelKind::abbe, SlopeFit::keep}), 87.0);
 }
 
 // Section 5.4: the closure absorbs any slope choice, so that nothing is counted twice.
 TEST_F(XyfzTraps, ClosureRepairsDoubleCountingButNotTheSignOfALever) {
-  const double good = rate(campaign->machine, {ModelKind::abbe_closed});
-  EXPECT_NEAR(rate(campaign->machine, {ModelKind::abbe_closed, SlopeFit::keep}), good, 0.2);
-  EXPECT_NEAR(rate(campaign->machine, {ModelKind::abbe_closed, SlopeFit::end_points}), good, 0.2);
-  MachineFile wrong = campaign->machine;
-  for (AxisFile& a : wrong.axes)
+  const double good = rate(campaign->machine, {host::ModelKind::abbe_closed});
+  EXPECT_NEAR(rate(campaign->machine, {host::ModelKind::abbe_closed, SlopeFit::keep}), good, 0.2);
+  EXPECT_NEAR(rate(campaign->machine, {host::ModelKind::abbe_closed, SlopeFit::end_points}), good,
+              0.2);
+  host::MachineFile wrong = campaign->machine;
+  for (host::AxisFile& a : wrong.axes)
     a.sensed.at_zero = -a.sensed.at_zero;
-  EXPECT_LT(rate(wrong, {ModelKind::abbe_closed}), kPaper);
+  EXPECT_LT(rate(wrong, {host::ModelKind::abbe_closed}), kPaper);
 }
 
 // Section 9: closure is what makes the rate robust, whatever the machine.
@@ -102,11 +104,13 @@ TEST_F(XyfzTraps, ClosureIsRobustOverMachinesThePapersVariantIsNot) {
   constexpr std::uint64_t kMachines = 2;  // instrumented and unoptimised builds
 #endif
   for (std::uint64_t seed = 0; seed < kMachines; ++seed) {
-    const TrueMachine other = make_xyfz_truth(*file, seed, tune_xyfz(*file, seed));
+    const TrueMachine other = xyfz::make_xyfz_truth(*file, seed, xyfz::tune_xyfz(*file, seed));
     const Campaign measured = perfect_campaign(other, *file);
-    const auto worst_of = [&](ModelKind kind) {
-      const auto tables = commission(measured.machine, measured.runs, tables_only(kind));
-      const auto cell = make_integrated_cell(other, file->correction, make_image(tables->tables));
+    const auto worst_of = [&](host::ModelKind kind) {
+      const auto tables =
+          host::commission(measured.machine, measured.runs, host::tables_only(kind));
+      const auto cell =
+          make_integrated_cell(other, file->correction, host::make_image(tables->tables));
       const DiagonalBox box = travel_box(*file);
       cell->place(box.lo);
       Random unused(0);
@@ -115,8 +119,10 @@ TEST_F(XyfzTraps, ClosureIsRobustOverMachinesThePapersVariantIsNot) {
     };
     ++machines;
     closed_good +=
-        improvement_percent(kPaperRaw_um, worst_of(ModelKind::abbe_closed)) >= 98.0 ? 1 : 0;
-    paper_good += improvement_percent(kPaperRaw_um, worst_of(ModelKind::abbe)) >= kPaper ? 1 : 0;
+        improvement_percent(xyfz::kPaperRaw_um, worst_of(host::ModelKind::abbe_closed)) >= 98.0 ? 1
+                                                                                                : 0;
+    paper_good +=
+        improvement_percent(xyfz::kPaperRaw_um, worst_of(host::ModelKind::abbe)) >= kPaper ? 1 : 0;
   }
   EXPECT_EQ(closed_good, machines);
   EXPECT_LT(paper_good, machines);

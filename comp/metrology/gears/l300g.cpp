@@ -26,7 +26,7 @@ Body joined_to(std::uint8_t lower, JointKind kind, Axis axis, std::uint8_t nc_ax
 
 }  // namespace
 
-MachineDescription l300g(const SwingArm& arm, const L300gDatum& datum) {
+MachineDescription l300g_machine(const SwingArm& arm, const L300gDatum& datum) {
   MachineDescription d;
   d.body_count = 5;
   d.body[1] = joined_to(1, JointKind::prismatic, Axis::x, 0, 'X');

@@ -19,7 +19,7 @@ struct L300gDatum {
   double y = 0.0;
 };
 
-[[nodiscard]] MachineDescription l300g(const SwingArm& arm, const L300gDatum& datum);
+[[nodiscard]] MachineDescription l300g_machine(const SwingArm& arm, const L300gDatum& datum);
 
 // --- the arm by itself
 

@@ -8,49 +8,51 @@
 #include "host_sim/sim/instruments/ball_bar.hpp"
 #include "host_sim/sim/instruments/laser6d.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 namespace {
 
 // What sphere tests with two balls leave of the place of a rotary axis, 1 sigma. Assumed.
 constexpr double kLocation_mm = 1e-3;
 constexpr double kLocation_rad = 3e-6;
 
-double target_of(const AxisFile& axis, std::size_t t) {
+double target_of(const host::AxisFile& axis, std::size_t t) {
   return axis.lo +
          static_cast<double>(t) * (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
 }
 
-double nearest_target(const AxisFile& axis) {
+double nearest_target(const host::AxisFile& axis) {
   const double part = (axis.reference - axis.lo) / (axis.hi - axis.lo);
   return target_of(
       axis, static_cast<std::size_t>(std::lround(part * static_cast<double>(axis.targets - 1))));
 }
 
-ErrorMotion true_value(const TrueMachine& truth, const MachineFile& file, std::size_t a, double q,
-                       double approach) {
+ErrorMotion true_value(const sim::TrueMachine& truth, const host::MachineFile& file, std::size_t a,
+                       double q, double approach) {
   Pose pose{};
   pose[a] = q;
-  Approach from{};
+  sim::Approach from{};
   from[a] = approach;
   return in_file_terms(truth.errors(pose, from)[a], file, a, q);
 }
 
-RunsFile measure_axis(const TrueMachine& truth, const MachineFile& file, std::size_t a,
-                      const NoiseClasses& classes, std::size_t runs, Random& random) {
-  const AxisFile& axis = file.axes[a];
+host::RunsFile measure_axis(const sim::TrueMachine& truth, const host::MachineFile& file,
+                            std::size_t a, const sim::NoiseClasses& classes, std::size_t runs,
+                            sim::Random& random) {
+  const host::AxisFile& axis = file.axes[a];
   const Axis along = file.chain.axis(a).axis;
-  const LaserSetup setup = mount_laser(classes, random);
-  RunsFile result;
+  const sim::LaserSetup setup = sim::mount_laser(classes, random);
+  host::RunsFile result;
   result.name = fmt::format("runs_{}.csv", axis.letter);
   result.letter = axis.letter;
   for (std::size_t t = 0; t < axis.targets; ++t)
     result.positions.push_back(target_of(axis, t));
   const auto run = [&](double approach) {
-    RunValues values;
+    host::RunValues values;
     for (const double q : result.positions) {
       const Vec3 lever = axis.sensed.lever(along, q) + setup.arm_error;
       const ErrorMotion seen = at_lever(true_value(truth, file, a, q, approach), lever);
-      values.push_back(laser_reading(seen, {along, q, axis.lo, axis.hi}, setup, classes, random));
+      values.push_back(
+          sim::laser_reading(seen, {along, q, axis.lo, axis.hi}, setup, classes, random));
     }
     return values;
   };
@@ -61,9 +63,9 @@ RunsFile measure_axis(const TrueMachine& truth, const MachineFile& file, std::si
   return result;
 }
 
-void locate_axis(const TrueMachine& truth, const NoiseClasses& classes, std::size_t a,
-                 MachineFile& file, Random& random) {
-  AxisFile& axis = file.axes[a];
+void locate_axis(const sim::TrueMachine& truth, const sim::NoiseClasses& classes, std::size_t a,
+                 host::MachineFile& file, sim::Random& random) {
+  host::AxisFile& axis = file.axes[a];
   axis.reference = nearest_target(axis);
   axis.at_reference = true_value(truth, file, a, axis.reference, 0.0);
   if (!axis.rotary || classes.repeatability_mm <= 0.0) return;
@@ -73,7 +75,7 @@ void locate_axis(const TrueMachine& truth, const NoiseClasses& classes, std::siz
 
 }  // namespace
 
-ErrorMotion in_file_terms(const ErrorMotion& internal, const MachineFile& file, std::size_t a,
+ErrorMotion in_file_terms(const ErrorMotion& internal, const host::MachineFile& file, std::size_t a,
                           double q) {
   Eigen::Matrix<double, 6, 6> forth;
   for (Eigen::Index c = 0; c < 6; ++c)
@@ -82,22 +84,23 @@ ErrorMotion in_file_terms(const ErrorMotion& internal, const MachineFile& file, 
   return forth.partialPivLu().solve(internal);
 }
 
-Campaign measure_any_machine(const TrueMachine& truth, const MachineFile& file,
-                             const NoiseClasses& classes, std::size_t runs, Random& random) {
-  Campaign campaign{file, {}};
+sim::Campaign measure_any_machine(const sim::TrueMachine& truth, const host::MachineFile& file,
+                                  const sim::NoiseClasses& classes, std::size_t runs,
+                                  sim::Random& random) {
+  sim::Campaign campaign{file, {}};
   for (std::size_t a = 0; a < file.axes.size(); ++a) {
     campaign.runs.push_back(measure_axis(truth, file, a, classes, runs, random));
     locate_axis(truth, classes, a, campaign.machine, random);
   }
   if (!file.squareness) return campaign;
-  const SquarenessFile& place = *file.squareness;
+  const host::SquarenessFile& place = *file.squareness;
   const std::vector<double> x = place.line(0);
   const std::vector<double> y = place.line(1);
   const std::vector<double> z = place.line(2);
-  campaign.machine.squareness->measured = measure_squareness(
+  campaign.machine.squareness->measured = sim::measure_squareness(
       truth, truth.chain.tool_point(), {place.at, x, y, z}, classes.ball_bar_rad, random,
       {file.axis_index('X'), file.axis_index('Y'), file.axis_index('Z')});
   return campaign;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

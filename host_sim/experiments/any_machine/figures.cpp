@@ -8,7 +8,7 @@
 #include "comp/machine/inverse.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 namespace {
 
 using nlohmann::json;
@@ -46,7 +46,9 @@ std::vector<Compared> compared(const MachineResult& r) {
   return rows;
 }
 
-json volume_json(const VolumeFigures& f) { return {{"max_um", f.max_um}, {"rms_um", f.rms_um}}; }
+json volume_json(const host::VolumeFigures& f) {
+  return {{"max_um", f.max_um}, {"rms_um", f.rms_um}};
+}
 
 json orientation_json(const MachineResult& r, const MachineState& s) {
   return {{"max_urad", kUrad * s.tilt_max_rad()},
@@ -66,7 +68,7 @@ json lines_json(const MachineResult& r) {
   return lines;
 }
 
-std::string letters_of(const MachineFile& machine, const std::vector<std::size_t>& axes) {
+std::string letters_of(const host::MachineFile& machine, const std::vector<std::size_t>& axes) {
   std::string letters;
   for (const std::size_t a : axes)
     letters += machine.axes[a].letter;
@@ -84,18 +86,18 @@ json sphere_json(const MachineResult& r) {
 
 }  // namespace
 
-std::string correcting_letters(const MachineFile& machine) {
+std::string correcting_letters(const host::MachineFile& machine) {
   const MachineDescription& d = machine.chain.description();
   return letters_of(machine, {d.correcting.begin(), d.correcting.begin() + d.correcting_count});
 }
 
-std::string orienting_letters(const MachineFile& machine) {
-  return letters_of(machine, orienting_axes(machine.chain));
+std::string orienting_letters(const host::MachineFile& machine) {
+  return letters_of(machine, host::orienting_axes(machine.chain));
 }
 
 json machine_figures(const MachineResult& r) {
   json figures{{"machine", r.machine.name},
-               {"chain", chain_text(r.machine.chain)},
+               {"chain", host::chain_text(r.machine.chain)},
                {"seed", r.options.seed},
                {"noise", r.options.noise},
                {"correcting_axes", correcting_letters(r.machine)},
@@ -118,7 +120,7 @@ json machine_figures(const MachineResult& r) {
 
 std::string machine_summary(const MachineResult& r) {
   std::string text = fmt::format("{}, {}, seed {}, {}; {} correct{}\n", r.machine.name,
-                                 chain_text(r.machine.chain), r.options.seed,
+                                 host::chain_text(r.machine.chain), r.options.seed,
                                  r.options.noise ? "realistic instruments" : "no noise",
                                  correcting_letters(r.machine),
                                  r.machine.chain.description().correcting_count == 1 ? "s" : "");
@@ -144,11 +146,11 @@ std::string machine_summary(const MachineResult& r) {
         "at {:g} mm)\n",
         orienting, kUrad * r.before.steerable_max_rad(), kUrad * r.after.steerable_max_rad(),
         r.options.tool_length_mm);
-  const Verdict verdict = machine_verdict(r);
+  const host::Verdict verdict = machine_verdict(r);
   return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
-Verdict machine_verdict(const MachineResult& r) {
+host::Verdict machine_verdict(const MachineResult& r) {
   const std::vector<Compared> rows = compared(r);
   if (rows.empty()) return {false, "Nothing could be measured."};
   const Allowed& allowed = r.options.noise ? kWithNoise : kWithoutNoise;
@@ -170,4 +172,4 @@ Verdict machine_verdict(const MachineResult& r) {
                             most(&Compared::after_um))};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

@@ -4,7 +4,7 @@
 
 #include "host_sim/experiments/any_machine/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 
 // The figures of a run under the names docs/machine-file.md documents.
 [[nodiscard]] nlohmann::json machine_figures(const MachineResult& result);
@@ -14,10 +14,10 @@ namespace volcomp::sim {
 
 // Good when what was off by micrometres is off by a tenth or a micrometre; with noise by half or
 // five.
-[[nodiscard]] Verdict machine_verdict(const MachineResult& result);
+[[nodiscard]] host::Verdict machine_verdict(const MachineResult& result);
 
 // "X Y Z", and "A C" of those that orient the tool
-[[nodiscard]] std::string correcting_letters(const MachineFile& machine);
-[[nodiscard]] std::string orienting_letters(const MachineFile& machine);
+[[nodiscard]] std::string correcting_letters(const host::MachineFile& machine);
+[[nodiscard]] std::string orienting_letters(const host::MachineFile& machine);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

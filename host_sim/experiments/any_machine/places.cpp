@@ -5,14 +5,14 @@
 #include "comp/machine/tilt.hpp"
 #include "comp/metrology/tables/pose_offset.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 namespace {
 
 constexpr double kFeed_mm_s = 50.0;
 constexpr double kRapid_mm_s = 400.0;
 constexpr double kOverrun_mm = 2.0;
 
-Pose reference_pose(const MachineFile& file) {
+Pose reference_pose(const host::MachineFile& file) {
   Pose q{};
   for (std::size_t a = 0; a < file.axes.size(); ++a)
     q[a] = file.axes[a].reference;
@@ -30,7 +30,7 @@ std::vector<std::vector<bool>> senses(std::size_t slides) {
   return all;
 }
 
-bool can_correct(const MachineFile& file, const Pose& q) {
+bool can_correct(const host::MachineFile& file, const Pose& q) {
   constexpr double kMargin = 1.5;  // not at the edge, where the node stops
   MotionOffset offset;
   const MachineChain& chain = file.chain;
@@ -55,13 +55,13 @@ double steerable_of(const MachineChain& chain, const Pose& q, const Vec3& orient
   return (turn - turn.dot(tool) * tool - offset.tilt_remainder).norm();
 }
 
-Vec3 reachable_deviation(const MotionCell& cell, const MachineChain& chain) {
+Vec3 reachable_deviation(const sim::MotionCell& cell, const MachineChain& chain) {
   return within_reach(chain, cell.target(), cell.deviation_mm());
 }
 
 }  // namespace
 
-std::vector<std::size_t> slides_of(const MachineFile& file) {
+std::vector<std::size_t> slides_of(const host::MachineFile& file) {
   std::vector<std::size_t> slides;
   for (std::size_t a = 0; a < file.axes.size() && slides.size() < 3; ++a) {
     if (!file.axes[a].rotary) slides.push_back(a);
@@ -69,14 +69,14 @@ std::vector<std::size_t> slides_of(const MachineFile& file) {
   return slides;
 }
 
-std::vector<LinePlan> diagonals_of(const MachineFile& file) {
+std::vector<LinePlan> diagonals_of(const host::MachineFile& file) {
   const std::vector<std::size_t> slides = slides_of(file);
   std::vector<LinePlan> lines;
   if (slides.empty()) return lines;
   for (const std::vector<bool>& downwards : senses(slides.size())) {
     LinePlan line{"", reference_pose(file), reference_pose(file)};
     for (std::size_t k = 0; k < slides.size(); ++k) {
-      const AxisFile& axis = file.axes[slides[k]];
+      const host::AxisFile& axis = file.axes[slides[k]];
       const double inset = std::min(kOverrun_mm, 0.1 * (axis.hi - axis.lo));
       line.name += downwards[k] ? 'N' : 'P';
       line.start[slides[k]] = downwards[k] ? axis.hi - inset : axis.lo + inset;
@@ -87,9 +87,10 @@ std::vector<LinePlan> diagonals_of(const MachineFile& file) {
   return lines;
 }
 
-std::vector<Pose> random_poses(const MachineFile& file, std::size_t count, std::uint64_t seed) {
+std::vector<Pose> random_poses(const host::MachineFile& file, std::size_t count,
+                               std::uint64_t seed) {
   constexpr std::size_t kTries = 50;  // for each, on the average
-  Random random(seed);
+  sim::Random random(seed);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < kTries * count && poses.size() < count; ++i) {
     Pose q{};
@@ -109,8 +110,8 @@ Vec3 within_reach(const MachineChain& chain, const Pose& q, const Vec3& error_wo
   return work.transpose() * (error - offset.remainder);
 }
 
-MeasuredDiagonal measure_line(MotionCell& cell, const MachineChain& chain, const LinePlan& line,
-                              std::size_t points) {
+sim::MeasuredDiagonal measure_line(sim::MotionCell& cell, const MachineChain& chain,
+                                   const LinePlan& line, std::size_t points) {
   const Vec3 tool = chain.tool_point();
   const Vec3 way =
       ideal_points(chain, line.end, tool).work - ideal_points(chain, line.start, tool).work;
@@ -127,17 +128,17 @@ MeasuredDiagonal measure_line(MotionCell& cell, const MachineChain& chain, const
     return direction.dot(reachable_deviation(cell, chain));
   };
   // As the first point is approached, so are all others.
-  DiagonalPass pass{std::vector<double>(points), std::vector<double>(points)};
+  sim::DiagonalPass pass{std::vector<double>(points), std::vector<double>(points)};
   cell.move_to(at(-kOverrun_mm / length), kRapid_mm_s);
   for (std::size_t j = 0; j < points; ++j)
     pass.up[j] = read(j);
   cell.move_to(at(1.0 + kOverrun_mm / length), kRapid_mm_s);
   for (std::size_t j = points; j > 0; --j)
     pass.down[j - 1] = read(j - 1);
-  return mean_of_directions(line.name, length, pass);
+  return sim::mean_of_directions(line.name, length, pass);
 }
 
-std::vector<PlaceReading> measure_places(MotionCell& cell, const MachineChain& chain,
+std::vector<PlaceReading> measure_places(sim::MotionCell& cell, const MachineChain& chain,
                                          const std::vector<Pose>& poses) {
   std::vector<PlaceReading> readings;
   for (const Pose& q : poses) {
@@ -154,4 +155,4 @@ std::vector<PlaceReading> measure_places(MotionCell& cell, const MachineChain& c
   return readings;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

@@ -7,7 +7,7 @@
 #include "host_sim/sim/campaign/measured_diagonals.hpp"
 #include "host_sim/sim/controller/motion_cell.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 
 // A straight line of the linear axes; the rotary ones stand at their references.
 struct LinePlan {
@@ -17,14 +17,14 @@ struct LinePlan {
 };
 
 // The first three linear axes, in the order of the file.
-[[nodiscard]] std::vector<std::size_t> slides_of(const MachineFile& file);
+[[nodiscard]] std::vector<std::size_t> slides_of(const host::MachineFile& file);
 
 // Body diagonals (ISO 230-6) of three linear axes, both diagonals of two, the line of one; a little
 // shorter than the travels, so that every point can be approached.
-[[nodiscard]] std::vector<LinePlan> diagonals_of(const MachineFile& file);
+[[nodiscard]] std::vector<LinePlan> diagonals_of(const host::MachineFile& file);
 
 // Random poses of all axes where the correcting ones can act. May be fewer than asked for.
-[[nodiscard]] std::vector<Pose> random_poses(const MachineFile& file, std::size_t count,
+[[nodiscard]] std::vector<Pose> random_poses(const host::MachineFile& file, std::size_t count,
                                              std::uint64_t seed);
 
 // What stands at a pose that the machine has gone to.
@@ -34,7 +34,7 @@ struct PlaceReading {
   Vec3 orientation_rad = Vec3::Zero();  // work frame
   double tilt_rad = 0.0;                // of the tool axis, Z of the tool frame
   double steerable_rad = 0.0;           // of it what the orienting axes reach with a firm grip
-  Offsets offset{};                     // of the compensation, run-time units
+  host::Offsets offset{};               // of the compensation, run-time units
 };
 
 // Of a position error in the work frame, what the correcting axes can move; all of it where three
@@ -42,10 +42,11 @@ struct PlaceReading {
 [[nodiscard]] Vec3 within_reach(const MachineChain& chain, const Pose& q, const Vec3& error_work);
 
 // The line in both directions, deviations along it.
-[[nodiscard]] MeasuredDiagonal measure_line(MotionCell& cell, const MachineChain& chain,
-                                            const LinePlan& line, std::size_t points);
+[[nodiscard]] sim::MeasuredDiagonal measure_line(sim::MotionCell& cell, const MachineChain& chain,
+                                                 const LinePlan& line, std::size_t points);
 
-[[nodiscard]] std::vector<PlaceReading> measure_places(MotionCell& cell, const MachineChain& chain,
+[[nodiscard]] std::vector<PlaceReading> measure_places(sim::MotionCell& cell,
+                                                       const MachineChain& chain,
                                                        const std::vector<Pose>& poses);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

@@ -10,7 +10,7 @@
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/volume_map.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 namespace {
 
 using nlohmann::json;
@@ -20,16 +20,16 @@ constexpr double kUrad = 1e6;
 json line_charts(const MachineResult& r) {
   json charts = json::array();
   for (std::size_t i = 0; i < r.before.line.size(); ++i) {
-    const MeasuredDiagonal& before = r.before.line[i];
-    const MeasuredDiagonal& after = r.after.line[i];
+    const sim::MeasuredDiagonal& before = r.before.line[i];
+    const sim::MeasuredDiagonal& after = r.after.line[i];
     charts.push_back({{"type", "lines"},
                       {"id", "diagonal-" + before.name},
                       {"title", before.name},
-                      {"x", axis_label("distance", "mm")},
-                      {"y", axis_label("deviation along the diagonal", "µm")},
+                      {"x", host::axis_label("distance", "mm")},
+                      {"y", host::axis_label("deviation along the diagonal", "µm")},
                       {"series",
-                       {series_of("uncompensated", before.distance_mm, before.mean_um),
-                        series_of("compensated", after.distance_mm, after.mean_um)}}});
+                       {host::series_of("uncompensated", before.distance_mm, before.mean_um),
+                        host::series_of("compensated", after.distance_mm, after.mean_um)}}});
   }
   return {{"type", "group"},
           {"id", "diagonals"},
@@ -50,9 +50,10 @@ json reading_chart(const std::vector<PlaceReading>& before, const std::vector<Pl
     y[1].push_back(value(after[i]));
   }
   return {{"type", "lines"},
-          {"x", axis_label("position", "")},
+          {"x", host::axis_label("position", "")},
           {"series",
-           {series_of("uncompensated", number, y[0]), series_of("compensated", number, y[1])}}};
+           {host::series_of("uncompensated", number, y[0]),
+            host::series_of("compensated", number, y[1])}}};
 }
 
 json sphere_chart(const MachineResult& r) {
@@ -61,7 +62,7 @@ json sphere_chart(const MachineResult& r) {
   });
   chart["id"] = "sphere";
   chart["title"] = "Ball on the table, rotary axes turned";
-  chart["y"] = axis_label("off the centre of the ball", "µm");
+  chart["y"] = host::axis_label("off the centre of the ball", "µm");
   chart["note"] = fmt::format(
       "Ball at {:.1f} {:.1f} {:.1f} mm of the workpiece frame, found at the first position; {} "
       "positions could not be reached.",
@@ -74,7 +75,7 @@ json orientation_chart(const MachineResult& r) {
                              [](const PlaceReading& p) { return kUrad * p.tilt_rad; });
   chart["id"] = "orientation";
   chart["title"] = "Direction of the tool, all over the travel";
-  chart["y"] = axis_label("tilt of the tool axis", "µrad");
+  chart["y"] = host::axis_label("tilt of the tool axis", "µrad");
   chart["note"] = fmt::format(
       "What is left of it acts beside the tool point the tables are for: a tool {:g} mm longer is "
       "off by up to {:.2f} µm before and {:.2f} µm after.",
@@ -83,7 +84,7 @@ json orientation_chart(const MachineResult& r) {
 }
 
 json before_after(const MachineResult& r) {
-  std::vector<BeforeAfter> lines;
+  std::vector<host::BeforeAfter> lines;
   for (std::size_t i = 0; i < r.before.line.size(); ++i)
     lines.push_back({"diagonal " + r.before.line[i].name, r.before.line[i].max_abs_um,
                      r.after.line[i].max_abs_um});
@@ -99,7 +100,7 @@ json before_after(const MachineResult& r) {
   if (!orienting.empty())
     lines.push_back({fmt::format("the same where {} have their grip on the tool", orienting),
                      r.steerable_um(r.before), r.steerable_um(r.after)});
-  return before_after_table(
+  return host::before_after_table(
       lines, fmt::format("Largest deviations. {} correct the position{}; least authority over the "
                          "travel {:.3f}.",
                          correcting_letters(r.machine),
@@ -109,24 +110,25 @@ json before_after(const MachineResult& r) {
 
 json volume_chart(const MachineResult& r) {
   std::vector<Vec3> places;
-  VolumeArrows before{"uncompensated", {}};
-  VolumeArrows after{"compensated", {}};
+  host::VolumeArrows before{"uncompensated", {}};
+  host::VolumeArrows after{"compensated", {}};
   const MachineChain& chain = r.machine.chain;
   for (std::size_t i = 0; i < r.before.place.size(); ++i) {
     places.push_back(ideal_points(chain, r.before.place[i].pose, chain.tool_point()).work);
     before.error.push_back(r.before.place[i].deviation_mm);
     after.error.push_back(r.after.place[i].deviation_mm);
   }
-  return volume_map("Error vectors all over the travel", places, {before, after},
-                    "Tool point in the workpiece frame, all axes anywhere on their travels; of the "
-                    "error what the correcting axes can reach.");
+  return host::volume_map(
+      "Error vectors all over the travel", places, {before, after},
+      "Tool point in the workpiece frame, all axes anywhere on their travels; of the "
+      "error what the correcting axes can reach.");
 }
 
-Origins origins(const MachineResult& r) {
-  Origins origins;
+host::Origins origins(const MachineResult& r) {
+  host::Origins origins;
   origins.data = "simulated: no machine was measured";
   origins.settings = {
-      {"chain", chain_text(r.machine.chain)},
+      {"chain", host::chain_text(r.machine.chain)},
       {"seed", fmt::format("{} (errors of the machine, places, noise)", r.options.seed)}};
   origins.inputs = r.inputs;
   origins.instruments = {r.options.noise ? "realistic" : "perfect"};
@@ -137,8 +139,8 @@ Origins origins(const MachineResult& r) {
 
 }  // namespace
 
-json machine_document(const MachineResult& r, const RunContext& run) {
-  ReportParts parts;
+json machine_document(const MachineResult& r, const host::RunContext& run) {
+  host::ReportParts parts;
   parts.title = fmt::format("{}: before and after compensation", r.machine.name);
   parts.subtitle = "Simulated machine with errors drawn at random";
   parts.verdict = machine_verdict(r);
@@ -148,8 +150,8 @@ json machine_document(const MachineResult& r, const RunContext& run) {
   if (!r.before.sphere.empty()) parts.plots.push_back(sphere_chart(r));
   if (!r.before.place.empty()) parts.plots.push_back(orientation_chart(r));
   parts.ticks = run.ticks;
-  parts.provenance = provenance(run, origins(r));
-  return report_document(std::move(parts));
+  parts.provenance = host::provenance(run, origins(r));
+  return host::report_document(std::move(parts));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

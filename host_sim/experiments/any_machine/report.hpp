@@ -5,9 +5,10 @@
 #include "host_sim/experiments/any_machine/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 
 // A run as a report document (host_sim/host/report/page/README.md).
-[[nodiscard]] nlohmann::json machine_document(const MachineResult& result, const RunContext& run);
+[[nodiscard]] nlohmann::json machine_document(const MachineResult& result,
+                                              const host::RunContext& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

@@ -6,24 +6,25 @@
 #include "host_sim/experiments/any_machine/campaign.hpp"
 #include "host_sim/experiments/any_machine/truth.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 namespace {
 
 struct Verification {
-  const MachineFile& file;
-  const TrueMachine& truth;
+  const host::MachineFile& file;
+  const sim::TrueMachine& truth;
   const MachineOptions& options;
   std::vector<LinePlan> lines;
   std::vector<Pose> poses;
   SpherePlan sphere;
 };
 
-VolumeFigures figures_of(const MachineChain& chain, const std::vector<PlaceReading>& readings) {
-  std::vector<VolumePoint> points;
+host::VolumeFigures figures_of(const MachineChain& chain,
+                               const std::vector<PlaceReading>& readings) {
+  std::vector<host::VolumePoint> points;
   points.reserve(readings.size());
   for (const PlaceReading& r : readings)
     points.push_back({ideal_points(chain, r.pose, chain.tool_point()).work, r.deviation_mm});
-  return points.empty() ? VolumeFigures{} : aligned_volume_figures(std::move(points));
+  return points.empty() ? host::VolumeFigures{} : host::aligned_volume_figures(std::move(points));
 }
 
 MachineState verify(const Verification& v, const std::vector<std::uint8_t>& image) {
@@ -43,10 +44,11 @@ MachineState verify(const Verification& v, const std::vector<std::uint8_t>& imag
 
 // Slopes are kept: the place of rotary axes counts from the axes as they are, and the closure takes
 // out of the squareness what the straightness already holds.
-std::unique_ptr<Commissioned> build(const Campaign& campaign, const MachineOptions& options) {
-  CommissionOptions how = tables_only(ModelKind::abbe_closed, options.knots);
+std::unique_ptr<host::Commissioned> build(const sim::Campaign& campaign,
+                                          const MachineOptions& options) {
+  host::CommissionOptions how = host::tables_only(host::ModelKind::abbe_closed, options.knots);
   how.slope = SlopeFit::keep;
-  return commission(campaign.machine, campaign.runs, how);
+  return host::commission(campaign.machine, campaign.runs, how);
 }
 
 template <class Visit>
@@ -61,13 +63,13 @@ void for_each_reading(const MachineState& state, const Visit& visit) {
 
 double MachineState::lines_max_um() const {
   double worst = 0.0;
-  for (const MeasuredDiagonal& d : line)
+  for (const sim::MeasuredDiagonal& d : line)
     worst = std::max(worst, d.max_abs_um);
   return worst;
 }
 
-VolumeFigures MachineState::sphere_um() const {
-  VolumeFigures f;
+host::VolumeFigures MachineState::sphere_um() const {
+  host::VolumeFigures f;
   double squares = 0.0;
   for (const PlaceReading& r : sphere) {
     const double um = kUmPerMm * r.deviation_mm.norm();
@@ -105,26 +107,26 @@ double MachineResult::steerable_um(const MachineState& state) const {
   return kUmPerMm * options.tool_length_mm * state.steerable_max_rad();
 }
 
-MachineResult run_machine_with(const MachineFile& file, const TrueMachine& truth,
-                               const MachineOptions& options, const Progress& progress) {
+MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMachine& truth,
+                               const MachineOptions& options, const host::Progress& progress) {
   MachineResult result;
   result.options = options;
   result.machine = file;
-  result.authority = least_authority(file);
+  result.authority = host::least_authority(file);
   result.lines = diagonals_of(file);
   progress(0.0, "choosing a place for the ball");
   result.sphere = plan_sphere_test(file);
 
-  const NoiseClasses classes = options.noise ? NoiseClasses{} : no_noise();
-  Random random(options.seed);
-  const Campaign campaign =
+  const sim::NoiseClasses classes = options.noise ? sim::NoiseClasses{} : sim::no_noise();
+  sim::Random random(options.seed);
+  const sim::Campaign campaign =
       measure_any_machine(truth, file, classes, options.noise ? options.runs : 1, random);
   const auto tables = build(campaign, options);
   result.warnings = tables->warnings;
-  const std::vector<std::uint8_t> image = make_image(tables->tables);
-  result.inputs = {hashed_bytes("table image made for it", "tables.vct", image)};
+  const std::vector<std::uint8_t> image = host::make_image(tables->tables);
+  result.inputs = {host::hashed_bytes("table image made for it", "tables.vct", image)};
 
-  TrueMachine at_check = truth;
+  sim::TrueMachine at_check = truth;
   at_check.temperature_offset_K = random.normal(classes.temperature_K);
   const Verification verification{file,
                                   at_check,
@@ -140,12 +142,12 @@ MachineResult run_machine_with(const MachineFile& file, const TrueMachine& truth
   return result;
 }
 
-MachineResult run_machine(const MachineOptions& options, const Progress& progress) {
-  const MachineFile file = read_machine_file(options.machine);
+MachineResult run_machine(const MachineOptions& options, const host::Progress& progress) {
+  const host::MachineFile file = host::read_machine_file(options.machine);
   MachineResult result =
       run_machine_with(file, draw_machine(file, options.seed), options, progress);
-  result.inputs.insert(result.inputs.begin(), hashed_file("machine file", options.machine));
+  result.inputs.insert(result.inputs.begin(), host::hashed_file("machine file", options.machine));
   return result;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

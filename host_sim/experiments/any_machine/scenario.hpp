@@ -14,7 +14,7 @@
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 
 struct MachineOptions {
   std::filesystem::path machine;
@@ -24,19 +24,19 @@ struct MachineOptions {
   std::size_t places = 100;           // all over the travel
   std::size_t knots = kDefaultKnots;  // per table: what the node has room for
   double tool_length_mm = 100.0;      // for the effect of orientation errors
-  CellFactory make_cell = make_integrated_cell;
+  sim::CellFactory make_cell = sim::make_integrated_cell;
 };
 
 inline constexpr std::size_t kLinePoints = 21;
 
 struct MachineState {
-  std::vector<MeasuredDiagonal> line;
+  std::vector<sim::MeasuredDiagonal> line;
   std::vector<PlaceReading> place;
-  VolumeFigures volume;  // of the places, beside the best rigid motion; um
+  host::VolumeFigures volume;  // of the places, beside the best rigid motion; um
   std::vector<PlaceReading> sphere;
 
   [[nodiscard]] double lines_max_um() const;
-  [[nodiscard]] VolumeFigures sphere_um() const;
+  [[nodiscard]] host::VolumeFigures sphere_um() const;
   // Of places and ball, rad: how far the axis of the tool is off in direction.
   [[nodiscard]] double tilt_max_rad() const;
   [[nodiscard]] double tilt_rms_rad() const;
@@ -46,14 +46,14 @@ struct MachineState {
 
 struct MachineResult {
   MachineOptions options;
-  MachineFile machine;
+  host::MachineFile machine;
   std::vector<LinePlan> lines;
   SpherePlan sphere;
-  LeastAuthority authority;
+  host::LeastAuthority authority;
   MachineState before;
   MachineState after;
   std::vector<std::string> warnings;  // of the tables
-  std::vector<HashedInput> inputs;
+  std::vector<host::HashedInput> inputs;
 
   // What a tool longer by options.tool_length_mm is off for its orientation alone, and for what of
   // it the orienting axes reach.
@@ -62,9 +62,11 @@ struct MachineResult {
 };
 
 // With errors of one's own. Throws UserError.
-[[nodiscard]] MachineResult run_machine_with(const MachineFile& file, const TrueMachine& truth,
+[[nodiscard]] MachineResult run_machine_with(const host::MachineFile& file,
+                                             const sim::TrueMachine& truth,
                                              const MachineOptions& options,
-                                             const Progress& progress);
-[[nodiscard]] MachineResult run_machine(const MachineOptions& options, const Progress& progress);
+                                             const host::Progress& progress);
+[[nodiscard]] MachineResult run_machine(const MachineOptions& options,
+                                        const host::Progress& progress);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

@@ -8,7 +8,7 @@
 #include "comp/core/units.hpp"
 #include "comp/machine/inverse.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 namespace {
 
 constexpr std::size_t kAllRound = 12;
@@ -20,7 +20,7 @@ struct Roles {
   std::vector<std::size_t> turning;
 };
 
-Roles roles_of(const MachineFile& file) {
+Roles roles_of(const host::MachineFile& file) {
   Roles roles;
   roles.following = slides_of(file);
   const MachineDescription& d = file.chain.description();
@@ -34,7 +34,7 @@ Roles roles_of(const MachineFile& file) {
   return roles;
 }
 
-std::vector<double> stations_of(const AxisFile& axis) {
+std::vector<double> stations_of(const host::AxisFile& axis) {
   const std::size_t count = axis.full_turn() ? kAllRound : kBetweenEnds;
   const auto parts = static_cast<double>(axis.full_turn() ? count : count - 1);
   std::vector<double> stations;
@@ -44,7 +44,8 @@ std::vector<double> stations_of(const AxisFile& axis) {
 }
 
 // All positions of the turning axes, each axis to and fro so that none travels back idly.
-std::vector<Pose> rotary_positions(const MachineFile& file, const Roles& roles, const Pose& start) {
+std::vector<Pose> rotary_positions(const host::MachineFile& file, const Roles& roles,
+                                   const Pose& start) {
   std::vector<Pose> positions{start};
   for (const std::size_t a : roles.turning) {
     std::vector<double> stations = stations_of(file.axes[a]);
@@ -61,12 +62,12 @@ std::vector<Pose> rotary_positions(const MachineFile& file, const Roles& roles, 
   return positions;
 }
 
-bool inside(const AxisFile& axis, double q) {
+bool inside(const host::AxisFile& axis, double q) {
   constexpr double kRounding = 1e-9;
   return q >= axis.lo - kRounding && q <= axis.hi + kRounding;
 }
 
-SpherePlan plan_with(const MachineFile& file, const Roles& roles, const Vec3& ball,
+SpherePlan plan_with(const host::MachineFile& file, const Roles& roles, const Vec3& ball,
                      const Pose& start) {
   SpherePlan plan;
   plan.ball = ball;
@@ -91,7 +92,7 @@ double travel_of(const SpherePlan& plan, const std::vector<std::size_t>& followi
 }
 
 // Rotary axes at their references, the following ones spread over what is well inside their travel.
-std::vector<Pose> starts_of(const MachineFile& file, const Roles& roles) {
+std::vector<Pose> starts_of(const host::MachineFile& file, const Roles& roles) {
   Pose middle{};
   for (std::size_t a = 0; a < file.axes.size(); ++a)
     middle[a] = file.axes[a].reference;
@@ -112,8 +113,8 @@ std::vector<Pose> starts_of(const MachineFile& file, const Roles& roles) {
 
 }  // namespace
 
-bool follow(const MachineFile& file, const std::vector<std::size_t>& following, const Vec3& ball,
-            Pose& q) {
+bool follow(const host::MachineFile& file, const std::vector<std::size_t>& following,
+            const Vec3& ball, Pose& q) {
   constexpr int kMostSteps = 20;
   constexpr double kNear_mm = 1e-9;
   const MachineChain& chain = file.chain;
@@ -139,7 +140,7 @@ bool follow(const MachineFile& file, const std::vector<std::size_t>& following, 
   return false;
 }
 
-SpherePlan plan_sphere_test(const MachineFile& file) {
+SpherePlan plan_sphere_test(const host::MachineFile& file) {
   const Roles roles = roles_of(file);
   SpherePlan best;
   if (roles.turning.empty() || roles.following.size() < 3) return best;
@@ -157,7 +158,7 @@ SpherePlan plan_sphere_test(const MachineFile& file) {
   return best;
 }
 
-std::vector<PlaceReading> measure_sphere(MotionCell& cell, const MachineChain& chain,
+std::vector<PlaceReading> measure_sphere(sim::MotionCell& cell, const MachineChain& chain,
                                          const SpherePlan& plan) {
   std::vector<PlaceReading> readings = measure_places(cell, chain, plan.poses);
   if (readings.empty()) return readings;
@@ -167,4 +168,4 @@ std::vector<PlaceReading> measure_sphere(MotionCell& cell, const MachineChain& c
   return readings;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

@@ -7,7 +7,7 @@
 
 #include "host_sim/experiments/any_machine/places.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::any_machine {
 
 struct SpherePlan {
   Vec3 ball = Vec3::Zero();  // centre, work frame, mm
@@ -18,15 +18,16 @@ struct SpherePlan {
 // Twelve positions of an axis that turns all round, five of any other; the ball where most of them
 // can be reached, then where the other axes travel farthest. Without poses where no rotary axis is
 // left to turn or fewer than three axes follow: linear ones, else the correcting ones.
-[[nodiscard]] SpherePlan plan_sphere_test(const MachineFile& file);
+[[nodiscard]] SpherePlan plan_sphere_test(const host::MachineFile& file);
 
 // Pose whose ideal tool point is at `ball` with all axes but `following` as in `q`; false where
 // there is none within the travel.
-[[nodiscard]] bool follow(const MachineFile& file, const std::vector<std::size_t>& following,
+[[nodiscard]] bool follow(const host::MachineFile& file, const std::vector<std::size_t>& following,
                           const Vec3& ball, Pose& q);
 
 // Deviations less that of the first pose: there the ball has been found.
-[[nodiscard]] std::vector<PlaceReading> measure_sphere(MotionCell& cell, const MachineChain& chain,
+[[nodiscard]] std::vector<PlaceReading> measure_sphere(sim::MotionCell& cell,
+                                                       const MachineChain& chain,
                                                        const SpherePlan& plan);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::any_machine

@@ -12,7 +12,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/io/version.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 using nlohmann::json;
@@ -103,10 +103,11 @@ std::vector<PaperStatement> paper_statements() {
   double profile = 0.0;
   for (std::size_t side = 0; side < 2; ++side) {
     const ErrorMap machine = published_map(PublishedMap::machine, side);
-    require(compare_maps(machine, published_map(PublishedMap::centre, side), difference[side]),
-            "Tables 5 to 8");
+    host::require(
+        compare_maps(machine, published_map(PublishedMap::centre, side), difference[side]),
+        "Tables 5 to 8");
     ProfileDeviation deviation;
-    require(profile_deviation(machine, kProfileRows, deviation), "Tables 5 and 6");
+    host::require(profile_deviation(machine, kProfileRows, deviation), "Tables 5 and 6");
     profile = std::max(profile, deviation.value);
   }
   const MapDifference& left = difference[0];
@@ -133,12 +134,12 @@ std::string grade_text(const FaceInspection& inspection) {
                      grade ? fmt::format("grade {}", *grade) : fmt::format("worse than {}", last));
 }
 
-Verdict face_gear_verdict(const FaceGearResult& run) {
+host::Verdict face_gear_verdict(const FaceGearResult& run) {
   const MapError& one = run.map_error[0];
   const MapError& frame = run.map_error[1];
   const MapError& all = run.map_error[2];
   const double pitch = pitch_disagreement_um(run, FaceStage::compensated);
-  Verdict v;
+  host::Verdict v;
   const NodeAgreement node = agreement_of(run);
   v.ok = node.largest_nm <= 1 && node.verdicts == 0 && all.rms <= kMapAgreement_um &&
          all.rms <= std::min(one.rms, frame.rms) &&
@@ -170,7 +171,7 @@ json face_gear_figures(const FaceGearResult& run) {
   j["gear"] = run.options.gear;
   j["form"] = kFormTruths.at(static_cast<std::size_t>(run.options.form));
   j["seed"] = run.options.seed;
-  j["version"] = kVersion;
+  j["version"] = host::kVersion;
   return j;
 }
 
@@ -208,8 +209,8 @@ std::string face_gear_summary(const FaceGearResult& run) {
   text +=
       fmt::format("{} touches judged by the node: distances as here to {} nm, {} other verdicts\n",
                   node.touches, node.largest_nm, node.verdicts);
-  const Verdict verdict = face_gear_verdict(run);
+  const host::Verdict verdict = face_gear_verdict(run);
   return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

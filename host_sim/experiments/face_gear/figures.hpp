@@ -8,7 +8,7 @@
 #include "host_sim/experiments/face_gear/scenario.hpp"
 #include "host_sim/host/report/progress.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 // What the paper says of its Tables 5 to 8, and what the tables say (seed 002 section 10); µm.
 struct PaperStatement {
@@ -22,8 +22,8 @@ struct PaperStatement {
 // The worst profile of an inspection as a grade, or why there is none.
 [[nodiscard]] std::string grade_text(const FaceInspection& inspection);
 
-[[nodiscard]] Verdict face_gear_verdict(const FaceGearResult& run);
+[[nodiscard]] host::Verdict face_gear_verdict(const FaceGearResult& run);
 [[nodiscard]] nlohmann::json face_gear_figures(const FaceGearResult& run);
 [[nodiscard]] std::string face_gear_summary(const FaceGearResult& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

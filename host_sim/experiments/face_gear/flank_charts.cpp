@@ -9,7 +9,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 using nlohmann::json;
@@ -44,8 +44,8 @@ json topography_of(const FaceGearResult& run, const FlankMap& flank) {
   return {{"type", "lines"},
           {"id", fmt::format("topography-{}", kFaceSideNames[flank.flank.side > 0 ? 0 : 1])},
           {"title", flank_title(flank)},
-          {"x", axis_label("distance from the gear axis", "mm")},
-          {"y", axis_label("height above the tips", "mm")},
+          {"x", host::axis_label("distance from the gear axis", "mm")},
+          {"y", host::axis_label("height above the tips", "mm")},
           {"series",
            {{{"name", "nominal"}, {"style", "dashed"}, {"x", radius}, {"y", nominal}},
             {{"name", fmt::format("measured, {:g} : 1", kMagnification)},
@@ -103,8 +103,8 @@ json flank_maps(const FaceGearResult& run, FaceStage stage) {
 json single_pitch_bars(const FaceGearResult& run, std::size_t side) {
   const std::vector<double>& position = run.at(FaceStage::compensated).pitch.at(side).position;
   std::vector<double> single(position.size());
-  require(single_pitches({position.data(), position.size()}, {single.data(), single.size()}),
-          "pitch");
+  host::require(single_pitches({position.data(), position.size()}, {single.data(), single.size()}),
+                "pitch");
   std::vector<std::string> teeth;
   for (std::size_t k = 1; k <= position.size(); ++k)
     teeth.push_back(std::to_string(k));
@@ -113,7 +113,7 @@ json single_pitch_bars(const FaceGearResult& run, std::size_t side) {
           {"id", fmt::format("single-pitch-{}", kFaceSideNames[side])},
           {"title", fmt::format("Single pitch, {} flanks", kFaceSideNames[side])},
           {"categories", teeth},
-          {"y", axis_label("f_pt", "µm")},
+          {"y", host::axis_label("f_pt", "µm")},
           {"series", {{{"name", "compensated"}, {"values", single}}}},
           {"note", fmt::format("Largest {:.1f} µm; F_p {:.1f} µm, F_p over {} pitches {:.1f} µm.",
                                figures.single, figures.total, kPitchSpan,
@@ -128,15 +128,15 @@ json pitch_curves(const FaceGearResult& run) {
     json series = json::array();
     for (std::size_t s = 0; s < kFaceStages.size(); ++s)
       series.push_back(
-          series_of(kFaceStages.at(s), tooth, run.inspection.at(s).pitch[side].position));
-    json truth = series_of("the gear itself", tooth, run.true_pitch[side].position);
+          host::series_of(kFaceStages.at(s), tooth, run.inspection.at(s).pitch[side].position));
+    json truth = host::series_of("the gear itself", tooth, run.true_pitch[side].position);
     truth["style"] = "dashed";
     series.push_back(truth);
     charts.push_back({{"type", "lines"},
                       {"id", fmt::format("pitch-{}", kFaceSideNames[side])},
                       {"title", fmt::format("{} flanks", kFaceSideNames[side])},
-                      {"x", axis_label("slot", "")},
-                      {"y", axis_label("cumulative pitch deviation", "µm")},
+                      {"x", host::axis_label("slot", "")},
+                      {"y", host::axis_label("cumulative pitch deviation", "µm")},
                       {"series", series}});
   }
   return {{"type", "group"},
@@ -149,4 +149,4 @@ json pitch_curves(const FaceGearResult& run) {
            "is solved."}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

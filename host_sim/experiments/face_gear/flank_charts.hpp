@@ -5,7 +5,7 @@
 
 #include "host_sim/experiments/face_gear/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 // Both flanks of the first slot that was mapped, side by side: the grid as it lies on the flank,
 // its rows displaced by their deviations.
@@ -16,4 +16,4 @@ namespace volcomp::sim {
 [[nodiscard]] nlohmann::json single_pitch_bars(const FaceGearResult& run, std::size_t side);
 [[nodiscard]] nlohmann::json pitch_curves(const FaceGearResult& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

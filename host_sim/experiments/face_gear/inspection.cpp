@@ -14,7 +14,7 @@
 #include "host_sim/experiments/face_gear/truth.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 constexpr int kFrameSlots = 3;
@@ -35,7 +35,7 @@ FaceInspector::FaceInspector(FaceStation& station, const FaceGear& gear, const F
 
 FaceFlank FaceInspector::flank_of(const FlankName& name) const {
   FaceFlank flank;
-  require(choose_flank(gear_, name.side, name.slot, flank), "flank");
+  host::require(choose_flank(gear_, name.side, name.slot, flank), "flank");
   return flank;
 }
 
@@ -59,7 +59,7 @@ void FaceInspector::use(const KnownFrame& frame) {
 
 void FaceInspector::check_fresh() const {
   if (frame_.deployment != station_.deployments())
-    throw UserError("the swing arm was deployed since the frame was found: find it anew");
+    throw host::UserError("the swing arm was deployed since the frame was found: find it anew");
 }
 
 KnownFrame FaceInspector::frame_from_one_ball() {
@@ -69,7 +69,7 @@ KnownFrame FaceInspector::frame_from_one_ball() {
   const FaceContact contact{flank_of(name), radius_, ball};
   FaceAngle found;
   constexpr double kTolerance_mm = 1e-9;
-  require(relieved_face_angle(gear_, contact, 0.0, kTolerance_mm, found), "frame angle");
+  host::require(relieved_face_angle(gear_, contact, 0.0, kTolerance_mm, found), "frame angle");
   // p_gear = Rz(γ) p_believed.
   KnownFrame frame;
   frame.mounting = station_.believed();
@@ -93,7 +93,7 @@ KnownFrame FaceInspector::frame_from_many() {
   settings.freedom = FrameFreedom::all;
   settings.ball_radius = radius_;
   FaceFrame fit;
-  require(fit_face_frame(gear_, {points.data(), points.size()}, settings, {}, fit), "frame");
+  host::require(fit_face_frame(gear_, {points.data(), points.size()}, settings, {}, fit), "frame");
   KnownFrame frame;
   // p_work = mounting p_believed, p_gear = fit p_believed.
   const Frame back{fit.frame.R.transpose(), -(fit.frame.R.transpose() * fit.frame.t)};
@@ -124,7 +124,7 @@ FlankMap FaceInspector::map(const FlankName& name) {
   }
   station_.retract();
   double removed = 0.0;
-  require(zero_at_centre(result.map, removed), "error map");
+  host::require(zero_at_centre(result.map, removed), "error map");
   ProfileDeviation profile;
   if (profile_deviation(result.map, kProfileRows, profile).ok()) result.profile = profile.value;
   return result;
@@ -133,22 +133,22 @@ FlankMap FaceInspector::map(const FlankName& name) {
 FacePitch FaceInspector::pitch(int side) {
   check_fresh();
   ToothAngles round;
-  require(ToothAngles::of(gear_.teeth, round), "pitch");
+  host::require(ToothAngles::of(gear_.teeth, round), "pitch");
   for (int k = 0; k < gear_.teeth; ++k) {
     const FlankName name{side, k};
     const Vec3 ball = touch(name, kCentreRow, kCentreColumn).ball;
     const FaceFoot foot = distance_from_relieved_face(gear_, flank_of(name), ball);
-    require(refuse(foot.reason), fmt::format("pitch, slot {}", k));
-    require(round.record(k, side, foot.distance - radius_, gear_.arm), "pitch");
+    host::require(refuse(foot.reason), fmt::format("pitch, slot {}", k));
+    host::require(round.record(k, side, foot.distance - radius_, gear_.arm), "pitch");
   }
   station_.retract();
   FacePitch pitch;
   const double um = kUmPerMm * gear_.r_pitch;
   for (const double angle : round.angles())
     pitch.position.push_back(um * angle);
-  require(evaluate_pitch(pitch.position, pitch.figures), "pitch");
-  require(cumulative_pitch(pitch.position, kPitchSpan, pitch.over_10), "pitch");
+  host::require(evaluate_pitch(pitch.position, pitch.figures), "pitch");
+  host::require(cumulative_pitch(pitch.position, kPitchSpan, pitch.over_10), "pitch");
   return pitch;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

@@ -13,7 +13,7 @@
 #include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/experiments/face_gear/station.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 // A frame, and the deployment of the arm it holds for.
 struct KnownFrame {
@@ -84,4 +84,4 @@ class FaceInspector {
   NodeAgreement agreement_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

@@ -2,7 +2,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 // Tables 5 to 8 of the paper, µm, as printed.
@@ -55,9 +55,9 @@ constexpr std::array<std::array<std::array<double, kGridCells>, 2>, 2> kTables{{
 
 ErrorMap published_map(PublishedMap from, std::size_t side) {
   ErrorMap map;
-  require(ErrorMap::from(kTables.at(static_cast<std::size_t>(from)).at(side), map),
-          "Tables 5 to 8");
+  host::require(ErrorMap::from(kTables.at(static_cast<std::size_t>(from)).at(side), map),
+                "Tables 5 to 8");
   return map;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

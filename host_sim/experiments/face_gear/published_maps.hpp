@@ -5,7 +5,7 @@
 
 #include "comp/metrology/faces/error_map.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 enum class PublishedMap : std::uint8_t {
   machine,  // Tables 5 and 6: on the machine
@@ -16,4 +16,4 @@ enum class PublishedMap : std::uint8_t {
 // "left" are not printed: excess is taken as positive, row 1 as tip, column 1 as inside.
 [[nodiscard]] ErrorMap published_map(PublishedMap from, std::size_t side);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

@@ -16,7 +16,7 @@
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 using nlohmann::json;
@@ -40,12 +40,12 @@ json stage_table(const FaceGearResult& run) {
           {"title", "Before and after: frame and volumetric compensation"},
           {"columns",
            {{{"title", "measured with"}},
-            column("map − gear, rms", "µm", 2),
-            column("largest", "µm", 2),
-            column("F_p left", "µm", 1),
-            column("f_pt left", "µm", 1),
-            column("F_p right", "µm", 1),
-            column("f_pt right", "µm", 1),
+            host::column("map − gear, rms", "µm", 2),
+            host::column("largest", "µm", 2),
+            host::column("F_p left", "µm", 1),
+            host::column("f_pt left", "µm", 1),
+            host::column("F_p right", "µm", 1),
+            host::column("f_pt right", "µm", 1),
             {{"title", fmt::format("profile, rows {} to {}", kProfileRows.first + 1,
                                    kProfileRows.last + 1)}}}},
           {"rows", rows},
@@ -56,7 +56,7 @@ double largest_over_all_rows() {
   double largest = 0.0;
   for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
     ProfileDeviation profile;
-    require(
+    host::require(
         profile_deviation(published_map(PublishedMap::machine, side), {0, kGridRows - 1}, profile),
         "Tables 5 and 6");
     largest = std::max(largest, profile.value);
@@ -73,8 +73,8 @@ json statement_table() {
           {"title", "What the paper says of its Tables 5 to 8"},
           {"columns",
            {{{"title", "largest difference between machine and measuring centre"}},
-            column("stated", "µm", 1),
-            column("in the tables", "µm", 1)}},
+            host::column("stated", "µm", 1),
+            host::column("in the tables", "µm", 1)}},
           {"rows", rows},
           {"note", fmt::format("The profile is the largest range of a column over rows {} to {}; "
                                "over all {} rows the largest is {:.1f} µm.",
@@ -85,7 +85,7 @@ json statement_table() {
 // The paper gives nothing of it.
 json machine_table(const FaceGearResult& run) {
   json rows = json::array();
-  for (const AxisFile& axis : run.machine.axes) {
+  for (const host::AxisFile& axis : run.machine.axes) {
     const double scale = axis.rotary ? kDegreesPerRad : 1.0;
     rows.push_back({std::string(1, axis.letter), scale * axis.lo, scale * axis.hi,
                     axis.rotary ? "deg" : "mm",
@@ -118,7 +118,7 @@ json machine_table(const FaceGearResult& run) {
 json before_after(const FaceGearResult& run) {
   const FaceInspection& before = run.at(FaceStage::one_ball);
   const FaceInspection& after = run.at(FaceStage::compensated);
-  std::vector<BeforeAfter> lines{
+  std::vector<host::BeforeAfter> lines{
       {"error map from the gear, rms", run.map_error.front().rms, run.map_error.back().rms},
       {"error map from the gear, largest", run.map_error.front().max, run.map_error.back().max}};
   for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
@@ -130,17 +130,18 @@ json before_after(const FaceGearResult& run) {
                      before.pitch[side].figures.single, after.pitch[side].figures.single,
                      truth.single});
   }
-  return before_after_table(lines,
-                            fmt::format("Before: the frame of the gear from one ball as in the "
-                                        "paper, nothing compensated. After: the frame of {} "
-                                        "touches, the machine compensated.",
-                                        after.frame.touches),
-                            0);
+  return host::before_after_table(
+      lines,
+      fmt::format("Before: the frame of the gear from one ball as in the "
+                  "paper, nothing compensated. After: the frame of {} "
+                  "touches, the machine compensated.",
+                  after.frame.touches),
+      0);
 }
 
-Origins origins(const FaceGearResult& run) {
+host::Origins origins(const FaceGearResult& run) {
   const FaceGearOptions& o = run.options;
-  Origins origins;
+  host::Origins origins;
   origins.settings = {{"gear", o.gear},
                       {"form of the flanks", kFormTruths.at(static_cast<std::size_t>(o.form))},
                       {"seed", fmt::format("{} (errors of machine and gear)", o.seed)}};
@@ -156,8 +157,8 @@ Origins origins(const FaceGearResult& run) {
 
 }  // namespace
 
-json face_gear_document(const FaceGearResult& result, const RunContext& run) {
-  ReportParts parts;
+json face_gear_document(const FaceGearResult& result, const host::RunContext& run) {
+  host::ReportParts parts;
   parts.title = "YK7280: a face gear measured on its machine";
   parts.subtitle = fmt::format(
       "{} teeth, module {:g}, shaper of {} teeth; every touch through drives, bus and node",
@@ -172,8 +173,8 @@ json face_gear_document(const FaceGearResult& result, const RunContext& run) {
     parts.plots.push_back(single_pitch_bars(result, side));
   parts.details = {stage_table(result), statement_table(), machine_table(result)};
   parts.ticks = run.ticks;
-  parts.provenance = provenance(run, origins(result));
-  return report_document(std::move(parts));
+  parts.provenance = host::provenance(run, origins(result));
+  return host::report_document(std::move(parts));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

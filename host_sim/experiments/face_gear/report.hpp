@@ -6,10 +6,10 @@
 #include "host_sim/experiments/face_gear/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 // The document of a report.
 [[nodiscard]] nlohmann::json face_gear_document(const FaceGearResult& result,
-                                                const RunContext& run);
+                                                const host::RunContext& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

@@ -12,7 +12,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/gear_choice.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 // Angle of the paper's ball: (20.34, 170.14, 47), radius 0.5 (seed 002 section 5).
@@ -32,7 +32,7 @@ double worked_example_deg(const FaceGear& gear) {
 double measure_kernel_ns(const FaceGear& gear, const FaceGrid& grid) {
   constexpr int kRounds = 200;
   FaceFlank flank;
-  require(choose_flank(gear, 1, 0, flank), "flank");
+  host::require(choose_flank(gear, 1, 0, flank), "flank");
   volatile double sink = 0.0;
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < kRounds; ++i) {
@@ -49,8 +49,8 @@ std::array<FacePitch, 2> true_pitch(const FaceGearErrors& errors) {
   std::array<FacePitch, 2> pitch;
   for (std::size_t side = 0; side < pitch.size(); ++side) {
     pitch[side].position = errors.pitch[side];
-    require(evaluate_pitch(pitch[side].position, pitch[side].figures), "pitch");
-    require(cumulative_pitch(pitch[side].position, kPitchSpan, pitch[side].over_10), "pitch");
+    host::require(evaluate_pitch(pitch[side].position, pitch[side].figures), "pitch");
+    host::require(cumulative_pitch(pitch[side].position, kPitchSpan, pitch[side].over_10), "pitch");
   }
   return pitch;
 }
@@ -76,10 +76,11 @@ MapError map_error(const std::vector<FlankMap>& maps, const FaceGearErrors& erro
 }
 
 FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStage stage,
-                       const Identification& identification, const Progress& progress) {
-  const TableKind kind = stage == FaceStage::compensated ? TableKind::identified : TableKind::none;
-  const MachineTables tables =
-      tables_of(identification, hall.file, hall.file.chain.description(), kind, run.options.knots);
+                       const sim::Identification& identification, const host::Progress& progress) {
+  const sim::TableKind kind =
+      stage == FaceStage::compensated ? sim::TableKind::identified : sim::TableKind::none;
+  const MachineTables tables = sim::tables_of(
+      identification, hall.file, hall.file.chain.description(), kind, run.options.knots);
   FaceStation station(hall, tables, nominal_mounting());
   FaceInspector inspector(station, run.gear, run.grid, hall.file.probe->radius_mm);
   FaceInspection result;
@@ -109,18 +110,19 @@ FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStag
 
 }  // namespace
 
-FaceGearResult run_face_gear(const FaceGearOptions& options, const Progress& progress) {
+FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progress& progress) {
   FaceGearResult run;
   run.options = options;
-  run.machine = read_machine_file(options.machine);
-  if (!run.machine.probe) throw UserError(run.machine.path + ": the machine has no [probe]");
-  const GearChoice choice = choose_face_gear(options.gear);
+  run.machine = host::read_machine_file(options.machine);
+  if (!run.machine.probe) throw host::UserError(run.machine.path + ": the machine has no [probe]");
+  const host::GearChoice choice = host::choose_face_gear(options.gear);
   run.gear = choice.gear;
-  run.inputs = {hashed_file("machine file", options.machine)};
-  if (!is_published_gear(options.gear)) run.inputs.push_back(hashed_file("gear", options.gear));
-  require(make_face_grid(choice.gear, choice.plan, run.grid), options.gear);
+  run.inputs = {host::hashed_file("machine file", options.machine)};
+  if (!host::is_published_gear(options.gear))
+    run.inputs.push_back(host::hashed_file("gear", options.gear));
+  host::require(make_face_grid(choice.gear, choice.plan, run.grid), options.gear);
   if (options.flanks < 1 || options.flanks > run.gear.teeth)
-    throw UserError(fmt::format("--flanks: 1 to {}, not {}", run.gear.teeth, options.flanks));
+    throw host::UserError(fmt::format("--flanks: 1 to {}, not {}", run.gear.teeth, options.flanks));
   run.errors = make_face_errors(run.gear, options.form, options.seed);
   run.true_pitch = true_pitch(run.errors);
   run.worked_example_deg = worked_example_deg(run.gear);
@@ -135,7 +137,7 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const Progress& pro
                       options.cycle_hz,
                       options.seed};
   progress(0.0, "identification of the machine");
-  const Identification identification = identify_axes(hall.truth, run.machine);
+  const sim::Identification identification = sim::identify_axes(hall.truth, run.machine);
   for (const FaceStage stage : {FaceStage::one_ball, FaceStage::frame, FaceStage::compensated}) {
     const auto s = static_cast<std::size_t>(stage);
     run.inspection[s] = inspect(hall, run, stage, identification, progress);
@@ -145,4 +147,4 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const Progress& pro
   return run;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

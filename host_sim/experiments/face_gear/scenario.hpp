@@ -13,7 +13,7 @@
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 struct FaceGearOptions {
   std::filesystem::path machine;
@@ -22,8 +22,8 @@ struct FaceGearOptions {
   FormTruth form = FormTruth::tables;
   std::uint64_t seed = 1;  // of the errors of machine and gear
   std::size_t knots = kDefaultKnots;
-  double cycle_hz = kBusCycleOfFive_hz;
-  BusAxesFactory make_axes = loopback_axes();
+  double cycle_hz = sim::kBusCycleOfFive_hz;
+  sim::BusAxesFactory make_axes = sim::loopback_axes();
 };
 
 // The three ways to measure, in their order.
@@ -38,8 +38,8 @@ struct MapError {
 
 struct FaceGearResult {
   FaceGearOptions options;
-  MachineFile machine;
-  std::vector<HashedInput> inputs;
+  host::MachineFile machine;
+  std::vector<host::HashedInput> inputs;
   FaceGear gear;
   FaceGrid grid;
   FaceGearErrors errors;
@@ -56,6 +56,6 @@ struct FaceGearResult {
 
 // Throws UserError.
 [[nodiscard]] FaceGearResult run_face_gear(const FaceGearOptions& options,
-                                           const Progress& progress);
+                                           const host::Progress& progress);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

@@ -7,13 +7,13 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 constexpr double kStandOff_mm = 0.4;    // of the ball before a touch
 constexpr double kOverTravel_mm = 0.4;  // as far as it may go without one
 constexpr double kAboveTips_mm = 8.0;
-constexpr ProbingFeeds kFeeds{50.0, 5.0, 20.0};
+constexpr sim::ProbingFeeds kFeeds{50.0, 5.0, 20.0};
 
 Vec3 in_slot(const FaceGear& gear, const FlankName& flank, const Vec3& v) {
   const double angle = 2.0 * kPi * flank.slot / gear.teeth;
@@ -29,14 +29,15 @@ FaceStation::FaceStation(const FaceHall& hall, const MachineTables& tables, cons
       gear_(hall.gear, hall.mounting, hall.errors),
       random_(hall.seed),
       believed_(believed) {
-  require(MachineChain::build(tables.machine, chain_), hall.file.path);
-  auto axes = hall.make_axes(bus_settings(hall.file, hall.cycle_hz), make_image(tables));
+  host::require(MachineChain::build(tables.machine, chain_), hall.file.path);
+  auto axes =
+      hall.make_axes(host::bus_settings(hall.file, hall.cycle_hz), host::make_image(tables));
   axes_ = axes.get();
-  axes_->controller().use_probe(node_probe(hall.file));
-  cell_ = std::make_unique<MotionCell>(truth_, std::move(axes));
+  axes_->controller().use_probe(sim::node_probe(hall.file));
+  cell_ = std::make_unique<sim::MotionCell>(truth_, std::move(axes));
   last_ = pose_at({hall.gear.r_pitch, 0.0, hall.gear.z_tip - kAboveTips_mm});
   cell_->place(last_);
-  prober_ = std::make_unique<Prober>(*cell_, *axes_, hall.file);
+  prober_ = std::make_unique<sim::Prober>(*cell_, *axes_, hall.file);
   deploy_arm();
   believe(believed);
 }
@@ -45,18 +46,18 @@ void FaceStation::deploy_arm() {
   MachineDescription description = hall_.truth.chain.description();
   for (double& component : description.tool_point)
     component += kArmRepeatability_mm / std::sqrt(3.0) * random_.uniform(-1.0, 1.0);
-  require(MachineChain::build(description, truth_.chain), hall_.file.path);
-  TouchProbe::Settings probe;
-  const NodeProbe described = node_probe(hall_.file);
+  host::require(MachineChain::build(description, truth_.chain), hall_.file.path);
+  sim::TouchProbe::Settings probe;
+  const sim::NodeProbe described = sim::node_probe(hall_.file);
   probe.radius_mm = described.radius.coefficient[0];
   probe.delay_ns = std::llround(1e3 * described.delay_us);
-  axes_->mount(TouchProbe(truth_, gear_, probe));
+  axes_->mount(sim::TouchProbe(truth_, gear_, probe));
   ++deployments_;
 }
 
 void FaceStation::believe(const Frame& mounting) {
   believed_ = mounting;
-  NodeProbe probe = node_probe(hall_.file);
+  sim::NodeProbe probe = sim::node_probe(hall_.file);
   probe.workpiece = mounting;
   probe.gear_id = kGearId;
   probe.gear = hall_.gear;
@@ -115,10 +116,10 @@ FaceStationTouch FaceStation::touch(const FlankName& flank, const SurfacePoint& 
   };
   const Pose from = off(radius + kStandOff_mm);
   approach(flank, from);
-  const FlankFeature feature{kGearId, flank.side, flank.slot, row, column, radius, kGate_mm};
-  const NodePoint point = prober_->touch(from, off(radius - kOverTravel_mm), feature, kFeeds);
+  const sim::FlankFeature feature{kGearId, flank.side, flank.slot, row, column, radius, kGate_mm};
+  const sim::NodePoint point = prober_->touch(from, off(radius - kOverTravel_mm), feature, kFeeds);
   last_ = from;
   return {point.workpiece, point.flank};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

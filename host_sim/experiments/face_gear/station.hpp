@@ -9,17 +9,17 @@
 #include "host_sim/sim/controller/prober.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 // What all stations of a run share; outlives them.
 struct FaceHall {
-  MachineFile file;
-  TrueMachine truth;
-  FaceGear gear;         // as drawn
-  Frame mounting;        // of the gear on the table, as it really is
-  FaceDeviation errors;  // of the gear itself
-  BusAxesFactory make_axes;
-  double cycle_hz = kBusCycleOfFive_hz;
+  host::MachineFile file;
+  sim::TrueMachine truth;
+  FaceGear gear;              // as drawn
+  Frame mounting;             // of the gear on the table, as it really is
+  sim::FaceDeviation errors;  // of the gear itself
+  sim::BusAxesFactory make_axes;
+  double cycle_hz = sim::kBusCycleOfFive_hz;
   std::uint64_t seed = 1;
 };
 
@@ -38,7 +38,7 @@ inline constexpr double kGate_mm = 0.25;     // more than a frame is off before 
 // A touch as the node has seen it.
 struct FaceStationTouch {
   Vec3 ball = Vec3::Zero();  // centre, in the believed gear frame
-  FlankJudgement judgement;
+  sim::FlankJudgement judgement;
 };
 
 class FaceStation {
@@ -68,13 +68,13 @@ class FaceStation {
 
   const FaceHall& hall_;
   MachineChain chain_;
-  TrueMachine truth_;  // with the arm as it has come to stand
-  FaceGearOnTable gear_;
-  Random random_;
+  sim::TrueMachine truth_;  // with the arm as it has come to stand
+  sim::FaceGearOnTable gear_;
+  sim::Random random_;
   Frame believed_;
-  BusAxes* axes_ = nullptr;
-  std::unique_ptr<MotionCell> cell_;
-  std::unique_ptr<Prober> prober_;
+  sim::BusAxes* axes_ = nullptr;
+  std::unique_ptr<sim::MotionCell> cell_;
+  std::unique_ptr<sim::Prober> prober_;
   unsigned deployments_ = 0;
   double table_ = 0.0;  // C, rad
   bool clear_ = true;   // the ball is above the tips
@@ -82,4 +82,4 @@ class FaceStation {
   FlankName last_flank_{0, -1};
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

@@ -9,15 +9,15 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/truth/drawn_errors.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 namespace {
 
 constexpr double kHeight_mm = 200.0;    // of the gear above the table
 constexpr double kFirstSlot_rad = 0.3;  // lies anywhere
 
 // A table repeats itself every turn.
-ErrorFunction once_per_turn(double amplitude, Random& random) {
-  ErrorFunction f;
+sim::ErrorFunction once_per_turn(double amplitude, sim::Random& random) {
+  sim::ErrorFunction f;
   f.amplitude[1] = amplitude;  // sin 2πu
   f.phase[1] = random.uniform(0.0, 2.0 * kPi);
   f.ripple = 0.3 * amplitude;
@@ -26,13 +26,13 @@ ErrorFunction once_per_turn(double amplitude, Random& random) {
   return f;
 }
 
-ErrorFunction along_slide(double amplitude, Random& random) {
+sim::ErrorFunction along_slide(double amplitude, sim::Random& random) {
   const double rise = amplitude * random.uniform(-1.0, 1.0);
-  return waves_on_line(rise, amplitude, random);
+  return sim::waves_on_line(rise, amplitude, random);
 }
 
-TrueAxis true_axis(const AxisFile& file, Random& random) {
-  TrueAxis axis;
+sim::TrueAxis true_axis(const host::AxisFile& file, sim::Random& random) {
+  sim::TrueAxis axis;
   axis.lo = file.lo;
   axis.hi = file.hi;
   for (std::size_t c = 0; c < axis.channel.size(); ++c) {
@@ -44,7 +44,7 @@ TrueAxis true_axis(const AxisFile& file, Random& random) {
 }
 
 // Waves over rows and columns, zero at the centre.
-ErrorMap synthetic_form(Random& random) {
+ErrorMap synthetic_form(sim::Random& random) {
   constexpr double kForm_um = 3.0;
   const double phase = random.uniform(0.0, 2.0 * kPi);
   ErrorMap map;
@@ -56,13 +56,13 @@ ErrorMap synthetic_form(Random& random) {
     }
   }
   double removed = 0.0;
-  require(zero_at_centre(map, removed), "synthetic form");
+  host::require(zero_at_centre(map, removed), "synthetic form");
   return map;
 }
 
 // Three waves a turn and a little of everything else. No eccentricity: a frame that is found on the
 // flanks takes it for the place of the axis, and rightly so.
-std::vector<double> pitch_errors(int teeth, Random& random) {
+std::vector<double> pitch_errors(int teeth, sim::Random& random) {
   constexpr double kWave_um = 2.5;
   constexpr double kRandom_um = 0.5;
   const double phase = random.uniform(0.0, 2.0 * kPi);
@@ -118,10 +118,10 @@ double value_at(const ErrorMap& map, const GridPlace& place) {
 
 }  // namespace
 
-TrueMachine make_yk7280_truth(const MachineFile& file, std::uint64_t seed) {
+sim::TrueMachine make_yk7280_truth(const host::MachineFile& file, std::uint64_t seed) {
   file.expect_axes("XYZC");
-  Random random(seed);
-  TrueMachine machine;
+  sim::Random random(seed);
+  sim::TrueMachine machine;
   machine.chain = file.chain;
   for (std::size_t a = 0; a < file.axes.size(); ++a)
     machine.axis[a] = true_axis(file.axes[a], random);
@@ -129,7 +129,7 @@ TrueMachine make_yk7280_truth(const MachineFile& file, std::uint64_t seed) {
 }
 
 FaceGearErrors make_face_errors(const FaceGear& gear, FormTruth form, std::uint64_t seed) {
-  Random random(seed);
+  sim::Random random(seed);
   FaceGearErrors errors;
   for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
     errors.form[side] = form == FormTruth::tables ? published_map(PublishedMap::centre, side)
@@ -140,8 +140,8 @@ FaceGearErrors make_face_errors(const FaceGear& gear, FormTruth form, std::uint6
 }
 
 // A flank that is displaced in the sense of rising slots takes material away on side +1.
-FaceDeviation deviation_of(const FaceGearErrors& errors, const FaceGear& gear,
-                           const FaceGrid& grid) {
+sim::FaceDeviation deviation_of(const FaceGearErrors& errors, const FaceGear& gear,
+                                const FaceGrid& grid) {
   const auto kept = std::make_shared<std::pair<FaceGearErrors, FaceGrid>>(errors, grid);
   const double along_normal = gear.arm / gear.r_pitch;
   return [kept, along_normal](int side, int slot, const Vec3& foot) {
@@ -173,4 +173,4 @@ Frame true_mounting() {
                        {15e-6, -20e-6, 0.0});
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

@@ -13,7 +13,7 @@
 #include "host_sim/sim/artefacts/face_gear.hpp"
 #include "host_sim/sim/truth/true_machine.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::face_gear {
 
 inline constexpr std::array<int, 2> kFaceSides{1, -1};  // left is the flank at y > 0
 inline constexpr std::array<const char*, 2> kFaceSideNames{"left", "right"};
@@ -24,7 +24,7 @@ inline constexpr double kFaceAngleError_rad = 10e-6;
 
 // Smooth errors of a few µm and µrad on every axis, phases from `seed`. Throws UserError when the
 // machine has other axes than X Y Z C.
-[[nodiscard]] TrueMachine make_yk7280_truth(const MachineFile& file, std::uint64_t seed);
+[[nodiscard]] sim::TrueMachine make_yk7280_truth(const host::MachineFile& file, std::uint64_t seed);
 
 enum class FormTruth : std::uint8_t {
   tables,     // of the paper's gear measuring centre (Tables 7 and 8)
@@ -40,8 +40,8 @@ struct FaceGearErrors {
 [[nodiscard]] FaceGearErrors make_face_errors(const FaceGear& gear, FormTruth form,
                                               std::uint64_t seed);
 // Between the points of the grid the form is interpolated.
-[[nodiscard]] FaceDeviation deviation_of(const FaceGearErrors& errors, const FaceGear& gear,
-                                         const FaceGrid& grid);
+[[nodiscard]] sim::FaceDeviation deviation_of(const FaceGearErrors& errors, const FaceGear& gear,
+                                              const FaceGrid& grid);
 
 // The gear frame in the work frame of the machine: Z points down into the table.
 [[nodiscard]] Frame face_mounting(const Vec3& origin, double angle, const Vec3& tilt);
@@ -49,4 +49,4 @@ struct FaceGearErrors {
 [[nodiscard]] Frame nominal_mounting();
 [[nodiscard]] Frame true_mounting();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::face_gear

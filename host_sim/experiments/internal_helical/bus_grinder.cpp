@@ -15,7 +15,7 @@
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 constexpr std::size_t kX = 0;
@@ -28,10 +28,10 @@ constexpr std::array<Direction, 2> kDirections{Direction::forward, Direction::ba
 constexpr int kMostWaiting = 5000;
 
 // A machine that is as it was drawn.
-std::vector<std::uint8_t> image_without_errors(const MachineFile& machine) {
-  Identification nothing;
-  for (const AxisFile& file : machine.axes) {
-    IdentifiedAxis axis;
+std::vector<std::uint8_t> image_without_errors(const host::MachineFile& machine) {
+  sim::Identification nothing;
+  for (const host::AxisFile& file : machine.axes) {
+    sim::IdentifiedAxis axis;
     axis.letter = file.letter;
     for (std::size_t t = 0; t < file.targets; ++t)
       axis.nodes.push_back(file.lo + static_cast<double>(t) * (file.hi - file.lo) /
@@ -39,8 +39,8 @@ std::vector<std::uint8_t> image_without_errors(const MachineFile& machine) {
     axis.motion.assign(file.targets, ErrorMotion::Zero());
     nothing.axis.push_back(axis);
   }
-  return make_image(
-      tables_of(nothing, machine, machine.chain.description(), TableKind::none, node::kNodeKnots));
+  return host::make_image(sim::tables_of(nothing, machine, machine.chain.description(),
+                                         sim::TableKind::none, node::kNodeKnots));
 }
 
 bool corrects(const MachineChain& chain, std::size_t axis) {
@@ -50,15 +50,16 @@ bool corrects(const MachineChain& chain, std::size_t axis) {
 }
 
 // What a node would refuse, said in words of the machine file.
-void check(const MachineFile& machine, const BusSettings& settings, const WatchedStrokes& watched) {
+void check(const host::MachineFile& machine, const host::BusSettings& settings,
+           const host::WatchedStrokes& watched) {
   machine.expect_axes("XZC");
   if (!corrects(machine.chain, kC))
-    throw UserError(machine.path +
-                    ": 'axes' of [correction] must contain C: the learned offset is "
-                    "added to that of C");
-  for (const BusAxis& axis : settings.axes) {
+    throw host::UserError(machine.path +
+                          ": 'axes' of [correction] must contain C: the learned offset is "
+                          "added to that of C");
+  for (const host::BusAxis& axis : settings.axes) {
     if (axis.scale_numerator == (axis.rotary ? 512U : 1U) && axis.scale_denominator == 1) continue;
-    throw UserError(
+    throw host::UserError(
         fmt::format("{}: the drives of the simulated grinder count in nanometres and "
                     "2^-31 turn; axis {} has other units",
                     machine.path, axis.letter));
@@ -67,27 +68,28 @@ void check(const MachineFile& machine, const BusSettings& settings, const Watche
   constexpr std::uint8_t kLate = 2;  // 2200h:04
   if (node::OffsetGate::unhindered(slew, kLate) < watched.offsets.rate) {
     const double rad = watched.offsets.rate * (256.0 / kUnitsPerRad) * (2 * kLate + 3);
-    throw UserError(
+    throw host::UserError(
         fmt::format("{}: 'rate_rad_per_s' of [correction] must be at least {:.3f}, so that the "
                     "learned offset of C can change as fast as its tables need",
                     machine.path, 1e6 * rad / settings.period_us));
   }
-  require(std::make_unique<GrinderMonitor>()->configure(watched.monitor), machine.path);
-  require(check_rules(watched.along), machine.path);
-  require(check_rules(watched.around), machine.path);
+  host::require(std::make_unique<GrinderMonitor>()->configure(watched.monitor), machine.path);
+  host::require(check_rules(watched.along), machine.path);
+  host::require(check_rules(watched.around), machine.path);
 }
 
 }  // namespace
 
-std::unique_ptr<BusAxes> grinder_axes(const MachineFile& machine, const WatchedStrokes& watched,
-                                      const BusAxesFactory& make_axes) {
-  BusSettings settings = bus_settings(machine, 1.0 / kStrokeTick_s);
+std::unique_ptr<sim::BusAxes> grinder_axes(const host::MachineFile& machine,
+                                           const host::WatchedStrokes& watched,
+                                           const sim::BusAxesFactory& make_axes) {
+  host::BusSettings settings = host::bus_settings(machine, 1.0 / kStrokeTick_s);
   settings.strokes = watched;
   check(machine, settings, watched);
   return make_axes(settings, image_without_errors(machine));
 }
 
-BusGrinder::BusGrinder(std::unique_ptr<BusAxes> axes, const StrokeStep& standing,
+BusGrinder::BusGrinder(std::unique_ptr<sim::BusAxes> axes, const StrokeStep& standing,
                        GrinderPlant& plant)
     : axes_(std::move(axes)), last_(standing) {
   axes_->stand_at({static_cast<double>(standing.x) / kNmPerMm,
@@ -113,28 +115,29 @@ void BusGrinder::cycle(const StrokeStep& step) {
 void BusGrinder::rest_until_answered() {
   StrokeStep rest = last_;
   rest.in_face = rest.stroke_end = false;
-  SdoChannel& sdo = axes_->controller().node_objects();
-  const std::vector<std::int32_t> path{wrapped(rest.x), wrapped(rest.z), wrapped(rest.c)};
+  host::SdoChannel& sdo = axes_->controller().node_objects();
+  const std::vector<std::int32_t> path{sim::wrapped(rest.x), sim::wrapped(rest.z),
+                                       sim::wrapped(rest.c)};
   for (int i = 0; i < kMostWaiting && !sdo.idle() && sdo.failure().empty(); ++i) {
     axes_->controller().send_process_state(rest);
     axes_->run_cycle(path);
   }
   if (sdo.idle()) return;
-  throw UserError("the compensation node does not answer any more");
+  throw host::UserError("the compensation node does not answer any more");
 }
 
-SdoChannel::Bytes BusGrinder::read(canopen::ObjectId object, std::size_t most,
-                                   const std::string& what) {
-  SdoChannel& sdo = axes_->controller().node_objects();
-  SdoChannel::Bytes found;
-  sdo.read(object, most, what, [&found](const SdoChannel::Bytes& bytes) { found = bytes; });
+host::SdoChannel::Bytes BusGrinder::read(canopen::ObjectId object, std::size_t most,
+                                         const std::string& what) {
+  host::SdoChannel& sdo = axes_->controller().node_objects();
+  host::SdoChannel::Bytes found;
+  sdo.read(object, most, what, [&found](const host::SdoChannel::Bytes& bytes) { found = bytes; });
   rest_until_answered();
-  if (!sdo.failure().empty()) throw UserError(sdo.failure());
+  if (!sdo.failure().empty()) throw host::UserError(sdo.failure());
   return found;
 }
 
 double BusGrinder::read_real(canopen::ObjectId object, const std::string& what) {
-  const std::uint64_t raw = number(read(object, sizeof(double), what));
+  const std::uint64_t raw = host::number(read(object, sizeof(double), what));
   double value = 0.0;
   std::memcpy(&value, &raw, sizeof value);
   return value;
@@ -142,7 +145,7 @@ double BusGrinder::read_real(canopen::ObjectId object, const std::string& what) 
 
 std::vector<double> BusGrinder::read_floats(canopen::ObjectId object, std::size_t most,
                                             const std::string& what) {
-  const SdoChannel::Bytes bytes = read(object, sizeof(float) * most, what);
+  const host::SdoChannel::Bytes bytes = read(object, sizeof(float) * most, what);
   std::vector<double> values;
   for (std::size_t at = 0; at + sizeof(float) <= bytes.size(); at += sizeof(float))
     values.push_back(static_cast<double>(load_f32(&bytes[at])));
@@ -150,29 +153,29 @@ std::vector<double> BusGrinder::read_floats(canopen::ObjectId object, std::size_
 }
 
 std::string BusGrinder::feed_trouble() {
-  const std::uint64_t status = number(read({0x2524, 3}, 2, "status of the learned offset"));
+  const std::uint64_t status = host::number(read({0x2524, 3}, 2, "status of the learned offset"));
   if ((status & kOtherFeed) == 0) return {};
-  const std::uint64_t feed = number(read({0x2524, 2}, 4, "feed of the learned tables"));
+  const std::uint64_t feed = host::number(read({0x2524, 2}, 4, "feed of the learned tables"));
   return fmt::format(
       "the node adds no learned offset: its tables are for F={:g} mm/s, the stroke has F={:g} mm/s",
       static_cast<double>(feed) / kNmPerMm, last_.feed_nm_per_s / kNmPerMm);
 }
 
 void BusGrinder::learn() {
-  if (const std::string trouble = feed_trouble(); !trouble.empty()) throw UserError(trouble);
-  SdoChannel& sdo = axes_->controller().node_objects();
+  if (const std::string trouble = feed_trouble(); !trouble.empty()) throw host::UserError(trouble);
+  host::SdoChannel& sdo = axes_->controller().node_objects();
   sdo.write_value<std::uint8_t>({0x2520, 1}, static_cast<std::uint8_t>(node::LearnCommand::learn),
                                 "learning");
   rest_until_answered();
   if (sdo.failure().empty()) return;
   sdo.clear();
-  const auto reason = static_cast<Reason>(number(read({0x2520, 4}, 1, "reason")));
-  throw UserError(
+  const auto reason = static_cast<Reason>(host::number(read({0x2520, 4}, 1, "reason")));
+  throw host::UserError(
       fmt::format("the node refuses to learn: {} [{}]", sentence(reason), code(reason)));
 }
 
 MonitorView BusGrinder::view() {
-  const WatchedStrokes& watched = *axes_->controller().settings().strokes;
+  const host::WatchedStrokes& watched = *axes_->controller().settings().strokes;
   const double um_per_rad = kUmPerMm * watched.monitor.flank_per_rad;
   const auto on_flank = [um_per_rad](std::vector<double> rad) {
     for (double& value : rad)
@@ -205,8 +208,11 @@ MonitorView BusGrinder::view() {
 
 // 2526h:01, see firmware/node/strokes/stroke_objects.hpp.
 LearnedTables BusGrinder::tables() {
-  const SdoChannel::Bytes image = read({0x2526, 1}, node::kMostLearnedBytes, "learned tables");
-  const auto damaged = [] { return UserError("the node's learned tables are damaged on the way"); };
+  const host::SdoChannel::Bytes image =
+      read({0x2526, 1}, node::kMostLearnedBytes, "learned tables");
+  const auto damaged = [] {
+    return host::UserError("the node's learned tables are damaged on the way");
+  };
   if (image.size() < node::kLearnedHeader + 4) throw damaged();
   const std::size_t body = image.size() - 4;
   if (crc32({image.data(), body}) != load_u32(&image[body])) throw damaged();
@@ -230,4 +236,4 @@ LearnedTables BusGrinder::tables() {
   return t;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

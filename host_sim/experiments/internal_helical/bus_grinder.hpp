@@ -8,19 +8,19 @@
 #include "host_sim/experiments/internal_helical/grinder_plant.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 // Axes X, Z and C of a machine; the node has tables without errors. Throws UserError where the
 // machine has other axes, where C is not among the correcting ones, and for settings that the node
 // would refuse.
-[[nodiscard]] std::unique_ptr<BusAxes> grinder_axes(const MachineFile& machine,
-                                                    const WatchedStrokes& watched,
-                                                    const BusAxesFactory& make_axes);
+[[nodiscard]] std::unique_ptr<sim::BusAxes> grinder_axes(const host::MachineFile& machine,
+                                                         const host::WatchedStrokes& watched,
+                                                         const sim::BusAxesFactory& make_axes);
 
 class BusGrinder final : public GrinderControl {
  public:
   // `plant` must outlive it and stands at `standing`.
-  BusGrinder(std::unique_ptr<BusAxes> axes, const StrokeStep& standing, GrinderPlant& plant);
+  BusGrinder(std::unique_ptr<sim::BusAxes> axes, const StrokeStep& standing, GrinderPlant& plant);
 
   // All of them throw UserError when the machine stops or the node refuses.
   void cycle(const StrokeStep& step) override;
@@ -32,9 +32,9 @@ class BusGrinder final : public GrinderControl {
   [[nodiscard]] std::string feed_trouble();
 
   // An object of the node; the machine rests until it is there. `most`: bytes it may have.
-  [[nodiscard]] SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,
-                                       const std::string& what);
-  [[nodiscard]] BusAxes& axes() { return *axes_; }
+  [[nodiscard]] host::SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,
+                                             const std::string& what);
+  [[nodiscard]] sim::BusAxes& axes() { return *axes_; }
 
  private:
   [[nodiscard]] std::vector<double> read_floats(canopen::ObjectId object, std::size_t most,
@@ -42,8 +42,8 @@ class BusGrinder final : public GrinderControl {
   [[nodiscard]] double read_real(canopen::ObjectId object, const std::string& what);
   void rest_until_answered();
 
-  std::unique_ptr<BusAxes> axes_;
+  std::unique_ptr<sim::BusAxes> axes_;
   StrokeStep last_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -10,7 +10,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 using nlohmann::json;
@@ -99,10 +99,10 @@ json lag_chart(const InternalHelicalResult& run, const StrokeTrace& pass, const 
   }
   const auto way = static_cast<std::size_t>(pass.direction);
   return lines(fmt::format("lag-{}-{}", kWays.at(way), when),
-               fmt::format("{}, {}", kWays.at(way), when), axis_label("Z", "mm"),
-               axis_label("on the flank", "µm"),
-               {series_of("Z alone", place, z), series_of("C alone", place, c),
-                series_of("both", place, both)});
+               fmt::format("{}, {}", kWays.at(way), when), host::axis_label("Z", "mm"),
+               host::axis_label("on the flank", "µm"),
+               {host::series_of("Z alone", place, z), host::series_of("C alone", place, c),
+                host::series_of("both", place, both)});
 }
 
 }  // namespace
@@ -124,9 +124,9 @@ json tracking_charts(const InternalHelicalResult& run) {
   json charts = json::array();
   for (std::size_t way = 0; way < kWays.size(); ++way)
     charts.push_back(lines(fmt::format("tracking-{}", kWays[way]), kWays[way],
-                           axis_label("Z", "mm"), axis_label("on the flank", "µm"),
-                           {series_of("before", z, d.before.stroke[way]),
-                            series_of("after", z, d.after.stroke[way])}));
+                           host::axis_label("Z", "mm"), host::axis_label("on the flank", "µm"),
+                           {host::series_of("before", z, d.before.stroke[way]),
+                            host::series_of("after", z, d.after.stroke[way])}));
   return group("tracking", "Synchronisation error over the stroke", std::move(charts),
                "Mean of all slots by node, as monitored; opposite on right flanks.");
 }
@@ -134,22 +134,23 @@ json tracking_charts(const InternalHelicalResult& run) {
 json slot_chart(const InternalHelicalResult& run) {
   const HelicalDetail& d = run.detail;
   const std::vector<double> slot = counted(d.before.slot.size());
-  return lines("slots", "Synchronisation error by slot", axis_label("slot", ""),
-               axis_label("on the flank", "µm"),
-               {series_of("before", slot, d.before.slot), series_of("after", slot, d.after.slot)});
+  return lines("slots", "Synchronisation error by slot", host::axis_label("slot", ""),
+               host::axis_label("on the flank", "µm"),
+               {host::series_of("before", slot, d.before.slot),
+                host::series_of("after", slot, d.after.slot)});
 }
 
 json spectrum_along_z(const InternalHelicalResult& run) {
   const std::vector<double> wavelength(kWavelengths_mm.begin(), kWavelengths_mm.end());
   return bars("along-z", "Spectrum along Z, by wavelength in mm", wavelength,
-              axis_label("amplitude on the flank", "µm"), run.detail.before.along,
+              host::axis_label("amplitude on the flank", "µm"), run.detail.before.along,
               run.detail.after.along);
 }
 
 json spectrum_around_c(const InternalHelicalResult& run) {
   json chart =
       bars("around-c", "Spectrum around C, by order", counted(run.detail.before.around.size()),
-           axis_label("amplitude on the flank", "µm"), run.detail.before.around,
+           host::axis_label("amplitude on the flank", "µm"), run.detail.before.around,
            run.detail.after.around);
   chart["note"] = fmt::format("From the means of the slots: an order q of C shows at |q − {} m|.",
                               run.gear.teeth);
@@ -166,10 +167,11 @@ json learning_chart(const InternalHelicalResult& run) {
       high[i] = std::max(high[i], seed.learning_um[i]);
     }
   }
-  json series = series_of("median of the seeds", counted(median.size()), median);
+  json series = host::series_of("median of the seeds", counted(median.size()), median);
   series["band"] = {{"lo", low}, {"hi", high}};
-  json chart = lines("learning", "Learning: synchronisation error, rms on the flank",
-                     axis_label("round", ""), axis_label("rms", "µm"), json::array({series}));
+  json chart =
+      lines("learning", "Learning: synchronisation error, rms on the flank",
+            host::axis_label("round", ""), host::axis_label("rms", "µm"), json::array({series}));
   chart["note"] = fmt::format(
       "One update after every {} rounds. What stays is new in every pass; w = 0.5 halves the rest.",
       kRoundsPerUpdate);
@@ -179,35 +181,37 @@ json learning_chart(const InternalHelicalResult& run) {
 json stroke_table_chart(const InternalHelicalResult& run) {
   const LearnedTables& t = run.detail.tables;
   const std::vector<double> z = nodes_of(t);
-  json chart = lines("table-stroke", "Learned table T1: offset of C over Z", axis_label("Z", "mm"),
-                     axis_label("offset of C", "µrad"),
-                     {series_of(kWays[0], z, scaled(t.stroke[0], kUradPerRad)),
-                      series_of(kWays[1], z, scaled(t.stroke[1], kUradPerRad))});
+  json chart = lines("table-stroke", "Learned table T1: offset of C over Z",
+                     host::axis_label("Z", "mm"), host::axis_label("offset of C", "µrad"),
+                     {host::series_of(kWays[0], z, scaled(t.stroke[0], kUradPerRad)),
+                      host::series_of(kWays[1], z, scaled(t.stroke[1], kUradPerRad))});
   chart["note"] = fmt::format("For {:g} mm/s only.", run.job.feed_mm_per_s);
   return chart;
 }
 
 json slot_table_chart(const InternalHelicalResult& run) {
   const std::vector<double>& slot = run.detail.tables.slot;
-  return lines("table-slot", "Learned table T2: offset of C by slot", axis_label("slot", ""),
-               axis_label("offset of C", "µrad"),
-               json::array({series_of("T2", counted(slot.size()), scaled(slot, kUradPerRad))}));
+  return lines(
+      "table-slot", "Learned table T2: offset of C by slot", host::axis_label("slot", ""),
+      host::axis_label("offset of C", "µrad"),
+      json::array({host::series_of("T2", counted(slot.size()), scaled(slot, kUradPerRad))}));
 }
 
 json single_pitch_chart(const InternalHelicalResult& run, std::size_t side) {
   const auto pitches = [side](const GroundGear& gear) {
     const HelicalPitch& pitch = gear.inspection.pitch.at(side);
     std::vector<double> single(pitch.position.size());
-    require(single_pitches({pitch.position.data(), pitch.position.size()},
-                           {single.data(), single.size()}),
-            "pitch");
+    host::require(single_pitches({pitch.position.data(), pitch.position.size()},
+                                 {single.data(), single.size()}),
+                  "pitch");
     return single;
   };
   const SeedResult& first = run.seed.front();
   const std::vector<double> before = pitches(first.before);
-  json chart = bars(fmt::format("single-pitch-{}", kHelicalSideNames.at(side)),
-                    fmt::format("Single pitch, {} flanks", kHelicalSideNames.at(side)),
-                    counted(before.size()), axis_label("f_pt", "µm"), before, pitches(first.after));
+  json chart =
+      bars(fmt::format("single-pitch-{}", kHelicalSideNames.at(side)),
+           fmt::format("Single pitch, {} flanks", kHelicalSideNames.at(side)),
+           counted(before.size()), host::axis_label("f_pt", "µm"), before, pitches(first.after));
   chart["note"] = fmt::format("Largest {:.1f} µm before, {:.1f} µm after.",
                               first.before.inspection.pitch.at(side).figures.single,
                               first.after.inspection.pitch.at(side).figures.single);
@@ -224,9 +228,10 @@ json cumulative_pitch_charts(const InternalHelicalResult& run) {
     const std::vector<double> slot = counted(position(first.before).size());
     charts.push_back(lines(fmt::format("pitch-{}", kHelicalSideNames[side]),
                            fmt::format("{} flanks", kHelicalSideNames[side]),
-                           axis_label("slot", ""), axis_label("cumulative pitch deviation", "µm"),
-                           {series_of("before", slot, position(first.before)),
-                            series_of("after", slot, position(first.after))}));
+                           host::axis_label("slot", ""),
+                           host::axis_label("cumulative pitch deviation", "µm"),
+                           {host::series_of("before", slot, position(first.before)),
+                            host::series_of("after", slot, position(first.after))}));
   }
   return group("pitch", "Cumulative pitch of all slots", std::move(charts),
                "F_p is the height of a curve. What stays is run-out and the error of C that its "
@@ -243,13 +248,13 @@ json profile_charts(const InternalHelicalResult& run) {
         fmt::format("profile-{}-{}", before.slot + 1, kHelicalSideNames.at(before.side)),
         fmt::format("slot {}, {}: F_α {:.1f} → {:.1f} µm", before.slot + 1,
                     kHelicalSideNames.at(before.side), before.figures.total, after.figures.total),
-        axis_label("roll length, tip first", "mm"), axis_label("deviation", "µm"),
-        {series_of("before", run.roll_length, about_its_mean(before.deviation)),
-         series_of("after", run.roll_length, about_its_mean(after.deviation))}));
+        host::axis_label("roll length, tip first", "mm"), host::axis_label("deviation", "µm"),
+        {host::series_of("before", run.roll_length, about_its_mean(before.deviation)),
+         host::series_of("after", run.roll_length, about_its_mean(after.deviation))}));
   }
   return group("profile", "Profile at mid face", std::move(charts),
                "Transverse, + = excess material. The slope of the wheel stays; the ripple of Z, "
                "half a wave within the line of contact, goes.");
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -5,7 +5,7 @@
 
 #include "host_sim/experiments/internal_helical/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 [[nodiscard]] nlohmann::json lag_charts(const InternalHelicalResult& run);
 [[nodiscard]] nlohmann::json tracking_charts(const InternalHelicalResult& run);
@@ -19,4 +19,4 @@ namespace volcomp::sim {
 [[nodiscard]] nlohmann::json cumulative_pitch_charts(const InternalHelicalResult& run);
 [[nodiscard]] nlohmann::json profile_charts(const InternalHelicalResult& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -11,7 +11,7 @@
 
 #include "comp/core/units.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 inline constexpr double kRadPerDegree = kPi / 180.0;
 
@@ -44,4 +44,4 @@ struct GrindingTruth {
   double probe_mm = 0.25e-3;  // of the measuring machine, per point
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

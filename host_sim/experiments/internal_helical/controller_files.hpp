@@ -6,7 +6,7 @@
 
 #include "host_sim/experiments/internal_helical/grinder_control.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 struct ControllerFile {
   std::string name;
@@ -20,4 +20,4 @@ struct ControllerFile {
 [[nodiscard]] std::vector<ControllerFile> controller_files(const InternalGear& gear,
                                                            const LearnedTables& tables);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

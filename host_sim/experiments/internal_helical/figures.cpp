@@ -10,7 +10,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/io/version.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 using nlohmann::json;
@@ -163,17 +163,17 @@ WrongWay wrong_way(const InternalHelicalResult& run) {
   return {"", 0.0, 0.0};
 }
 
-GearGrade helical_grade(const GrindingFile& job, const HelicalMeasure& measure,
+GearGrade helical_grade(const host::GrindingFile& job, const HelicalMeasure& measure,
                         GearStandard standard) {
   GearGrade grade;
-  require(grade_gear(standard, LimitRounding::rounded,
-                     {2.0 * job.gear.r, job.gear.module, job.width_mm}, measure.kind,
-                     measure.found.median, grade),
-          "grade");
+  host::require(grade_gear(standard, LimitRounding::rounded,
+                           {2.0 * job.gear.r, job.gear.module, job.width_mm}, measure.kind,
+                           measure.found.median, grade),
+                "grade");
   return grade;
 }
 
-Verdict internal_helical_verdict(const InternalHelicalResult& run) {
+host::Verdict internal_helical_verdict(const InternalHelicalResult& run) {
   const double before = sync_spread(run, false).median;
   const double after = sync_spread(run, true).median;
   if (run.options.way != LearningWay::right) {
@@ -228,7 +228,7 @@ json internal_helical_figures(const InternalHelicalResult& run,
   }
   j["tables_written"] = tables;
   j["seeds"] = run.options.seeds;
-  j["version"] = kVersion;
+  j["version"] = host::kVersion;
   return j;
 }
 
@@ -257,8 +257,8 @@ std::string internal_helical_summary(const InternalHelicalResult& run) {
   text += "\nsynchronisation, µm rms on the flank, round by round:";
   for (const double um : learning_curve(run))
     text += fmt::format(" {:.2f}", um);
-  const Verdict verdict = internal_helical_verdict(run);
+  const host::Verdict verdict = internal_helical_verdict(run);
   return text + fmt::format("\n{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

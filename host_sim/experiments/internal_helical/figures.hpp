@@ -8,7 +8,7 @@
 #include "comp/metrology/gears/gear_grade.hpp"
 #include "host_sim/experiments/internal_helical/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 // Over the seeds.
 struct Spread {
@@ -46,13 +46,13 @@ struct WrongWay {
 };
 [[nodiscard]] WrongWay wrong_way(const InternalHelicalResult& run);
 
-[[nodiscard]] GearGrade helical_grade(const GrindingFile& job, const HelicalMeasure& measure,
+[[nodiscard]] GearGrade helical_grade(const host::GrindingFile& job, const HelicalMeasure& measure,
                                       GearStandard standard);
 
-[[nodiscard]] Verdict internal_helical_verdict(const InternalHelicalResult& run);
+[[nodiscard]] host::Verdict internal_helical_verdict(const InternalHelicalResult& run);
 // `tables`: names of the files that were written.
 [[nodiscard]] nlohmann::json internal_helical_figures(const InternalHelicalResult& run,
                                                       const std::vector<std::string>& tables);
 [[nodiscard]] std::string internal_helical_summary(const InternalHelicalResult& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

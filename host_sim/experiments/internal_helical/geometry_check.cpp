@@ -9,14 +9,14 @@
 #include "host_sim/experiments/internal_helical/grinding_job.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 constexpr std::size_t kGrinderAxes = 4;
 constexpr Eigen::Index kLinearChannels = 3;
 
 struct Grinder {
-  explicit Grinder(const GrindingFile& job)
+  explicit Grinder(const host::GrindingFile& job)
       : gear(job.gear), setup(form_wheel(job)), width_mm(job.width_mm) {}
 
   InternalGear gear;
@@ -26,9 +26,9 @@ struct Grinder {
 
   [[nodiscard]] WheelProfile profile(FlankSide side, std::size_t knots) const {
     WheelProfile p;
-    require(wheel_profile(gear, setup, side, gear.r_tip - 0.1 * gear.module,
-                          gear.r + 1.1 * gear.module, knots, p),
-            "wheel profile");
+    host::require(wheel_profile(gear, setup, side, gear.r_tip - 0.1 * gear.module,
+                                gear.r + 1.1 * gear.module, knots, p),
+                  "wheel profile");
     return p;
   }
 
@@ -36,14 +36,14 @@ struct Grinder {
   [[nodiscard]] double miss(const FlankPlace& place, const WheelProfile& profile,
                             const ErrorSet& errors) const {
     ContactInstant at;
-    require(contact_instant(gear, setup, place, at), "contact");
+    host::require(contact_instant(gear, setup, place, at), "contact");
     const double first =
         flank_deviation(at, left_error(chain, grinding_pose(gear, setup, at.stroke), errors));
     double exact = 0.0;
-    require(exact_flank_deviation(
-                chain, gear, setup, profile, at,
-                [&errors](const Pose&) -> const ErrorSet& { return errors; }, exact),
-            "envelope");
+    host::require(exact_flank_deviation(
+                      chain, gear, setup, profile, at,
+                      [&errors](const Pose&) -> const ErrorSet& { return errors; }, exact),
+                  "envelope");
     return kNmPerMm * std::abs(exact - first);
   }
 };
@@ -56,7 +56,8 @@ double regenerated(const Grinder& grinder, FlankSide side) {
   for (int i = 0; i <= kPlaces; ++i) {
     const double rho = profile.rho0 + (profile.last() - profile.rho0) * i / kPlaces;
     RegeneratedPoint point;
-    require(regenerated_flank(grinder.gear, grinder.setup, side, profile, rho, point), "wheel");
+    host::require(regenerated_flank(grinder.gear, grinder.setup, side, profile, rho, point),
+                  "wheel");
     worst = std::max(worst, kNmPerMm * std::abs(point.deviation));
   }
   return worst;
@@ -78,7 +79,7 @@ double single_errors(const Grinder& grinder, FlankSide side, const WheelProfile&
 }
 
 std::vector<double> many_errors(const Grinder& grinder, FlankSide side, const WheelProfile& profile,
-                                Random& random) {
+                                sim::Random& random) {
   constexpr int kDraws = 100;
   std::vector<double> miss;
   for (int i = 0; i < kDraws; ++i) {
@@ -96,9 +97,9 @@ std::vector<double> many_errors(const Grinder& grinder, FlankSide side, const Wh
 
 }  // namespace
 
-GeometryCheck check_grinding_geometry(const GrindingFile& job) {
+GeometryCheck check_grinding_geometry(const host::GrindingFile& job) {
   const Grinder grinder(job);
-  Random random(1);
+  sim::Random random(1);
   GeometryCheck check;
   std::vector<double> all;
   for (const FlankSide side : kHelicalSides) {
@@ -113,4 +114,4 @@ GeometryCheck check_grinding_geometry(const GrindingFile& job) {
   return check;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -4,7 +4,7 @@
 
 #include "host_sim/host/machine/machine_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 struct GeometryCheck {
   double regenerated_nm = 0.0;  // worst miss of the flank by a wheel of 17 knots and ideal motion
@@ -13,6 +13,6 @@ struct GeometryCheck {
 };
 
 // Throws UserError where there is no contact.
-[[nodiscard]] GeometryCheck check_grinding_geometry(const GrindingFile& job);
+[[nodiscard]] GeometryCheck check_grinding_geometry(const host::GrindingFile& job);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

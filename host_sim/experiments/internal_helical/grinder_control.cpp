@@ -4,7 +4,7 @@
 
 #include "comp/strokes/spectral_line.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 // w, node spacing and passes are those of seed 003, addendum; limits keep a bad pass out and are
@@ -34,10 +34,11 @@ LearningRules slot_rules() {
 
 }  // namespace
 
-WatchedStrokes watched_strokes(const GrindingFile& job, double flank_per_x, LearningWay way) {
+host::WatchedStrokes watched_strokes(const host::GrindingFile& job, double flank_per_x,
+                                     LearningWay way) {
   const InternalGear& gear = job.gear;
   const double pitch_mm = way == LearningWay::coarse ? 1.0 : kNodeSpacing_mm;
-  WatchedStrokes w;
+  host::WatchedStrokes w;
   w.slots = static_cast<std::uint16_t>(gear.teeth);
   w.monitor.turn_per_mm = gear.turn_per_mm;
   w.monitor.flank_per_rad = gear.normal_lever();
@@ -66,4 +67,4 @@ std::vector<double> orders_around(const std::vector<double>& slot_um) {
   return amplitude;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -8,7 +8,7 @@
 #include "host_sim/experiments/internal_helical/stroke_plan.hpp"
 #include "host_sim/host/bus/watched_strokes.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 // How it learns: the right way and the three wrong ones of seed 003 section 9.
 enum class LearningWay : std::uint8_t {
@@ -23,8 +23,8 @@ inline constexpr std::array<const char*, 4> kLearningWays{"right", "c-alone", "o
 inline constexpr std::array<double, kMostLines> kWavelengths_mm{10.0, 5.0, 2.5, 1.25};
 
 // `flank_per_x`: magnitude of dn per error of X at the pitch circle.
-[[nodiscard]] WatchedStrokes watched_strokes(const GrindingFile& job, double flank_per_x,
-                                             LearningWay way);
+[[nodiscard]] host::WatchedStrokes watched_strokes(const host::GrindingFile& job,
+                                                   double flank_per_x, LearningWay way);
 
 // As the monitor has seen one or more rounds; µm on the flank.
 struct MonitorView {
@@ -66,4 +66,4 @@ class GrinderControl {
 // Amplitudes of the orders of C in the mean of every slot.
 [[nodiscard]] std::vector<double> orders_around(const std::vector<double>& slot_um);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

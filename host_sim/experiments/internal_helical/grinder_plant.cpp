@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 double mm_of(std::int64_t nm) { return static_cast<double>(nm) / kNmPerMm; }
@@ -66,4 +66,4 @@ LagErrors GrinderPlant::errors(const StrokeStep& command) const {
   return e;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -11,9 +11,9 @@
 #include "host_sim/sim/drives/cia402_axis.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
-inline constexpr double kWirePerRad = kDriveUnitsPerTurn / (2.0 * kPi);
+inline constexpr double kWirePerRad = sim::kDriveUnitsPerTurn / (2.0 * kPi);
 
 // Where the axes really are, which only the flank shows: actual − original command.
 struct LagErrors {
@@ -47,7 +47,7 @@ class GrinderPlant {
   [[nodiscard]] double c_error() const;  // on top of the loop, rad
 
   GrindingTruth truth_;
-  Random random_;
+  sim::Random random_;
   std::vector<double> slot_error_;  // of C, repeatable, rad
   std::int64_t x_;
   double z_;  // of the loop, without ripple, mm
@@ -57,4 +57,4 @@ class GrinderPlant {
   double x_error_ = 0.0;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

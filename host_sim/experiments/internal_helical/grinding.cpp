@@ -6,7 +6,7 @@
 #include "host_sim/experiments/internal_helical/grinding_job.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 // Strokes around the contact that can cut a crest: ±3 mm stand 30 µm off.
@@ -40,11 +40,11 @@ class ByPosition {
 
 MachineChain helical_chain() {
   MachineChain chain;
-  require(MachineChain::build(internal_grinder(GrinderY::none), chain), "grinder");
+  host::require(MachineChain::build(internal_grinder(GrinderY::none), chain), "grinder");
   return chain;
 }
 
-FlankGrinding::FlankGrinding(const GrindingFile& job, const GrindingTruth& truth)
+FlankGrinding::FlankGrinding(const host::GrindingFile& job, const GrindingTruth& truth)
     : job_(job), truth_(truth) {
   const InternalGear& gear = job.gear;
   const double tip = volcomp::roll_length(gear, gear.r_tip);
@@ -64,10 +64,10 @@ FlankGrinding::Place FlankGrinding::place_at(std::size_t side, double roll_lengt
   const FlankPlace at{kHelicalSides[side], radius, 0.0};
   Place place;
   ContactInstant instant;
-  require(contact_instant(job_.gear, setup, at, instant), "contact");
+  host::require(contact_instant(job_.gear, setup, at, instant), "contact");
   place.stroke = instant.stroke;
-  require(flank_sensitivity(helical_chain(), job_.gear, setup, at, place.rows), "contact");
-  require(contact_curvature(job_.gear, setup, at.side, radius, place.kappa), "contact");
+  host::require(flank_sensitivity(helical_chain(), job_.gear, setup, at, place.rows), "contact");
+  host::require(contact_curvature(job_.gear, setup, at.side, radius, place.kappa), "contact");
   // Read in the transverse plane, less material towards the tip on both flanks.
   const double part = (roll_length - roll_.front()) / (roll_.back() - roll_.front()) - 0.5;
   place.wheel_form = truth_.wheel_form_mm * std::cos(job_.gear.beta_b) * part;
@@ -109,4 +109,4 @@ double FlankGrinding::profile_point(const StrokeTrace& pass, std::size_t side,
   return ground(profile_.at(side).at(point), pass);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -7,7 +7,7 @@
 #include "comp/metrology/tables/left_error.hpp"
 #include "host_sim/experiments/internal_helical/process.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 inline constexpr std::size_t kProfilePoints = 13;
 inline constexpr std::array<FlankSide, 2> kHelicalSides{FlankSide::left, FlankSide::right};
@@ -17,7 +17,7 @@ inline constexpr std::array<const char*, 2> kHelicalSideNames{"left", "right"};
 
 class FlankGrinding {
  public:
-  FlankGrinding(const GrindingFile& job, const GrindingTruth& truth);
+  FlankGrinding(const host::GrindingFile& job, const GrindingTruth& truth);
 
   // dn in mm of the flank that a pass has left, excess material positive: at the pitch circle, and
   // from the tip to the form circle.
@@ -42,11 +42,11 @@ class FlankGrinding {
                                    std::uint16_t slot) const;
   [[nodiscard]] double ground(const Place& place, const StrokeTrace& pass) const;
 
-  GrindingFile job_;
+  host::GrindingFile job_;
   GrindingTruth truth_;
   std::array<double, kProfilePoints> roll_{};
   std::array<Place, 2> pitch_{};
   std::array<std::array<Place, kProfilePoints>, 2> profile_{};
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -5,7 +5,7 @@
 #include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/experiments/internal_helical/grinding.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 // Evenly around the gear; of 79 slots 0, 20, 39 and 59.
 inline constexpr int kProfileSlots = 4;
@@ -31,6 +31,6 @@ struct HelicalInspection {
 [[nodiscard]] HelicalInspection inspect_gear(const InternalGear& gear,
                                              const FlankGrinding& grinding,
                                              const std::vector<StrokeTrace>& passes,
-                                             double probe_mm, Random& random);
+                                             double probe_mm, sim::Random& random);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -7,7 +7,7 @@
 #include "firmware/node/wire_scale.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 constexpr std::array<Direction, 2> kDirections{Direction::forward, Direction::backward};
@@ -31,14 +31,14 @@ StrokeState stroke_state(const StrokeStep& step) {
 
 }  // namespace
 
-IntegratedGrinder::IntegratedGrinder(const WatchedStrokes& watched, LearningWay way,
-                                     GrinderPlant& plant, MachineWatch* watch)
+IntegratedGrinder::IntegratedGrinder(const host::WatchedStrokes& watched, LearningWay way,
+                                     GrinderPlant& plant, sim::MachineWatch* watch)
     : watched_(watched), way_(way), plant_(plant), watch_(watch) {
-  require(monitor_->configure(watched.monitor), "monitor");
-  require(offsets_->configure(watched.offsets), "offsets");
+  host::require(monitor_->configure(watched.monitor), "monitor");
+  host::require(offsets_->configure(watched.offsets), "offsets");
   for (auto& learner : stroke_)
-    require(learner.start(watched.along, watched.monitor.nodes), "stroke table");
-  require(slot_.start(watched.around, watched.slots), "slot table");
+    host::require(learner.start(watched.along, watched.monitor.nodes), "stroke table");
+  host::require(slot_.start(watched.around, watched.slots), "slot table");
 }
 
 HelixFrame IntegratedGrinder::frame(const StrokeStep& step) {
@@ -71,13 +71,13 @@ void IntegratedGrinder::show(const StrokeStep& step, std::int64_t offset_of_c) {
   shown_.period_s = kStrokeTick_s;
   shown_.axes = 3;
   const auto linear = [](char letter, std::int64_t target, std::int64_t actual) {
-    AxisSnapshot axis;
+    sim::AxisSnapshot axis;
     axis.letter = letter;
     axis.target = target;
     axis.position = static_cast<double>(actual) / kNmPerMm;
     return axis;
   };
-  AxisSnapshot& c = shown_.axis[2];
+  sim::AxisSnapshot& c = shown_.axis[2];
   shown_.axis[0] = linear('X', step.x, plant_.read_x());
   shown_.axis[1] = linear('Z', step.z, plant_.read_z());
   c.letter = 'C';
@@ -89,7 +89,7 @@ void IntegratedGrinder::show(const StrokeStep& step, std::int64_t offset_of_c) {
 }
 
 void IntegratedGrinder::collect() {
-  if (monitor_->pass_waits()) require(monitor_->collect(), "pass");
+  if (monitor_->pass_waits()) host::require(monitor_->collect(), "pass");
 }
 
 std::vector<NodeSums> IntegratedGrinder::stroke_sums(Direction direction) const {
@@ -126,10 +126,11 @@ void IntegratedGrinder::learn() {
   for (std::size_t d = 0; d < kDirections.size(); ++d)
     step(stroke_[d], stroke_sums(kDirections[d]));
   step(slot_, slot_sums());
-  require(offsets_->stage({stroke_[0].table(), stroke_[1].table(), slot_.table(),
-                           watched_.monitor.z0_nm, watched_.monitor.node_pitch_nm, feed_nm_per_s_}),
-          "tables");
-  require(offsets_->activate(), "tables");
+  host::require(
+      offsets_->stage({stroke_[0].table(), stroke_[1].table(), slot_.table(),
+                       watched_.monitor.z0_nm, watched_.monitor.node_pitch_nm, feed_nm_per_s_}),
+      "tables");
+  host::require(offsets_->activate(), "tables");
   monitor_->totals().clear();
 }
 
@@ -172,4 +173,4 @@ LearnedTables IntegratedGrinder::tables() {
           copy(slot_.table())};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -10,13 +10,13 @@
 #include "host_sim/experiments/internal_helical/grinder_plant.hpp"
 #include "host_sim/sim/controller/machine_watch.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 class IntegratedGrinder final : public GrinderControl {
  public:
   // `plant` and `watch`, if any, must outlive it.
-  IntegratedGrinder(const WatchedStrokes& watched, LearningWay way, GrinderPlant& plant,
-                    MachineWatch* watch = nullptr);
+  IntegratedGrinder(const host::WatchedStrokes& watched, LearningWay way, GrinderPlant& plant,
+                    sim::MachineWatch* watch = nullptr);
 
   void cycle(const StrokeStep& step) override;
   void learn() override;
@@ -33,11 +33,11 @@ class IntegratedGrinder final : public GrinderControl {
   template <std::size_t N>
   void step(OffsetLearner<N>& learner, const std::vector<NodeSums>& sums);
 
-  WatchedStrokes watched_;
+  host::WatchedStrokes watched_;
   LearningWay way_;
   GrinderPlant& plant_;
-  MachineWatch* watch_;
-  MachineSnapshot shown_;
+  sim::MachineWatch* watch_;
+  sim::MachineSnapshot shown_;
   std::uint16_t sequence_ = 0;
   std::int32_t feed_nm_per_s_ = 0;
   std::unique_ptr<GrinderMonitor> monitor_ = std::make_unique<GrinderMonitor>();
@@ -46,4 +46,4 @@ class IntegratedGrinder final : public GrinderControl {
   OffsetLearner<kGearSlots> slot_{};
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -2,7 +2,7 @@
 
 #include "host_sim/experiments/internal_helical/grinding_job.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 constexpr int kDwell_ticks = 200;  // longer than every lag
@@ -13,7 +13,7 @@ double slot_place(const InternalGear& gear, std::uint16_t slot) {
   return -2.0 * kPi * slot / gear.teeth;
 }
 
-GrindingProcess::GrindingProcess(const GrindingFile& job, const GrindingTruth& truth,
+GrindingProcess::GrindingProcess(const host::GrindingFile& job, const GrindingTruth& truth,
                                  std::uint64_t seed)
     : teeth_(job.gear.teeth),
       plan_(job, form_wheel(job).centre_distance),
@@ -51,4 +51,4 @@ StrokeTrace GrindingProcess::pass(const Sync& sync) {
   return trace;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

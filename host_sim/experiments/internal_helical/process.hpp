@@ -7,7 +7,7 @@
 
 #include "host_sim/experiments/internal_helical/grinder_plant.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 // One pass over a slot.
 struct StrokeTrace {
@@ -22,7 +22,7 @@ class GrindingProcess {
   using Sync = std::function<void(const StrokeStep&)>;
 
   // `seed`: of everything random.
-  GrindingProcess(const GrindingFile& job, const GrindingTruth& truth, std::uint64_t seed);
+  GrindingProcess(const host::GrindingFile& job, const GrindingTruth& truth, std::uint64_t seed);
 
   // All slots once, up and down in turns, from rest. With an odd number of teeth every slot is
   // ground the other way in the next round.
@@ -45,4 +45,4 @@ class GrindingProcess {
 // angles.
 [[nodiscard]] double slot_place(const InternalGear& gear, std::uint16_t slot);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

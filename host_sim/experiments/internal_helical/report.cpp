@@ -11,7 +11,7 @@
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 using nlohmann::json;
@@ -39,14 +39,14 @@ json measure_table(const InternalHelicalResult& run) {
           {"columns",
            {{{"title", "deviation"}},
             {{"title", ""}},
-            column("median", "µm", 1),
-            column("lowest", "µm", 1),
-            column("highest", "µm", 1),
+            host::column("median", "µm", 1),
+            host::column("lowest", "µm", 1),
+            host::column("highest", "µm", 1),
             {{"title", "allowed for the median, µm"}},
             {{"title", "within"}},
-            column("grade 1995", "", 0),
-            column("grade 2013", "", 0),
-            column("paper", "µm", 1)}},
+            host::column("grade 1995", "", 0),
+            host::column("grade 2013", "", 0),
+            host::column("paper", "µm", 1)}},
           {"rows", rows},
           {"note",
            "Grades of the medians by ISO 1328-1, rounded tolerances. The allowed range is that of "
@@ -77,7 +77,7 @@ json truth_table(const InternalHelicalResult& run) {
           {"title", "The machine, as chosen here"},
           {"columns",
            {{{"title", "what"}},
-            column("amount", "", 1),
+            host::column("amount", "", 1),
             {{"title", "unit"}},
             {{"title", "seen by the encoders"}}}},
           {"rows", rows},
@@ -97,8 +97,9 @@ std::string grade_word(const InternalHelicalResult& run, const HelicalMeasure& m
 }
 
 json before_after(const InternalHelicalResult& run) {
-  std::vector<BeforeAfter> lines{{"Z and C out of step on the flank, rms",
-                                  sync_spread(run, false).median, sync_spread(run, true).median}};
+  std::vector<host::BeforeAfter> lines{{"Z and C out of step on the flank, rms",
+                                        sync_spread(run, false).median,
+                                        sync_spread(run, true).median}};
   const std::vector<HelicalMeasure> measures = helical_measures(run);
   for (const HelicalMeasure& before : measures) {
     if (before.after) continue;
@@ -111,16 +112,17 @@ json before_after(const InternalHelicalResult& run) {
                        grade_word(run, after)});
     }
   }
-  return before_after_table(lines,
-                            fmt::format("Medians of {} simulated grinders: the first gear, ground "
-                                        "with no offsets, and the last, after {} updates. Grades "
-                                        "by ISO 1328-1:1995.",
-                                        run.options.seeds, run.options.updates),
-                            0);
+  return host::before_after_table(
+      lines,
+      fmt::format("Medians of {} simulated grinders: the first gear, ground "
+                  "with no offsets, and the last, after {} updates. Grades "
+                  "by ISO 1328-1:1995.",
+                  run.options.seeds, run.options.updates),
+      0);
 }
 
-Origins origins(const InternalHelicalResult& run) {
-  Origins origins;
+host::Origins origins(const InternalHelicalResult& run) {
+  host::Origins origins;
   origins.settings = {{"learned", kLearningWays.at(static_cast<std::size_t>(run.options.way))},
                       {"seeds", fmt::format("1 to {}; curves are of seed 1", run.options.seeds)}};
   origins.inputs = run.inputs;
@@ -139,8 +141,8 @@ Origins origins(const InternalHelicalResult& run) {
 
 }  // namespace
 
-json internal_helical_document(const InternalHelicalResult& result, const RunContext& run) {
-  ReportParts parts;
+json internal_helical_document(const InternalHelicalResult& result, const host::RunContext& run) {
+  host::ReportParts parts;
   parts.title = "Internal helical gear: grinding watched and compensated";
   parts.subtitle = fmt::format(
       "{} teeth, module {:g}, helix {:g}°, width {:g} mm; offsets of C learned in "
@@ -157,8 +159,8 @@ json internal_helical_document(const InternalHelicalResult& result, const RunCon
                    spectrum_along_z(result), spectrum_around_c(result), stroke_table_chart(result),
                    slot_table_chart(result), truth_table(result)};
   parts.ticks = run.ticks;
-  parts.provenance = provenance(run, origins(result));
-  return report_document(std::move(parts));
+  parts.provenance = host::provenance(run, origins(result));
+  return host::report_document(std::move(parts));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -6,9 +6,9 @@
 #include "host_sim/experiments/internal_helical/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 [[nodiscard]] nlohmann::json internal_helical_document(const InternalHelicalResult& result,
-                                                       const RunContext& run);
+                                                       const host::RunContext& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

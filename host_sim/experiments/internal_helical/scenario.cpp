@@ -10,18 +10,18 @@
 #include "host_sim/experiments/internal_helical/integrated_grinder.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
-std::unique_ptr<GrinderControl> make_control(const MachineFile& machine,
-                                             const WatchedStrokes& watched,
+std::unique_ptr<GrinderControl> make_control(const host::MachineFile& machine,
+                                             const host::WatchedStrokes& watched,
                                              const InternalHelicalOptions& options,
                                              GrindingProcess& process) {
   if (!options.make_axes)
     return std::make_unique<IntegratedGrinder>(watched, options.way, process.plant(),
                                                options.watch);
   if (options.way == LearningWay::one_table)
-    throw UserError(
+    throw host::UserError(
         "--wrong one-table: a node keeps a table for each direction; without --can "
         "one table can be learned for both");
   return std::make_unique<BusGrinder>(grinder_axes(machine, watched, options.make_axes),
@@ -31,8 +31,8 @@ std::unique_ptr<GrinderControl> make_control(const MachineFile& machine,
 // One grinder with its compensation, from the first gear to the last.
 class Campaign {
  public:
-  Campaign(const MachineFile& machine, const GrindingFile& job, const FlankGrinding& grinding,
-           const InternalHelicalOptions& options, std::uint64_t seed)
+  Campaign(const host::MachineFile& machine, const host::GrindingFile& job,
+           const FlankGrinding& grinding, const InternalHelicalOptions& options, std::uint64_t seed)
       : gear_(job.gear),
         grinding_(grinding),
         truth_(options.truth),
@@ -99,7 +99,7 @@ class Campaign {
   int updates_;
   GrindingProcess process_;
   std::unique_ptr<GrinderControl> control_;
-  Random measuring_;
+  sim::Random measuring_;
   double squares_ = 0.0;
   double samples_ = 0.0;
 };
@@ -107,11 +107,11 @@ class Campaign {
 }  // namespace
 
 InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options,
-                                           const Progress& progress) {
+                                           const host::Progress& progress) {
   InternalHelicalResult run;
   run.options = options;
-  const MachineFile machine = read_machine_file(options.machine);
-  run.inputs = {hashed_file("machine file", options.machine)};
+  const host::MachineFile machine = host::read_machine_file(options.machine);
+  run.inputs = {host::hashed_file("machine file", options.machine)};
   run.job = grinding_job(machine);
   run.gear = run.job.gear;
   progress(0.0, "geometry against the exact envelope");
@@ -119,9 +119,9 @@ InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options
   const GrindingTruth& truth = options.truth;
   const double lag_z = run.job.feed_mm_per_s / truth.gain_z;
   const double lag_c = run.job.feed_mm_per_s * run.gear.turn_per_mm / truth.gain_c;
-  require(check_learning_target(LearningTarget::c_alone, true, true, run.gear.normal_lever(),
-                                run.gear.turn_per_mm, -lag_z, lag_c, run.lags),
-          "lags");
+  host::require(check_learning_target(LearningTarget::c_alone, true, true, run.gear.normal_lever(),
+                                      run.gear.turn_per_mm, -lag_z, lag_c, run.lags),
+                "lags");
   const FlankGrinding grinding(run.job, truth);
   run.roll_length.assign(grinding.roll_length().begin(), grinding.roll_length().end());
   for (int seed = 0; seed < options.seeds; ++seed) {
@@ -135,4 +135,4 @@ InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options
   return run;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

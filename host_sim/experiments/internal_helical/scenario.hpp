@@ -12,7 +12,7 @@
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 inline constexpr int kLearningUpdates = 6;  // seed 003, addendum
 inline constexpr int kRoundsPerUpdate = 2;
@@ -22,9 +22,9 @@ struct InternalHelicalOptions {
   int updates = kLearningUpdates;
   LearningWay way = LearningWay::right;
   GrindingTruth truth;
-  std::filesystem::path machine;  // file
-  BusAxesFactory make_axes;       // with the compensation on a bus; empty: integrated
-  MachineWatch* watch = nullptr;  // of the integrated form
+  std::filesystem::path machine;       // file
+  sim::BusAxesFactory make_axes;       // with the compensation on a bus; empty: integrated
+  sim::MachineWatch* watch = nullptr;  // of the integrated form
 };
 
 // A gear as it was ground and what was seen of it.
@@ -51,8 +51,8 @@ struct HelicalDetail {
 
 struct InternalHelicalResult {
   InternalHelicalOptions options;
-  std::vector<HashedInput> inputs;
-  GrindingFile job;
+  std::vector<host::HashedInput> inputs;
+  host::GrindingFile job;
   InternalGear gear;
   std::vector<double> roll_length;
   GeometryCheck geometry;
@@ -63,6 +63,6 @@ struct InternalHelicalResult {
 
 // Throws UserError.
 [[nodiscard]] InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options,
-                                                         const Progress& progress);
+                                                         const host::Progress& progress);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

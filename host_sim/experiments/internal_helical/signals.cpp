@@ -4,7 +4,7 @@
 
 #include "comp/metrology/gears/gear_tolerance.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 using nlohmann::json;
@@ -66,4 +66,4 @@ std::string signal_lines(const InternalHelicalResult& run) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

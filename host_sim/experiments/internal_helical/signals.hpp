@@ -9,7 +9,7 @@
 
 #include "host_sim/experiments/internal_helical/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 // Half the range on the flank, how much of it comes back, and whether it is worth a table. A node
 // says no more than the mean of every place: of what comes back nothing is known then.
@@ -28,4 +28,4 @@ struct SignalReport {
 // One line each.
 [[nodiscard]] std::string signal_lines(const InternalHelicalResult& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -4,18 +4,20 @@
 
 #include "host_sim/sim/drives/cia402_axis.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 namespace {
 
 // The lag of C stays well within the following error that a drive tolerates.
 constexpr double kIndexFeed_rad_per_s = 0.6;
 constexpr double kIndexAcceleration_rad_per_s2 = 6.0;
 
-int ticks_of(const Trapezoid& move) { return static_cast<int>(move.duration_s() / kStrokeTick_s); }
+int ticks_of(const sim::Trapezoid& move) {
+  return static_cast<int>(move.duration_s() / kStrokeTick_s);
+}
 
 }  // namespace
 
-StrokePlan::StrokePlan(const GrindingFile& job, double x_mm)
+StrokePlan::StrokePlan(const host::GrindingFile& job, double x_mm)
     : job_(job),
       x_(to_nm(x_mm)),
       stroke_(travel_mm(), job.feed_mm_per_s, job.acceleration_mm_per_s2),
@@ -32,7 +34,7 @@ StrokeStep StrokePlan::at(double z_mm, double turned) const {
   step.x = x_;
   step.z = to_nm(z_mm);
   const double c = turned - static_cast<double>(step.z) / kNmPerMm * job_.gear.turn_per_mm;
-  step.c = to_units(c, kDriveUnitsPerTurn / (2.0 * kPi));
+  step.c = to_units(c, sim::kDriveUnitsPerTurn / (2.0 * kPi));
   step.slot = static_cast<std::uint16_t>(pass_ % job_.gear.teeth);
   step.stroke = way();
   step.feed_nm_per_s = static_cast<std::int32_t>(to_nm(job_.feed_mm_per_s));
@@ -62,4 +64,4 @@ StrokeStep StrokePlan::stroke(int tick) const {
 
 void StrokePlan::end_pass() { standing_ = stroke(stroke_ticks() - 1); }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

@@ -7,10 +7,10 @@
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/sim/controller/straight_move.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::internal_helical {
 
 // The targets that the drives take at one SYNC, in their units, and what is done at them.
-struct StrokeStep : ProcessState {
+struct StrokeStep : host::ProcessState {
   std::int64_t x = 0;  // nm
   std::int64_t z = 0;  // nm
   std::int64_t c = 0;  // 2^-31 turn, counted through
@@ -19,7 +19,7 @@ struct StrokeStep : ProcessState {
 class StrokePlan {
  public:
   // `x_mm`: distance of the wheel from the axis of the gear.
-  StrokePlan(const GrindingFile& job, double x_mm);
+  StrokePlan(const host::GrindingFile& job, double x_mm);
 
   // Where the machine stands now, outside the face: before the first pass, or after the last one.
   [[nodiscard]] const StrokeStep& standing() const { return standing_; }
@@ -47,13 +47,13 @@ class StrokePlan {
   }
   [[nodiscard]] double slot_rad() const { return 2.0 * kPi / job_.gear.teeth; }
 
-  GrindingFile job_;
+  host::GrindingFile job_;
   std::int64_t x_;
-  Trapezoid stroke_;
-  Trapezoid index_;
+  sim::Trapezoid stroke_;
+  sim::Trapezoid index_;
   long pass_ = 0;
   bool begun_ = false;
   StrokeStep standing_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::internal_helical

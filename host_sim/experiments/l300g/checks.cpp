@@ -5,7 +5,7 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 constexpr std::array<double, 5> kFeeds_mm_min{10.0, 30.0, 100.0, 300.0, 1000.0};
@@ -35,7 +35,7 @@ FeedCheck check_feeds(Grinder& grinder, GearInspector& inspector, const Involute
   const MachineChain& chain = grinder.chain();
   FeedCheck check;
   for (const double feed : kFeeds_mm_min) {
-    const NodePoint point =
+    const sim::NodePoint point =
         inspector.touch({flank, pitch_roll(gear), 0.5 * gear.width}, {feed / 60.0, kRunUp_mm});
     const Vec3 latched = ideal_points(chain, point.latched, chain.tool_point()).work;
     check.feed_mm_min.push_back(feed);
@@ -48,4 +48,4 @@ FeedCheck check_feeds(Grinder& grinder, GearInspector& inspector, const Involute
   return check;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

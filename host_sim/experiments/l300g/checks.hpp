@@ -5,7 +5,7 @@
 
 #include "host_sim/experiments/l300g/inspection.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 // The same place of a flank, touched at 10, 30, 100, 300 and 1000 mm/min.
 struct FeedCheck {
@@ -20,4 +20,4 @@ struct FeedCheck {
 [[nodiscard]] FeedCheck check_feeds(Grinder& grinder, GearInspector& inspector,
                                     const InvoluteGear& gear);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

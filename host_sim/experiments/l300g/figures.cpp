@@ -8,7 +8,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/version.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 using nlohmann::json;
@@ -131,9 +131,9 @@ std::string grade_text(const std::optional<int>& grade, GearStandard standard) {
   return grade ? std::to_string(*grade) : fmt::format(">{}", last_grade(standard));
 }
 
-Verdict l300g_verdict(const L300gResult& r) {
+host::Verdict l300g_verdict(const L300gResult& r) {
   const bool found = disagreement_um(r.after, r.truth) <= kAgreement_um;
-  Verdict v;
+  host::Verdict v;
   v.ok = found && r.identification.max_error() <= kRoundTrip &&
          r.feeds.corrected_spread_nm() <= kFeedSpread_nm && r.lobing.corrected_um < kLobing_um;
   v.text = fmt::format(
@@ -161,7 +161,7 @@ json l300g_figures(const L300gResult& r) {
   j["lobing_um"] = {{"raw", r.lobing.raw_um}, {"corrected", r.lobing.corrected_um}};
   j["errors"] = r.options.errors;
   j["seed"] = r.options.seed;
-  j["version"] = kVersion;
+  j["version"] = host::kVersion;
   return j;
 }
 
@@ -198,8 +198,8 @@ std::string l300g_summary(const L300gResult& r) {
       "formulas were not checked against the printed standard\n",
       r.feeds.raw_spread_nm(), r.feeds.corrected_spread_nm(), r.lobing.raw_um,
       r.lobing.corrected_um);
-  const Verdict verdict = l300g_verdict(r);
+  const host::Verdict verdict = l300g_verdict(r);
   return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

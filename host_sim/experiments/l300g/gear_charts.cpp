@@ -7,7 +7,7 @@
 #include "host_sim/experiments/l300g/figures.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 using nlohmann::json;
@@ -32,14 +32,14 @@ const TraceKind& profile_kind() {
                               "Profile",
                               "α",
                               GearDeviation::profile,
-                              axis_label("roll length", "mm"),
+                              host::axis_label("roll length", "mm"),
                               &GearInspection::profile};
   return kind;
 }
 
 const TraceKind& lead_kind() {
   static const TraceKind kind{
-      "lead", "Lead", "β", GearDeviation::lead, axis_label("x", "mm"), &GearInspection::lead};
+      "lead", "Lead", "β", GearDeviation::lead, host::axis_label("x", "mm"), &GearInspection::lead};
   return kind;
 }
 
@@ -58,7 +58,7 @@ json trace_series(const char* name, const FlankTrace& trace) {
   std::vector<double> x = trace.deviation;
   for (double& um : x)
     um -= 0.5 * (*low + *high);
-  json series = series_of(name, x, trace.at);
+  json series = host::series_of(name, x, trace.at);
   series["emphasis"] = std::string("compensated") == name;
   return series;
 }
@@ -88,7 +88,7 @@ json trace_chart(const L300gResult& r, const TraceKind& kind, std::size_t side) 
   return {{"type", "lines"},
           {"id", fmt::format("{}-{}", kind.id, kSideNames[side])},
           {"title", fmt::format("{} flank", kSideNames[side])},
-          {"x", axis_label("deviation, + = excess", "µm")},
+          {"x", host::axis_label("deviation, + = excess", "µm")},
           {"y", kind.place},
           {"series",
            {band_series(r, kind, side), trace_series("uncompensated", before),
@@ -118,8 +118,8 @@ json pitch_chart(const L300gResult& r, std::size_t side) {
     tooth.push_back(k);
   const PitchRound& before = r.before.pitch[side];
   const PitchRound& after = r.after.pitch[side];
-  series.push_back(series_of("uncompensated", tooth, before.position));
-  series.push_back(series_of("compensated", tooth, after.position));
+  series.push_back(host::series_of("uncompensated", tooth, before.position));
+  series.push_back(host::series_of("compensated", tooth, after.position));
   const auto values = [](const char* when, const PitchRound& p) {
     return fmt::format("{}: Fp {:.1f} µm, fpt {:.1f} µm (grade {}). ", when, p.figures.total,
                        p.figures.single, grade_text(p.grade_1995, kOld));
@@ -127,8 +127,8 @@ json pitch_chart(const L300gResult& r, std::size_t side) {
   return {{"type", "lines"},
           {"id", fmt::format("pitch-{}", kSideNames[side])},
           {"title", fmt::format("{} flank", kSideNames[side])},
-          {"x", axis_label("tooth", "")},
-          {"y", axis_label("position deviation", "µm")},
+          {"x", host::axis_label("tooth", "")},
+          {"y", host::axis_label("position deviation", "µm")},
           {"series", series},
           {"note", values("Before", before) + values("After", after)}};
 }
@@ -175,9 +175,9 @@ json gear_table(const L300gResult& r) {
           {"title", "Deviations and grades"},
           {"columns",
            {{{"title", "trace"}},
-            column("F", "µm", 2),
-            column("f_f", "µm", 2),
-            column("f_H", "µm", 2),
+            host::column("F", "µm", 2),
+            host::column("f_f", "µm", 2),
+            host::column("f_H", "µm", 2),
             {{"title", "grade 1995"}},
             {{"title", "class 2013"}}}},
           {"rows", rows},
@@ -188,4 +188,4 @@ json gear_table(const L300gResult& r) {
            "profile over 95 %. The formulas were not checked against the printed standards."}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

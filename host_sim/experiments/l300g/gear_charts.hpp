@@ -6,7 +6,7 @@
 
 #include "host_sim/experiments/l300g/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 // Groups of charts for profile, lead and pitch.
 [[nodiscard]] nlohmann::json profile_charts(const L300gResult& result);
@@ -16,4 +16,4 @@ namespace volcomp::sim {
 // All values with the grades of both editions.
 [[nodiscard]] nlohmann::json gear_table(const L300gResult& result);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

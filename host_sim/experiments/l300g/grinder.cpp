@@ -6,7 +6,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 GrinderGeometry grinder_geometry(const MachineChain& chain) {
   GrinderGeometry g;
   g.arm.length = -chain.tool_point().x();
@@ -27,27 +27,28 @@ MachineDescription with_origin(const MachineChain& chain, double y0, double z0) 
 }
 
 Grinder::Grinder(const GrinderHall& hall, const MachineTables& tables) : hall_(hall) {
-  require(MachineChain::build(tables.machine, chain_), hall.file.path);
+  host::require(MachineChain::build(tables.machine, chain_), hall.file.path);
   geometry_ = grinder_geometry(chain_);
-  auto axes = hall.make_axes(bus_settings(hall.file, hall.cycle_hz), make_image(tables));
+  auto axes =
+      hall.make_axes(host::bus_settings(hall.file, hall.cycle_hz), host::make_image(tables));
   axes_ = axes.get();
-  axes_->controller().use_probe(node_probe(hall.file));
-  cell_ = std::make_unique<MotionCell>(hall.truth, std::move(axes));
+  axes_->controller().use_probe(sim::node_probe(hall.file));
+  cell_ = std::make_unique<sim::MotionCell>(hall.truth, std::move(axes));
   cell_->place(clear_of_work(kFarAway_mm));
-  prober_ = std::make_unique<Prober>(*cell_, *axes_, hall.file);
+  prober_ = std::make_unique<sim::Prober>(*cell_, *axes_, hall.file);
 }
 
-void Grinder::mount(const Artefact& artefact, std::function<double(const Vec3&)> lobing_mm) {
-  const NodeProbe described = node_probe(hall_.file);
-  TouchProbe::Settings probe;
+void Grinder::mount(const sim::Artefact& artefact, std::function<double(const Vec3&)> lobing_mm) {
+  const sim::NodeProbe described = sim::node_probe(hall_.file);
+  sim::TouchProbe::Settings probe;
   probe.radius_mm = described.radius.coefficient[0];
   probe.lobing_mm = std::move(lobing_mm);
   probe.delay_ns = std::llround(1e3 * described.delay_us);
-  axes_->mount(TouchProbe(hall_.truth, artefact, probe));
+  axes_->mount(sim::TouchProbe(hall_.truth, artefact, probe));
 }
 
 Pose Grinder::clear_of_work(double away_mm) const {
   return {geometry_.datum.x, geometry_.datum.y + away_mm, geometry_.arm.zero, 0.0};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

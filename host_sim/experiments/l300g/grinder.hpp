@@ -9,7 +9,7 @@
 #include "host_sim/experiments/l300g/truth.hpp"
 #include "host_sim/sim/controller/prober.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 // What of the chain the paths of the probe need.
 struct GrinderGeometry {
@@ -23,10 +23,10 @@ struct GrinderGeometry {
 
 // What all grinders of a run share; outlives them.
 struct GrinderHall {
-  MachineFile file;
-  TrueMachine truth;
-  BusAxesFactory make_axes;
-  double cycle_hz = kBusCycleOfFive_hz;
+  host::MachineFile file;
+  sim::TrueMachine truth;
+  sim::BusAxesFactory make_axes;
+  double cycle_hz = sim::kBusCycleOfFive_hz;
 };
 
 // From the axis of A: beyond everything that may stand there.
@@ -38,8 +38,8 @@ class Grinder {
 
   // What stands on A from now on; it must outlive the touches. Only while the probe is clear of it.
   // `lobing_mm`: what the direction of a touch adds to the radius of the ball (touch_probe.hpp).
-  void mount(const Artefact& artefact, std::function<double(const Vec3&)> lobing_mm = {});
-  [[nodiscard]] Prober& prober() { return *prober_; }
+  void mount(const sim::Artefact& artefact, std::function<double(const Vec3&)> lobing_mm = {});
+  [[nodiscard]] sim::Prober& prober() { return *prober_; }
   // Without touching.
   void go(const Pose& to, double feed) { cell_->move_to(to, feed); }
 
@@ -53,9 +53,9 @@ class Grinder {
   const GrinderHall& hall_;
   MachineChain chain_;
   GrinderGeometry geometry_;
-  BusAxes* axes_ = nullptr;
-  std::unique_ptr<MotionCell> cell_;
-  std::unique_ptr<Prober> prober_;
+  sim::BusAxes* axes_ = nullptr;
+  std::unique_ptr<sim::MotionCell> cell_;
+  std::unique_ptr<sim::Prober> prober_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

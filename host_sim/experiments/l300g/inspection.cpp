@@ -5,7 +5,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 // A touch that was meant for the end of the range belongs to it, though encoders count nanometres.
@@ -13,9 +13,9 @@ constexpr double kEnd_mm = 1e-5;
 
 TraceDeviations evaluated(const FlankTrace& trace, const EvaluationRange& range) {
   TraceDeviations figures;
-  require(evaluate_trace(trace.at, trace.deviation, {range.low - kEnd_mm, range.high + kEnd_mm},
-                         figures),
-          "evaluation");
+  host::require(evaluate_trace(trace.at, trace.deviation,
+                               {range.low - kEnd_mm, range.high + kEnd_mm}, figures),
+                "evaluation");
   return figures;
 }
 
@@ -39,7 +39,7 @@ void judge_lead(const InvoluteGear& gear, FlankTrace& trace) {
 }
 
 void judge_pitch(const InvoluteGear& gear, PitchRound& round) {
-  require(evaluate_pitch(round.position, round.figures), "pitch");
+  host::require(evaluate_pitch(round.position, round.figures), "pitch");
   const auto grade = [&](GearDeviation deviation, double um) {
     return grade_of(GearStandard::iso1328_1995, size_of(gear), deviation, um);
   };
@@ -75,7 +75,7 @@ GearInspection true_gear(const InvoluteGear& gear) {
 
 void GearInspector::retract() {
   last_[1] = setup_.beside();
-  grinder_.go(last_, ProbingFeeds{}.rapid);
+  grinder_.go(last_, sim::ProbingFeeds{}.rapid);
   beside_gear_ = true;
 }
 
@@ -86,27 +86,28 @@ void GearInspector::approach(const Pose& from) {
   beside_gear_ = false;
   Pose outside = from;
   outside[1] = setup_.beside();
-  grinder_.go(outside, ProbingFeeds{}.rapid);
+  grinder_.go(outside, sim::ProbingFeeds{}.rapid);
 }
 
-NodePoint GearInspector::touch(const FlankTouch& touch, const Speed& speed) {
+sim::NodePoint GearInspector::touch(const FlankTouch& touch, const Speed& speed) {
   const FlankMove move = flank_move(setup_, touch, speed.stand_off);
   approach(move.from);
   constexpr double kRetract_mm_s = 20.0;
   return grinder_.prober().touch(
       move.from, move.beyond, move.normal,
-      {ProbingFeeds{}.rapid, speed.probing / move.lift_mm, kRetract_mm_s / move.lift_mm});
+      {sim::ProbingFeeds{}.rapid, speed.probing / move.lift_mm, kRetract_mm_s / move.lift_mm});
 }
 
 FlankDistance GearInspector::distance(const Flank& flank, const Vec3& point) const {
   FlankDistance d;
-  require(distance_from_flank(setup_.gear, flank, {point.y(), point.z()}, point.x(), d), "flank");
+  host::require(distance_from_flank(setup_.gear, flank, {point.y(), point.z()}, point.x(), d),
+                "flank");
   return d;
 }
 
 GearInspector::Deviation GearInspector::deviation(const Flank& flank, const Vec3& point) const {
   Deviation d;
-  require(deviation_from_flank(setup_.gear, flank, point, d.mm, d.roll_length), "flank");
+  host::require(deviation_from_flank(setup_.gear, flank, point, d.mm, d.roll_length), "flank");
   return d;
 }
 
@@ -124,7 +125,7 @@ FlankTrace GearInspector::profile(FlankSide side) {
 FlankTrace GearInspector::lead(FlankSide side) {
   FlankTrace trace;
   for (const FlankTouch& wanted : lead_touches(setup_.gear, side)) {
-    const NodePoint point = touch(wanted, {});
+    const sim::NodePoint point = touch(wanted, {});
     trace.at.push_back(point.workpiece.x());
     trace.deviation.push_back(kUmPerMm * deviation(wanted.flank, point.workpiece).mm);
   }
@@ -135,7 +136,7 @@ FlankTrace GearInspector::lead(FlankSide side) {
 PitchRound GearInspector::pitch(FlankSide side) {
   PitchRound round;
   for (const FlankTouch& wanted : pitch_touches(setup_.gear, side)) {
-    const NodePoint point = touch(wanted, {});
+    const sim::NodePoint point = touch(wanted, {});
     retract();
     const double along_base = distance(wanted.flank, point.workpiece).distance;
     round.position.push_back(kUmPerMm * along_base * setup_.gear.r / setup_.gear.r_b);
@@ -156,4 +157,4 @@ GearInspection GearInspector::inspect() {
   return result;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -10,7 +10,7 @@
 #include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/experiments/l300g/inspection_plan.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 struct FlankTrace {
   std::vector<double> at;         // roll length or x, mm
@@ -54,7 +54,7 @@ class GearInspector {
     double probing = 5.0;
     double stand_off = 0.2;
   };
-  [[nodiscard]] NodePoint touch(const FlankTouch& touch, const Speed& speed);
+  [[nodiscard]] sim::NodePoint touch(const FlankTouch& touch, const Speed& speed);
   // Normal to the flank, excess positive, mm.
   struct Deviation {
     double mm = 0.0;
@@ -78,4 +78,4 @@ class GearInspector {
   Pose last_{};              // where the last touch began
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

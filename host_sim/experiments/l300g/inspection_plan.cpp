@@ -5,7 +5,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 constexpr int kPoints = 100;  // steps of the range of 1995
@@ -66,9 +66,9 @@ double InspectionSetup::beside() const {
 FlankMove flank_move(const InspectionSetup& setup, const FlankTouch& touch, double stand_off) {
   const SwingArm& arm = setup.geometry.arm;
   FlankMove move;
-  require(touch_pose(arm, setup.geometry.datum, setup.gear, setup.style, touch, setup.ball_radius,
-                     move.contact),
-          "touch");
+  host::require(touch_pose(arm, setup.geometry.datum, setup.gear, setup.style, touch,
+                           setup.ball_radius, move.contact),
+                "touch");
   move.lift_mm = arm_lift(arm, move.contact[2]);
   const double outwards = touch.flank.side == FlankSide::left ? 1.0 : -1.0;
   move.from = move.beyond = move.contact;
@@ -79,4 +79,4 @@ FlankMove flank_move(const InspectionSetup& setup, const FlankTouch& touch, doub
   return move;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

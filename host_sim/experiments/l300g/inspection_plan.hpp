@@ -9,7 +9,7 @@
 #include "comp/metrology/gears/gear_path.hpp"
 #include "host_sim/experiments/l300g/grinder.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 inline constexpr std::array<FlankSide, 2> kSides{FlankSide::left, FlankSide::right};
 inline constexpr std::array<const char*, 2> kSideNames{"left", "right"};
@@ -49,4 +49,4 @@ struct FlankMove {
 [[nodiscard]] FlankMove flank_move(const InspectionSetup& setup, const FlankTouch& touch,
                                    double stand_off);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

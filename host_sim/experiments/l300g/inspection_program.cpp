@@ -6,7 +6,7 @@
 #include "comp/machine/inverse.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 constexpr double kDegrees = 180.0 / kPi;
@@ -87,7 +87,7 @@ Pose compensation_at(const VolumetricModel& model, const Pose& pose) {
     for (std::size_t a = 0; a < q.size(); ++a)
       q[a] += found.offset[a];
     const Vec3 error = model.second_order(q, kUnknownTravels, Beyond::stand_at_end);
-    require(motion_offset(model.chain, pose, model.tool_point, error, found), "compensation");
+    host::require(motion_offset(model.chain, pose, model.tool_point, error, found), "compensation");
   }
   return found.offset;
 }
@@ -104,4 +104,4 @@ std::string inspection_program(const InspectionSetup& setup, const std::string& 
   return program.end();
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

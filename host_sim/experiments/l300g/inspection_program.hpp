@@ -8,7 +8,7 @@
 #include "comp/metrology/tables/volumetric_model.hpp"
 #include "host_sim/experiments/l300g/inspection_plan.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 // What the axes have to be told beside a pose so that the machine stands where an ideal one would.
 using OffsetFor = std::function<Pose(const Pose&)>;
@@ -24,4 +24,4 @@ using OffsetFor = std::function<Pose(const Pose&)>;
 [[nodiscard]] std::string inspection_program(const InspectionSetup& setup, const std::string& title,
                                              const OffsetFor& offset_for);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

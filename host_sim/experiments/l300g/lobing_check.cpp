@@ -10,7 +10,7 @@
 #include "host_sim/sim/artefacts/sphere.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 constexpr double kSphere_mm = 15.0;
@@ -20,7 +20,7 @@ constexpr double kAway_mm = 5.0;  // so that the way to the next direction is cl
 constexpr double kBeyond_mm = 0.3;
 constexpr double kRadPerDegree = kPi / 180.0;
 constexpr int kAround = 9;  // directions of a ring: third order needs seven
-constexpr ProbingFeeds kFeeds{50.0, 10.0, 50.0};
+constexpr sim::ProbingFeeds kFeeds{50.0, 10.0, 50.0};
 
 using Rings = std::array<double, 4>;  // elevations, degrees; third order needs four
 constexpr Rings kMapped{-60.0, -20.0, 20.0, 60.0};
@@ -58,7 +58,7 @@ double largest(const LobingMap& map) {
   return most;
 }
 
-LobingMap drawn(Random& random) {
+LobingMap drawn(sim::Random& random) {
   LobingMap map;
   for (std::size_t k = 1; k < kLobingTerms; ++k)
     map.coefficient[k] = random.uniform(-1.0, 1.0);
@@ -98,11 +98,11 @@ class SphereBench {
   }
 
   // The radius that the probe has shown in each direction of the tool frame.
-  LobingMap map(Random& noise) {
-    use(node_probe(file_).radius);
+  LobingMap map(sim::Random& noise) {
+    use(sim::node_probe(file_).radius);
     LobingFit fit;
     for (const Vec3& n : directions(kMapped, 0.0)) {
-      const NodePoint centre = touch(n, Vec3::Zero());
+      const sim::NodePoint centre = touch(n, Vec3::Zero());
       const double radius = centre.workpiece.norm() - kSphere_mm + noise.normal(kNoise_mm);
       fit.add(in_tool(centre), radius);
     }
@@ -120,7 +120,7 @@ class SphereBench {
 
  private:
   void use(const LobingMap& radius) {
-    NodeProbe probe = node_probe(file_);
+    sim::NodeProbe probe = sim::node_probe(file_);
     probe.radius = radius;
     grinder_.prober().configure(probe);
   }
@@ -128,37 +128,38 @@ class SphereBench {
   [[nodiscard]] Pose pose_at(const Vec3& centre) const {
     const GrinderGeometry& g = grinder_.geometry();
     Pose q{};
-    require(arm_angle(g.arm, centre.z(), q[2]), "sphere");
+    host::require(arm_angle(g.arm, centre.z(), q[2]), "sphere");
     q[0] = g.datum.x + centre.x() - arm_foreshortening(g.arm, q[2]);
     q[1] = g.datum.y + centre.y();
     return q;
   }
 
-  NodePoint touch(const Vec3& from_side, const Vec3& normal) {
-    const double touching = kSphere_mm + node_probe(file_).radius.coefficient[0];
+  sim::NodePoint touch(const Vec3& from_side, const Vec3& normal) {
+    const double touching = kSphere_mm + sim::node_probe(file_).radius.coefficient[0];
     return grinder_.prober().touch(pose_at(from_side * (touching + kAway_mm)),
                                    pose_at(from_side * (touching - kBeyond_mm)), normal, kFeeds);
   }
 
-  [[nodiscard]] Vec3 in_tool(const NodePoint& centre) const {
+  [[nodiscard]] Vec3 in_tool(const sim::NodePoint& centre) const {
     const MachineChain& chain = grinder_.chain();
     const Vec3 in_base = chain.ideal(chain.work(), centre.latched).R * centre.workpiece;
     return (chain.ideal(chain.tool(), centre.latched).R.transpose() * in_base).normalized();
   }
 
-  const MachineFile& file_;
-  Sphere sphere_{Vec3::Zero(), kSphere_mm};
+  const host::MachineFile& file_;
+  sim::Sphere sphere_{Vec3::Zero(), kSphere_mm};
   Grinder grinder_;
 };
 
 }  // namespace
 
-LobingCheck check_lobing(const MachineFile& file, const BusAxesFactory& make_axes, double cycle_hz,
-                         std::uint64_t seed) {
+LobingCheck check_lobing(const host::MachineFile& file, const sim::BusAxesFactory& make_axes,
+                         double cycle_hz, std::uint64_t seed) {
   const GrinderHall hall{file, make_l300g_truth(file, {}, seed), make_axes, cycle_hz};
-  const MachineTables tables = tables_of(identify_axes(hall.truth, file), file,
-                                         file.chain.description(), TableKind::none, kDefaultKnots);
-  Random random(seed);
+  const MachineTables tables =
+      sim::tables_of(sim::identify_axes(hall.truth, file), file, file.chain.description(),
+                     sim::TableKind::none, kDefaultKnots);
+  sim::Random random(seed);
   SphereBench bench(hall, tables, drawn(random));
   const LobingMap map = bench.map(random);
   LobingMap constant;
@@ -169,4 +170,4 @@ LobingCheck check_lobing(const MachineFile& file, const BusAxesFactory& make_axe
   return check;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

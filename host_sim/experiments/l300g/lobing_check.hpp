@@ -5,7 +5,7 @@
 #include "host_sim/experiments/l300g/grinder.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 struct LobingCheck {
   double raw_um = 0.0;        // largest deviation of a point with a constant radius
@@ -15,7 +15,8 @@ struct LobingCheck {
 // Spherical harmonics of first to third order, drawn at random, ±5 µm together; mapped from 36
 // directions with 0.1 µm of noise, checked in 36 others. On a machine without errors: it is about
 // the probe.
-[[nodiscard]] LobingCheck check_lobing(const MachineFile& file, const BusAxesFactory& make_axes,
-                                       double cycle_hz, std::uint64_t seed);
+[[nodiscard]] LobingCheck check_lobing(const host::MachineFile& file,
+                                       const sim::BusAxesFactory& make_axes, double cycle_hz,
+                                       std::uint64_t seed);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

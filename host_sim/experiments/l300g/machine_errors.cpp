@@ -7,7 +7,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 constexpr double kUm = 1e-3;
@@ -64,7 +64,7 @@ GrinderErrors a_slope() {
 // --- files
 
 // Six numbers of µm and µrad, or zeros.
-std::array<double, 6> six(const TomlSection& s, const std::string& key) {
+std::array<double, 6> six(const host::TomlSection& s, const std::string& key) {
   std::array<double, 6> values{};
   if (!s.has(key)) return values;
   values = s.numbers<6>(key);
@@ -73,7 +73,7 @@ std::array<double, 6> six(const TomlSection& s, const std::string& key) {
   return values;
 }
 
-AxisErrors read_axis(const TomlSection& s, double sign) {
+AxisErrors read_axis(const host::TomlSection& s, double sign) {
   s.allow_only({"constant", "slope", "wave_um", "wave_urad", "wave_period_mm", "wave_period_deg"});
   AxisErrors axis;
   axis.constant = six(s, "constant");
@@ -90,7 +90,7 @@ AxisErrors read_axis(const TomlSection& s, double sign) {
   return axis;
 }
 
-GrinderErrors read_errors(const TomlSection& top) {
+GrinderErrors read_errors(const host::TomlSection& top) {
   top.allow_only({"convention", "arm_mm", "X", "Y", "B", "A"});
   const bool relative = top.choice("convention", {"relative", "body"}) == 0;
   GrinderErrors errors;
@@ -122,8 +122,8 @@ bool GrinderErrors::waves() const {
 }
 
 GrinderErrors parse_grinder_errors(const std::string& text, const std::string& name) {
-  return read_toml(text, name, [&](const toml::value& root) {
-    return read_errors(TomlSection(root, name, "the file of errors"));
+  return host::read_toml(text, name, [&](const toml::value& root) {
+    return read_errors(host::TomlSection(root, name, "the file of errors"));
   });
 }
 
@@ -132,7 +132,7 @@ bool is_named(const std::string& errors) { return named_errors().count(errors) >
 GrinderErrors grinder_errors(const std::string& name_or_file) {
   const auto named = named_errors().find(name_or_file);
   if (named != named_errors().end()) return named->second();
-  return parse_grinder_errors(text_of_file(name_or_file), name_or_file);
+  return parse_grinder_errors(host::text_of_file(name_or_file), name_or_file);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

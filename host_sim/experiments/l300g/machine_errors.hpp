@@ -7,7 +7,7 @@
 
 #include "comp/machine/error_motion.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 inline constexpr std::size_t kGrinderAxes = 4;  // X Y B A
 
@@ -38,4 +38,4 @@ inline constexpr const char* kNamedErrors = "none, p8, p8-variation, table2, sho
 [[nodiscard]] GrinderErrors grinder_errors(const std::string& name_or_file);
 [[nodiscard]] GrinderErrors parse_grinder_errors(const std::string& text, const std::string& name);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -7,7 +7,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/artefacts/mandrel.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 constexpr int kSteps = 81;
@@ -36,7 +36,7 @@ std::vector<Transverse> constellation() {
 
 Pose pose_at(const GrinderGeometry& g, double y, double z) {
   Pose q{};
-  require(arm_angle(g.arm, z, q[2]), "mandrel");
+  host::require(arm_angle(g.arm, z, q[2]), "mandrel");
   q[0] = g.datum.x - arm_foreshortening(g.arm, q[2]);
   q[1] = g.datum.y + y;
   return q;
@@ -45,7 +45,7 @@ Pose pose_at(const GrinderGeometry& g, double y, double z) {
 void touch_all(Grinder& grinder, MandrelCalibration& result) {
   const GrinderGeometry& g = grinder.geometry();
   const double probing = 5.0 / g.arm.length;
-  const ProbingFeeds feeds{50.0, probing, 4.0 * probing};
+  const sim::ProbingFeeds feeds{50.0, probing, 4.0 * probing};
   bool above = true;
   for (const Transverse& centre : constellation()) {
     const double outwards = centre.z > 0.0 ? 1.0 : -1.0;
@@ -57,7 +57,7 @@ void touch_all(Grinder& grinder, MandrelCalibration& result) {
     const Pose beyond = pose_at(g, centre.y, centre.z - outwards * kStandOff_mm);
     Pose swung = beyond;  // B alone moves
     swung[0] = from[0];
-    const NodePoint point = grinder.prober().touch(from, swung, Vec3::Zero(), feeds);
+    const sim::NodePoint point = grinder.prober().touch(from, swung, Vec3::Zero(), feeds);
     result.y.push_back(g.datum.y + point.workpiece.y());
     result.z.push_back(point.workpiece.z());
   }
@@ -87,7 +87,7 @@ MandrelEffect effect_on_fit(const BelievedHeight& believed) {
     z.push_back(believed(centre.z));
   }
   CircleFit fit;
-  require(fit_circle(y, z, fit), "mandrel");
+  host::require(fit_circle(y, z, fit), "mandrel");
   return {fit.geometric.radius - kMandrelRadius_mm - kEffectiveBall_mm, fit.geometric.y,
           fit.geometric.z, fit.rms};
 }
@@ -114,18 +114,18 @@ MandrelEffect effect_of_pivot(const SwingArm& arm, double higher) {
 }
 
 MandrelCalibration calibrate_on_mandrel(Grinder& grinder, const MandrelBudget& budget) {
-  const Mandrel mandrel(kMandrelRadius_mm);
+  const sim::Mandrel mandrel(kMandrelRadius_mm);
   grinder.mount(mandrel);
   MandrelCalibration result;
   touch_all(grinder, result);
-  require(fit_circle(result.y, result.z, result.fit), "mandrel calibration");
+  host::require(fit_circle(result.y, result.z, result.fit), "mandrel calibration");
   EffectiveRadius effective;
-  require(effective_radius(result.y, result.z, result.fit, {kMandrelRadius_mm, kNominalBall_mm},
-                           effective),
-          "mandrel calibration");
+  host::require(effective_radius(result.y, result.z, result.fit,
+                                 {kMandrelRadius_mm, kNominalBall_mm}, effective),
+                "mandrel calibration");
   result.rc = effective.rc;
   result.u_rc = uncertainty_of(result, budget, grinder.geometry().arm);
   return result;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

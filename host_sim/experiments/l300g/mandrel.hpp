@@ -7,7 +7,7 @@
 #include "comp/metrology/fits/circle_fit.hpp"
 #include "host_sim/experiments/l300g/grinder.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 inline constexpr double kMandrelRadius_mm = 15.0;
 inline constexpr double kNominalBall_mm = 1.5;
@@ -48,4 +48,4 @@ struct MandrelEffect {
 // The pivot is higher than the axis of A, and nobody knows.
 [[nodiscard]] MandrelEffect effect_of_pivot(const SwingArm& arm, double higher);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -4,12 +4,12 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 constexpr double kPrintedStart_mm = 100.0;  // x₀ of the paper's Table 2
 
-std::vector<double> own_readings(const Joint& joint, const IdentifiedAxis& axis) {
+std::vector<double> own_readings(const Joint& joint, const sim::IdentifiedAxis& axis) {
   const auto channel =
       static_cast<Eigen::Index>(joint.axis) + (joint.kind == JointKind::rotary ? 3 : 0);
   std::vector<double> readings;
@@ -20,15 +20,16 @@ std::vector<double> own_readings(const Joint& joint, const IdentifiedAxis& axis)
 
 }  // namespace
 
-PrintedProcedure printed_procedure(const Identification& found, const MachineFile& file) {
+PrintedProcedure printed_procedure(const sim::Identification& found,
+                                   const host::MachineFile& file) {
   PrintedProcedure printed;
   for (std::size_t a = 0; a < printed.own.size(); ++a) {
     const std::vector<double> readings = own_readings(file.chain.axis(a), found.axis.at(a));
-    require(reading_figures(readings, printed.own[a]), "readings");
+    host::require(reading_figures(readings, printed.own[a]), "readings");
     // The rows of eq. 18 differ in nothing but their right sides.
-    if (a == 0) require(printed_x_solution(readings, kPrintedStart_mm, printed.x), "eq. 18");
+    if (a == 0) host::require(printed_x_solution(readings, kPrintedStart_mm, printed.x), "eq. 18");
   }
   return printed;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -8,14 +8,14 @@
 #include "host_sim/experiments/l300g/machine_errors.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 struct PrintedProcedure {
   std::array<ReadingFigures, kGrinderAxes> own;  // of each axis along or about itself
   PrintedSolution x;                             // eq. 18 with the readings of X
 };
 
-[[nodiscard]] PrintedProcedure printed_procedure(const Identification& found,
-                                                 const MachineFile& file);
+[[nodiscard]] PrintedProcedure printed_procedure(const sim::Identification& found,
+                                                 const host::MachineFile& file);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -13,7 +13,7 @@
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 using nlohmann::json;
@@ -31,7 +31,7 @@ json residual_chart(const MandrelCalibration& c) {
     residual[below].push_back(kUmPerMm * c.residual(i));
   }
   const auto points = [&](const char* name, std::size_t below) {
-    json series = series_of(name, y[below], residual[below]);
+    json series = host::series_of(name, y[below], residual[below]);
     series["style"] = "points";
     return series;
   };
@@ -39,8 +39,8 @@ json residual_chart(const MandrelCalibration& c) {
       {"type", "lines"},
       {"id", "residuals"},
       {"title", "Probe calibration: residuals on the mandrel"},
-      {"x", axis_label("Y", "mm")},
-      {"y", axis_label("distance from the circle", "µm")},
+      {"x", host::axis_label("Y", "mm")},
+      {"y", host::axis_label("distance from the circle", "µm")},
       {"series", {points("above the mandrel", 0), points("below the mandrel", 1)}},
       {"note",
        fmt::format("{} touches in one half plane, nothing compensated. R_c {:.4f} mm, r_c = R_c "
@@ -67,10 +67,10 @@ json sensitivities(const L300gResult& r) {
       {"title", "What the calibration cannot tell from the radius"},
       {"columns",
        {{{"title", "machine"}},
-        column("R_c", "µm", 3),
-        column("Y0", "µm", 3),
-        column("Z0", "µm", 3),
-        column("rms", "µm", 4)}},
+        host::column("R_c", "µm", 3),
+        host::column("Y0", "µm", 3),
+        host::column("Z0", "µm", 3),
+        host::column("rms", "µm", 4)}},
       {"rows", rows},
       {"note", fmt::format("The residuals hardly show them. Standard uncertainty of r_c with the "
                            "assumed inputs: {:.2f} µm.",
@@ -80,10 +80,10 @@ json sensitivities(const L300gResult& r) {
 // --- identification
 
 json error_functions(const L300gResult& r) {
-  std::vector<ErrorCurves> axes;
+  std::vector<host::ErrorCurves> axes;
   for (std::size_t a = 0; a < r.identification.axis.size(); ++a) {
-    const IdentifiedAxis& identified = r.identification.axis[a];
-    ErrorCurves curves{
+    const sim::IdentifiedAxis& identified = r.identification.axis[a];
+    host::ErrorCurves curves{
         identified.letter, r.machine.axes[a].rotary, identified.nodes, identified.motion, {}};
     ErrorMotion half;
     for (Eigen::Index c = 0; c < half.size(); ++c)
@@ -91,19 +91,19 @@ json error_functions(const L300gResult& r) {
     curves.half_width.assign(curves.at.size(), half);
     axes.push_back(curves);
   }
-  return error_functions_group(
-      fmt::format("The {} identified error functions", kChannels.size() * axes.size()), axes,
+  return host::error_functions_group(
+      fmt::format("The {} identified error functions", host::kChannels.size() * axes.size()), axes,
       fmt::format("Motion of the body itself, in its moving frame. Largest difference from the "
                   "simulated truth {:.1e} mm or rad. Bands: ±{:g} standard uncertainties that "
                   "{:g} µm of each target would leave; condition of the targets {:.2f}.",
-                  r.identification.max_error(), kCoverage, kUmPerMm * kTracker_mm,
+                  r.identification.max_error(), kCoverage, kUmPerMm * sim::kTracker_mm,
                   r.identification.condition));
 }
 
 json printed_table(const L300gResult& r) {
   json rows = json::array();
   for (std::size_t a = 0; a < r.identification.axis.size(); ++a) {
-    const IdentifiedAxis& axis = r.identification.axis[a];
+    const sim::IdentifiedAxis& axis = r.identification.axis[a];
     const bool rotary = r.machine.axes[a].rotary;
     const double scale = rotary ? kUradPerRad : kUmPerMm;
     const ReadingFigures& own = r.printed.own.at(a);
@@ -132,15 +132,15 @@ json printed_table(const L300gResult& r) {
 
 json feed_chart(const L300gResult& r) {
   const auto points = [&](const char* name, const std::vector<double>& nm) {
-    json series = series_of(name, r.feeds.feed_mm_min, nm);
+    json series = host::series_of(name, r.feeds.feed_mm_min, nm);
     series["style"] = "points";
     return series;
   };
   return {{"type", "lines"},
           {"id", "feeds"},
           {"title", fmt::format("The same place at {} feeds", r.feeds.feed_mm_min.size())},
-          {"x", axis_label("feed", "mm/min")},
-          {"y", axis_label("normal to the flank, from the mean", "nm")},
+          {"x", host::axis_label("feed", "mm/min")},
+          {"y", host::axis_label("normal to the flank, from the mean", "nm")},
           {"series",
            {points("as latched", r.feeds.raw_nm),
             points("corrected by the node", r.feeds.corrected_nm)}},
@@ -152,7 +152,7 @@ json feed_chart(const L300gResult& r) {
 // --- the document
 
 json before_after(const L300gResult& r) {
-  std::vector<BeforeAfter> lines;
+  std::vector<host::BeforeAfter> lines;
   const auto grade = [](const std::optional<int>& g) {
     return grade_text(g, GearStandard::iso1328_1995);
   };
@@ -177,27 +177,27 @@ json before_after(const L300gResult& r) {
     lines.push_back({fmt::format("pitch f_pt, {} flanks", kSideNames[side]), before.figures.single,
                      after.figures.single, truth.figures.single, "", ""});
   }
-  return before_after_table(
+  return host::before_after_table(
       lines,
       "Deviations of the master gear as the machine finds them, with zero tables and with those of "
       "the identified error functions. Grades by ISO 1328-1:1995; that of a pitch is the worse of "
       "F_p and f_pt.");
 }
 
-Origins origins(const L300gResult& r) {
+host::Origins origins(const L300gResult& r) {
   const L300gOptions& o = r.options;
-  Origins origins;
+  host::Origins origins;
   origins.settings = {
       {"errors of the machine", o.errors},
       {"path", o.path == PathStyle::fixed_a ? "A stands still, B touches" : "generating"},
       {"origin", o.origin == Origin::nominal ? "machine file" : "fit of the mandrel"},
-      {"tables", kTableKinds.at(static_cast<std::size_t>(o.tables))},
+      {"tables", sim::kTableKinds.at(static_cast<std::size_t>(o.tables))},
       {"seed", fmt::format("{} (phases of waves, noise of the lobing check)", o.seed)}};
   origins.inputs = r.inputs;
   origins.instruments = {
       fmt::format("laser tracker for the error functions: {:g} µm of each target assumed for the "
                   "bands, none added",
-                  kUmPerMm * kTracker_mm),
+                  kUmPerMm * sim::kTracker_mm),
       "touch probe of the machine: delays and radius of the machine file, corrected by the node"};
   origins.chosen = {"amounts and signs of the errors, such that they add up"};
   origins.untouched = {"deviations and grades of the gear"};
@@ -206,8 +206,8 @@ Origins origins(const L300gResult& r) {
 
 }  // namespace
 
-json l300g_document(const L300gResult& r, const RunContext& run) {
-  ReportParts parts;
+json l300g_document(const L300gResult& r, const host::RunContext& run) {
+  host::ReportParts parts;
   parts.title = "L300G: gear inspection before and after compensation";
   parts.subtitle =
       "Simulated gear grinder after Yang et al.; every touch through drives, bus and node";
@@ -217,8 +217,8 @@ json l300g_document(const L300gResult& r, const RunContext& run) {
   parts.details = {gear_table(r), residual_chart(r.calibration), sensitivities(r), printed_table(r),
                    feed_chart(r)};
   parts.ticks = run.ticks;
-  parts.provenance = provenance(run, origins(r));
-  return report_document(std::move(parts));
+  parts.provenance = host::provenance(run, origins(r));
+  return host::report_document(std::move(parts));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

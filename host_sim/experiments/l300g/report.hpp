@@ -5,9 +5,9 @@
 #include "host_sim/experiments/l300g/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 // A run as a report document (host_sim/host/report/page/README.md).
-[[nodiscard]] nlohmann::json l300g_document(const L300gResult& result, const RunContext& run);
+[[nodiscard]] nlohmann::json l300g_document(const L300gResult& result, const host::RunContext& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

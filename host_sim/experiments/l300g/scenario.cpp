@@ -4,32 +4,33 @@
 
 #include "host_sim/experiments/l300g/inspection_program.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 // What both measurements of the gear share.
 struct Inspection {
   const L300gOptions& options;
   const GrinderHall& hall;
-  const Identification& identification;
-  const Gear& gear;
+  const sim::Identification& identification;
+  const sim::Gear& gear;
   const InvoluteGear& involute;
   double rc;  // as calibrated before anything was compensated
 };
 
-MachineTables tables_at(const Inspection& run, TableKind kind, const MachineDescription& machine) {
-  return tables_of(run.identification, run.hall.file, machine, kind, run.options.knots);
+MachineTables tables_at(const Inspection& run, sim::TableKind kind,
+                        const MachineDescription& machine) {
+  return sim::tables_of(run.identification, run.hall.file, machine, kind, run.options.knots);
 }
 
-NodeProbe probe_of(const MachineFile& file, double rc) {
-  NodeProbe probe = node_probe(file);
+sim::NodeProbe probe_of(const host::MachineFile& file, double rc) {
+  sim::NodeProbe probe = sim::node_probe(file);
   probe.radius.coefficient[0] = rc;
   return probe;
 }
 
 // Where the mandrel says the axis of A is, once these tables are in force: a part of the errors
 // that is the same everywhere is found there and must not be taken away twice.
-MachineDescription zeroed_on_mandrel(const Inspection& run, TableKind kind) {
+MachineDescription zeroed_on_mandrel(const Inspection& run, sim::TableKind kind) {
   const MachineChain& nominal = run.hall.file.chain;
   Grinder grinder(run.hall, tables_at(run, kind, nominal.description()));
   const Circle circle = calibrate_on_mandrel(grinder, {}).fit.geometric;
@@ -37,10 +38,11 @@ MachineDescription zeroed_on_mandrel(const Inspection& run, TableKind kind) {
 }
 
 // As an NC program: with the tables in the program instead of in the node.
-std::string program(const Inspection& run, TableKind kind, const InspectionSetup& setup,
+std::string program(const Inspection& run, sim::TableKind kind, const InspectionSetup& setup,
                     const MachineChain& chain) {
-  if (kind == TableKind::none) return inspection_program(setup, "before compensation", no_offset);
-  const IdentifiedModel model(run.identification, kind, chain);
+  if (kind == sim::TableKind::none)
+    return inspection_program(setup, "before compensation", no_offset);
+  const sim::IdentifiedModel model(run.identification, kind, chain);
   return inspection_program(
       setup, "the geometric error chain of X, Y, B and A compensated",
       [&model](const Pose& pose) { return compensation_at(model.volumetric(), pose); });
@@ -51,11 +53,11 @@ Vec3 orientation_at_pitch_point(const Inspection& run) {
   const MachineChain& chain = run.hall.file.chain;
   const InspectionSetup setup{grinder_geometry(chain), run.involute, run.options.path, run.rc};
   const FlankTouch touch{{FlankSide::left, 0}, pitch_roll(run.involute), 0.5 * run.involute.width};
-  const IdentifiedModel model(run.identification, TableKind::identified, chain);
+  const sim::IdentifiedModel model(run.identification, sim::TableKind::identified, chain);
   return model.orientation_error(flank_move(setup, touch, 0.0).contact);
 }
 
-GearInspection inspect(const Inspection& run, TableKind kind, FeedCheck* feeds) {
+GearInspection inspect(const Inspection& run, sim::TableKind kind, FeedCheck* feeds) {
   const MachineDescription machine = run.options.origin == Origin::nominal
                                          ? run.hall.file.chain.description()
                                          : zeroed_on_mandrel(run, kind);
@@ -70,32 +72,32 @@ GearInspection inspect(const Inspection& run, TableKind kind, FeedCheck* feeds) 
   return result;
 }
 
-MandrelCalibration calibrate_first(const GrinderHall& hall, const Identification& identification,
-                                   std::size_t knots) {
-  Grinder grinder(hall, tables_of(identification, hall.file, hall.file.chain.description(),
-                                  TableKind::none, knots));
+MandrelCalibration calibrate_first(const GrinderHall& hall,
+                                   const sim::Identification& identification, std::size_t knots) {
+  Grinder grinder(hall, sim::tables_of(identification, hall.file, hall.file.chain.description(),
+                                       sim::TableKind::none, knots));
   return calibrate_on_mandrel(grinder, {});
 }
 
 }  // namespace
 
-L300gResult run_l300g(const L300gOptions& options, const Progress& progress) {
+L300gResult run_l300g(const L300gOptions& options, const host::Progress& progress) {
   L300gResult result;
   result.options = options;
-  result.machine = read_machine_file(options.machine);
-  result.inputs = {hashed_file("machine file", options.machine)};
+  result.machine = host::read_machine_file(options.machine);
+  result.inputs = {host::hashed_file("machine file", options.machine)};
   if (!is_named(options.errors))
-    result.inputs.push_back(hashed_file("errors of the machine", options.errors));
+    result.inputs.push_back(host::hashed_file("errors of the machine", options.errors));
   result.gear = master_gear();
   const GrinderHall hall{
       result.machine,
       make_l300g_truth(result.machine, grinder_errors(options.errors), options.seed),
       options.make_axes, options.cycle_hz};
-  const Gear gear(result.gear,
-                  [](const Flank&, double s, double x) { return own_deviation(s, x); });
+  const sim::Gear gear(result.gear,
+                       [](const Flank&, double s, double x) { return own_deviation(s, x); });
 
   progress(0.0, "identification of 24 error functions");
-  result.identification = identify_axes(hall.truth, result.machine);
+  result.identification = sim::identify_axes(hall.truth, result.machine);
   result.printed = printed_procedure(result.identification, result.machine);
   progress(0.05, "probe calibration on the mandrel");
   result.calibration = calibrate_first(hall, result.identification, options.knots);
@@ -109,7 +111,7 @@ L300gResult run_l300g(const L300gOptions& options, const Progress& progress) {
   result.truth = true_gear(result.gear);
   result.orientation = orientation_at_pitch_point(run);
   progress(0.2, "master gear, uncompensated");
-  result.before = inspect(run, TableKind::none, nullptr);
+  result.before = inspect(run, sim::TableKind::none, nullptr);
   progress(0.6, "master gear, compensated");
   result.after = inspect(run, options.tables, &result.feeds);
   progress(0.95, "lobing of the probe");
@@ -118,4 +120,4 @@ L300gResult run_l300g(const L300gOptions& options, const Progress& progress) {
   return result;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

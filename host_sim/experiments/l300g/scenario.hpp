@@ -14,7 +14,7 @@
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/report/progress.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 enum class Origin : std::uint8_t {
   nominal,  // the axis of A is where the machine file says
@@ -26,22 +26,22 @@ struct L300gOptions {
   std::string errors = "p8";  // machine_errors.hpp
   PathStyle path = PathStyle::fixed_a;
   Origin origin = Origin::nominal;
-  TableKind tables = TableKind::identified;  // of the compensation
-  std::uint64_t seed = 1;                    // of the phases of waves
-  std::size_t knots = kDefaultKnots;         // per table: what the node has room for
-  double cycle_hz = kBusCycleOfFive_hz;
-  BusAxesFactory make_axes = loopback_axes();
+  sim::TableKind tables = sim::TableKind::identified;  // of the compensation
+  std::uint64_t seed = 1;                              // of the phases of waves
+  std::size_t knots = kDefaultKnots;                   // per table: what the node has room for
+  double cycle_hz = sim::kBusCycleOfFive_hz;
+  sim::BusAxesFactory make_axes = sim::loopback_axes();
 };
 
 struct L300gResult {
   L300gOptions options;
-  MachineFile machine;
-  std::vector<HashedInput> inputs;
+  host::MachineFile machine;
+  std::vector<host::HashedInput> inputs;
   InvoluteGear gear;
   MandrelCalibration calibration;  // uncompensated: what the machine knows of its probe at first
   MandrelEffect longer_arm;        // per kLongerArm_mm
   std::vector<MandrelEffect> higher_pivot;  // by kHigherPivots_mm
-  Identification identification;
+  sim::Identification identification;
   PrintedProcedure printed;
   Vec3 orientation;      // of the probe against the gear, at the pitch point, rad: stays
   GearInspection truth;  // what a perfect machine would find
@@ -56,6 +56,6 @@ inline constexpr double kLongerArm_mm = 1e-3;
 inline constexpr std::array<double, 3> kHigherPivots_mm{1.0, 5.0, 10.0};
 
 // Throws UserError.
-[[nodiscard]] L300gResult run_l300g(const L300gOptions& options, const Progress& progress);
+[[nodiscard]] L300gResult run_l300g(const L300gOptions& options, const host::Progress& progress);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -8,28 +8,29 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
 // What repeats with every turn cannot rise for ever. 4/3 sin q − 1/6 sin 2q rises like q where it
 // begins: 0.13 % less at 25°, where the flank of a tooth ends.
-void let_rise_and_return(ErrorFunction& f, double slope) {
+void let_rise_and_return(sim::ErrorFunction& f, double slope) {
   f.amplitude[1] = 4.0 / 3.0 * slope;
   f.ripple = -slope / 6.0;
   f.ripple_period = kPi;
 }
 
-TrueAxis true_axis(const AxisFile& file, const AxisErrors& errors, double sign, Random& random) {
-  TrueAxis axis;
+sim::TrueAxis true_axis(const host::AxisFile& file, const AxisErrors& errors, double sign,
+                        sim::Random& random) {
+  sim::TrueAxis axis;
   axis.lo = file.lo;
   axis.hi = file.hi;
   for (std::size_t c = 0; c < 6; ++c) {
-    ErrorFunction& f = axis.channel[c];
+    sim::ErrorFunction& f = axis.channel[c];
     f.constant = sign * errors.constant[c];
     const bool sloping = std::abs(errors.slope[c]) > 0.0;
     if (sloping && file.full_turn()) {
       if (errors.waves())
-        throw UserError(fmt::format("axis {}: a slope and a wave at once", file.letter));
+        throw host::UserError(fmt::format("axis {}: a slope and a wave at once", file.letter));
       let_rise_and_return(f, sign * errors.slope[c]);
     } else if (sloping) {
       f.linear = sign * errors.slope[c] * (file.hi - file.lo);
@@ -43,21 +44,21 @@ TrueAxis true_axis(const AxisFile& file, const AxisErrors& errors, double sign, 
   return axis;
 }
 
-MachineChain with_arm(const MachineFile& file, double longer_mm) {
+MachineChain with_arm(const host::MachineFile& file, double longer_mm) {
   MachineDescription description = file.chain.description();
   description.tool_point[0] -= longer_mm;
   MachineChain chain;
-  require(MachineChain::build(description, chain), file.path);
+  host::require(MachineChain::build(description, chain), file.path);
   return chain;
 }
 
 }  // namespace
 
-TrueMachine make_l300g_truth(const MachineFile& file, const GrinderErrors& errors,
-                             std::uint64_t seed) {
+sim::TrueMachine make_l300g_truth(const host::MachineFile& file, const GrinderErrors& errors,
+                                  std::uint64_t seed) {
   file.expect_axes("XYBA");
-  Random random(seed);
-  TrueMachine machine;
+  sim::Random random(seed);
+  sim::TrueMachine machine;
   machine.chain = with_arm(file, errors.arm_mm);
   for (std::size_t a = 0; a < kGrinderAxes; ++a) {
     // TrueMachine holds relative values.
@@ -74,7 +75,7 @@ InvoluteGear master_gear() {
   gear.pressure_angle = 20.0 * kPi / 180.0;
   gear.tip_diameter = 132.0;
   gear.width = 30.0;
-  require(derive(gear), "master gear");
+  host::require(derive(gear), "master gear");
   return gear;
 }
 
@@ -85,4 +86,4 @@ double own_deviation(double s, double x) {
   return 1e-3 * um;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -6,12 +6,12 @@
 #include "host_sim/sim/artefacts/gear.hpp"
 #include "host_sim/sim/truth/true_machine.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 
 // `seed`: of the phases of the waves. Throws UserError when the machine has other axes than X Y B A
 // or when a wave and a slope meet on an axis that turns all round.
-[[nodiscard]] TrueMachine make_l300g_truth(const MachineFile& file, const GrinderErrors& errors,
-                                           std::uint64_t seed);
+[[nodiscard]] sim::TrueMachine make_l300g_truth(const host::MachineFile& file,
+                                                const GrinderErrors& errors, std::uint64_t seed);
 
 // z = 31, m = 4, 30 mm wide, d_a = 132 (the paper's Table 3).
 [[nodiscard]] InvoluteGear master_gear();
@@ -19,4 +19,4 @@ namespace volcomp::sim {
 // The gear's own deviation at roll length s and x, mm (addendum): the same on every flank.
 [[nodiscard]] double own_deviation(double s, double x);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

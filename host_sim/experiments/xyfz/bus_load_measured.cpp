@@ -12,30 +12,30 @@
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 namespace {
 
 constexpr double kDuration_s = 2.0;
 
 struct Workpiece {
-  MachineFile file;
-  TrueMachine truth;
+  host::MachineFile file;
+  sim::TrueMachine truth;
   std::vector<std::uint8_t> image;
 };
 
 Workpiece prepare() {
   Workpiece w;
-  w.file = read_machine_file(bundled_machine("xyfz"));
+  w.file = host::read_machine_file(host::bundled_machine("xyfz"));
   w.truth = make_xyfz_truth(w.file, kXyfzMachineSeed, {});
-  const Campaign campaign = perfect_campaign(w.truth, w.file);
-  w.image = make_image(commission(campaign.machine, campaign.runs, {})->tables);
+  const sim::Campaign campaign = sim::perfect_campaign(w.truth, w.file);
+  w.image = host::make_image(host::commission(campaign.machine, campaign.runs, {})->tables);
   return w;
 }
 
 // When the last offset of a cycle was on the bus, after the SYNC that began it.
 class OffsetTimer {
  public:
-  void watch(BusAxes& axes) {
+  void watch(sim::BusAxes& axes) {
     axes.bus().bus().set_observer([this](std::uint64_t time_ns, const hal::CanFrame& frame,
                                          const hal::LoopbackBus::Port& sender) {
       if (frame.id == canopen::kSync) sync_ns_ = time_ns;
@@ -51,14 +51,14 @@ class OffsetTimer {
   std::uint64_t worst_ns_ = 0;
 };
 
-MeasuredLoad measure(const Workpiece& w, double cycle_hz) {
+host::MeasuredLoad measure(const Workpiece& w, double cycle_hz) {
   OffsetTimer timer;
-  auto owned =
-      std::make_unique<BusAxes>(bus_settings(w.file, cycle_hz), w.image, hal::FrameLength::exact);
-  BusAxes& axes = *owned;
+  auto owned = std::make_unique<sim::BusAxes>(host::bus_settings(w.file, cycle_hz), w.image,
+                                              hal::FrameLength::exact);
+  sim::BusAxes& axes = *owned;
   timer.watch(axes);
-  MotionCell cell(w.truth, std::move(owned));
-  const DiagonalBox box = travel_box(w.file);
+  sim::MotionCell cell(w.truth, std::move(owned));
+  const DiagonalBox box = sim::travel_box(w.file);
   cell.place(box.lo);
 
   const hal::LoopbackBus& bus = axes.bus().bus();
@@ -68,7 +68,7 @@ MeasuredLoad measure(const Workpiece& w, double cycle_hz) {
   const std::uint32_t missed = axes.node()->objects().deadline_missed;
   timer.begin();
   cell.move_to(box.hi, (box.hi - box.lo).norm() / kDuration_s);
-  MeasuredLoad m;
+  host::MeasuredLoad m;
   m.average =
       static_cast<double>(bus.busy_ns() - busy_ns) / static_cast<double>(bus.now_ns() - begin_ns);
   m.worst_offset_us = timer.worst_us();
@@ -79,8 +79,8 @@ MeasuredLoad measure(const Workpiece& w, double cycle_hz) {
 
 }  // namespace
 
-std::vector<MeasuredLoad> measure_bus_load(const std::vector<double>& cycle_hz) {
-  std::vector<MeasuredLoad> all;
+std::vector<host::MeasuredLoad> measure_bus_load(const std::vector<double>& cycle_hz) {
+  std::vector<host::MeasuredLoad> all;
   if (cycle_hz.empty()) return all;
   const Workpiece workpiece = prepare();
   for (const double rate : cycle_hz)
@@ -88,4 +88,4 @@ std::vector<MeasuredLoad> measure_bus_load(const std::vector<double>& cycle_hz) 
   return all;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

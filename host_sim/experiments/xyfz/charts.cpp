@@ -7,7 +7,7 @@
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/volume_map.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 
 using nlohmann::json;
 
@@ -15,8 +15,8 @@ namespace {
 
 // Bands where there is noise and the knots are the targets: ±2 standard deviations of the mean of
 // a reading upwards and one downwards.
-ErrorCurves curves_of(const BuiltTable& built, char letter) {
-  ErrorCurves curves;
+host::ErrorCurves curves_of(const BuiltTable& built, char letter) {
+  host::ErrorCurves curves;
   curves.letter = letter;
   const bool banded = built.targets == built.table.knots && !built.s_up.front().isZero();
   for (std::size_t i = 0; i < built.table.knots; ++i) {
@@ -37,14 +37,14 @@ json diagonal_charts(const XyfzResult& r, bool faces) {
   for (std::size_t d = 0; d < names.size(); ++d) {
     json series = json::array();
     for (std::size_t m = 0; m < r.mode.size(); ++m) {
-      const MeasuredDiagonal& diagonal = faces ? r.mode[m].face[d] : r.mode[m].body[d];
-      series.push_back(series_of(kModeNames[m], diagonal.distance_mm, diagonal.mean_um));
+      const sim::MeasuredDiagonal& diagonal = faces ? r.mode[m].face[d] : r.mode[m].body[d];
+      series.push_back(host::series_of(kModeNames[m], diagonal.distance_mm, diagonal.mean_um));
     }
     charts.push_back({{"type", "lines"},
                       {"id", fmt::format("{}-{}", faces ? "face" : "body", names[d].name)},
                       {"title", names[d].name},
-                      {"x", axis_label("distance", "mm")},
-                      {"y", axis_label("deviation", "µm")},
+                      {"x", host::axis_label("distance", "mm")},
+                      {"y", host::axis_label("deviation", "µm")},
                       {"series", series}});
   }
   return {{"type", "group"},
@@ -75,7 +75,7 @@ json draws_sections(const XyfzResult& r) {
       {{"type", "histogram"},
        {"id", "draws"},
        {"title", fmt::format("{} noisy campaigns", r.draws.size())},
-       {"x", axis_label("reduction of the PNP maximum", "%")},
+       {"x", host::axis_label("reduction of the PNP maximum", "%")},
        {"series", series},
        {"limit", kPaperRate},
        {"note",
@@ -102,18 +102,19 @@ json dynamics_sections(const XyfzResult& r) {
       {{"type", "lines"},
        {"id", "line"},
        {"title", fmt::format("Straight line at {:g} m/min along PNP", kLineFeed_m_min)},
-       {"x", axis_label("path", "mm")},
-       {"y", axis_label("distance from the chord", "µm")},
+       {"x", host::axis_label("path", "mm")},
+       {"y", host::axis_label("distance from the chord", "µm")},
        {"series",
-        {series_of("uncompensated", d.line_deviation_raw_um.x, d.line_deviation_raw_um.y),
-         series_of("abbe_closed", d.line_deviation_um.x, d.line_deviation_um.y)}}});
+        {host::series_of("uncompensated", d.line_deviation_raw_um.x, d.line_deviation_raw_um.y),
+         host::series_of("abbe_closed", d.line_deviation_um.x, d.line_deviation_um.y)}}});
   sections.push_back(
       {{"type", "lines"},
        {"id", "line-offset"},
        {"title", "Applied minus wanted offset on that line"},
-       {"x", axis_label("path", "mm")},
-       {"y", axis_label("largest of the three axes", "nm")},
-       {"series", {series_of("abbe_closed", d.line_offset_error_nm.x, d.line_offset_error_nm.y)}},
+       {"x", host::axis_label("path", "mm")},
+       {"y", host::axis_label("largest of the three axes", "nm")},
+       {"series",
+        {host::series_of("abbe_closed", d.line_offset_error_nm.x, d.line_offset_error_nm.y)}},
        {"note",
         fmt::format("Worst {:.2f} nm over every tick. 1 nm is the bound of the arithmetic, not of "
                     "the machine.",
@@ -123,11 +124,11 @@ json dynamics_sections(const XyfzResult& r) {
        {"id", "circle"},
        {"title", fmt::format("Circle in XY, radius {:g} mm, {:g} m/min", kCircleRadius_mm,
                              kCircleFeed_m_min)},
-       {"x", axis_label("angle", "deg")},
-       {"y", axis_label("radial deviation", "µm")},
+       {"x", host::axis_label("angle", "deg")},
+       {"y", host::axis_label("radial deviation", "µm")},
        {"series",
-        {series_of("uncompensated", d.circle_raw_um.x, d.circle_raw_um.y),
-         series_of("abbe_closed", d.circle_um.x, d.circle_um.y)}},
+        {host::series_of("uncompensated", d.circle_raw_um.x, d.circle_raw_um.y),
+         host::series_of("abbe_closed", d.circle_um.x, d.circle_um.y)}},
        {"note",
         "Best-fit circle removed. Spikes at the quadrants: reversal, which the direction-dependent "
         "tables correct after the hysteresis of the direction."}});
@@ -135,7 +136,7 @@ json dynamics_sections(const XyfzResult& r) {
 }
 
 json positioning_charts(const XyfzResult& r) {
-  return positioning_group(
+  return host::positioning_group(
       r.positioning_check,
       fmt::format("Means of {} runs upwards and downwards with bands of ±2 s of the readings; "
                   "dashed, their mean. A spans the bands, E the means of the directions, M their "
@@ -144,7 +145,7 @@ json positioning_charts(const XyfzResult& r) {
 }
 
 json volume_chart(const XyfzResult& r) {
-  return volume_map(
+  return host::volume_map(
       "Error vectors over the work volume", r.volume_points,
       {{"uncompensated", r.volume_error[0]}, {"abbe_closed", r.volume_error[1]}},
       "From each point to where the tool really is, as measured, without aligning a workpiece "
@@ -152,14 +153,14 @@ json volume_chart(const XyfzResult& r) {
 }
 
 json error_function_charts(const XyfzResult& r) {
-  std::vector<ErrorCurves> axes;
+  std::vector<host::ErrorCurves> axes;
   for (std::size_t a = 0; a < r.example->built.size(); ++a)
     axes.push_back(curves_of(*r.example->built[a], r.machine.axes[a].letter));
-  return error_functions_group(
+  return host::error_functions_group(
       "Error functions at the reading heads", axes,
       "Mean of both directions after removing straightness slopes, transferring and re-zeroing. "
       "Bands, where there is noise: ±2 standard deviations of the mean of a reading upwards and "
       "one downwards, at the sensed point.");
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

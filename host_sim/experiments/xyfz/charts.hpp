@@ -5,7 +5,7 @@
 
 #include "host_sim/experiments/xyfz/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 
 // For people, as kModeNames is for programs.
 inline constexpr std::array<const char*, 4> kModeTitles{
@@ -20,4 +20,4 @@ inline constexpr std::array<const char*, 4> kModeTitles{
 [[nodiscard]] nlohmann::json draws_sections(const XyfzResult& r);
 [[nodiscard]] nlohmann::json dynamics_sections(const XyfzResult& r);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

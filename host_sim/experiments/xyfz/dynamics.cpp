@@ -6,7 +6,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/campaign/campaign.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 namespace {
 
 constexpr double kLineFeed_mm_s = kLineFeed_m_min * 1000.0 / 60.0;
@@ -29,9 +29,9 @@ void keep(Trace& trace, double x, double y) {
 // Largest component of applied − wanted offset at one tick, nm. Wanted: the offset that makes the
 // model stand at the (integer) target.
 template <class ErrorAt>
-double offset_error_nm(const MotionCell& cell, const ErrorAt& error_at) {
-  const Targets target_nm = cell.axes().target();
-  const Offsets offset_nm = cell.axes().offset();
+double offset_error_nm(const sim::MotionCell& cell, const ErrorAt& error_at) {
+  const host::Targets target_nm = cell.axes().target();
+  const host::Offsets offset_nm = cell.axes().offset();
   Vec3 target;
   Vec3 applied;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -56,18 +56,18 @@ Trace straightness(const std::vector<double>& path, const std::vector<Vec3>& dev
   return trace;
 }
 
-void run_line(MotionCell& cell, const MachineFile& machine, const Commissioned& closed,
-              bool compensated, Dynamics& out) {
-  const Diagonal line = body_diagonals(travel_box(machine))[kPnp];
+void run_line(sim::MotionCell& cell, const host::MachineFile& machine,
+              const host::Commissioned& closed, bool compensated, Dynamics& out) {
+  const Diagonal line = body_diagonals(sim::travel_box(machine))[sim::kPnp];
   const Travels travels = travels_of(line.direction());
   const auto error_at = [&](const Vec3& q) {
-    return closed.model.first_order(pose_of(q), travels, Beyond::stand_at_end);
+    return closed.model.first_order(host::pose_of(q), travels, Beyond::stand_at_end);
   };
   cell.place(line.start);
   std::vector<double> path;
   std::vector<Vec3> deviation;
   std::size_t tick = 0;
-  cell.move_to(line.end, kLineFeed_mm_s, [&](const MotionCell& c) {
+  cell.move_to(line.end, kLineFeed_mm_s, [&](const sim::MotionCell& c) {
     const double s = (c.target_mm() - line.start).norm();
     const bool direction_known = s > 10.0 * machine.correction.hysteresis_mm;
     const bool shown = tick++ % kKeepEvery == 0;
@@ -86,12 +86,12 @@ void run_line(MotionCell& cell, const MachineFile& machine, const Commissioned& 
 }
 
 // One turn to get going, one turn measured.
-void run_circle(MotionCell& cell, const Vec3& centre, Trace& out) {
+void run_circle(sim::MotionCell& cell, const Vec3& centre, Trace& out) {
   cell.place(centre + Vec3(kCircleRadius_mm, 0.0, 0.0));
   std::size_t tick = 0;
   double travelled = 0.0;
   Vec3 last = cell.target_mm();
-  cell.circle(centre, kCircleRadius_mm, kCircleFeed_mm_s, 2, [&](const MotionCell& c) {
+  cell.circle(centre, kCircleRadius_mm, kCircleFeed_mm_s, 2, [&](const sim::MotionCell& c) {
     travelled += (c.target_mm() - last).norm();
     last = c.target_mm();
     const double angle = 180.0 / kPi * travelled / kCircleRadius_mm;
@@ -118,7 +118,7 @@ void run_circle(MotionCell& cell, const Vec3& centre, Trace& out) {
 
 // A random position of one axis: mostly inside its table, sometimes a knot ± 1 nm, an end, or far
 // beyond.
-std::int64_t random_position(const AxisTable& table, Random& random) {
+std::int64_t random_position(const AxisTable& table, sim::Random& random) {
   const double kind = random.uniform();
   const auto knot =
       static_cast<std::int64_t>(random.uniform(0.0, static_cast<double>(table.knots)));
@@ -132,11 +132,11 @@ std::int64_t random_position(const AxisTable& table, Random& random) {
 
 }  // namespace
 
-Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
-                      const Commissioned& closed, const CellFactory& make_cell) {
-  const DiagonalBox box = travel_box(machine);
+Dynamics run_dynamics(const sim::TrueMachine& truth, const host::MachineFile& machine,
+                      const host::Commissioned& closed, const sim::CellFactory& make_cell) {
+  const DiagonalBox box = sim::travel_box(machine);
   const Vec3 centre = 0.5 * (box.lo + box.hi);
-  const std::vector<std::uint8_t> image = make_image(closed.tables);
+  const std::vector<std::uint8_t> image = host::make_image(closed.tables);
   const auto raw = [&] { return make_cell(truth, machine.correction, {}); };
   const auto compensated = [&] { return make_cell(truth, machine.correction, image); };
   Dynamics out;
@@ -147,7 +147,7 @@ Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
   return out;
 }
 
-double measure_tick_error_nm(const Commissioned& closed, int points, std::uint64_t seed) {
+double measure_tick_error_nm(const host::Commissioned& closed, int points, std::uint64_t seed) {
   LoadedCompensator::Settings settings;
   for (AxisLimits& l : settings.axis)
     l = {4'000'000, 1'000'000'000, 1, 0, 0};
@@ -155,11 +155,11 @@ double measure_tick_error_nm(const Commissioned& closed, int points, std::uint64
   settings.ramp_ticks = 1;
   const auto compensator = std::make_unique<LoadedCompensator>(
       LoadedMachine<5>{make_runtime_chain(closed.tables.machine)});
-  require(compensator->configure(settings), "tick accuracy");
-  require(compensator->stage(closed.tables, closed.model.tool_point, 0), "tick accuracy");
-  require(compensator->activate(), "tick accuracy");
+  host::require(compensator->configure(settings), "tick accuracy");
+  host::require(compensator->stage(closed.tables, closed.model.tool_point, 0), "tick accuracy");
+  host::require(compensator->activate(), "tick accuracy");
 
-  Random random(seed);
+  sim::Random random(seed);
   TickInput<5> in;
   TickOutput<5> out;
   Travels travels{};
@@ -184,4 +184,4 @@ double measure_tick_error_nm(const Commissioned& closed, int points, std::uint64
   return worst;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

@@ -3,19 +3,20 @@
 
 #include "host_sim/experiments/xyfz/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 
 inline constexpr double kLineFeed_m_min = 10.0;
 inline constexpr double kCircleFeed_m_min = 1.0;
 inline constexpr double kCircleRadius_mm = 100.0;
 
 // With and without the compensation of `closed`, noise-free.
-[[nodiscard]] Dynamics run_dynamics(const TrueMachine& truth, const MachineFile& machine,
-                                    const Commissioned& closed, const CellFactory& make_cell);
+[[nodiscard]] Dynamics run_dynamics(const sim::TrueMachine& truth, const host::MachineFile& machine,
+                                    const host::Commissioned& closed,
+                                    const sim::CellFactory& make_cell);
 
 // Integer tick against the same first-order model in double at random integer positions, inside the
 // tables, at their knots and ends, and beyond; nm.
-[[nodiscard]] double measure_tick_error_nm(const Commissioned& closed, int points,
+[[nodiscard]] double measure_tick_error_nm(const host::Commissioned& closed, int points,
                                            std::uint64_t seed);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

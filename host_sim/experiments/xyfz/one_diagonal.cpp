@@ -2,26 +2,27 @@
 
 #include <fmt/format.h>
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 namespace {
 
 constexpr double kLeastRate = 98.0;
 
 struct Setting {
   const XyfzOptions& options;
-  MachineFile machine;
-  TrueMachine truth;
+  host::MachineFile machine;
+  sim::TrueMachine truth;
   DiagonalBox box;
 };
 
-MeasuredDiagonal measure(const Setting& setting, const std::vector<std::uint8_t>& image) {
-  Random unused(0);
+sim::MeasuredDiagonal measure(const Setting& setting, const std::vector<std::uint8_t>& image) {
+  sim::Random unused(0);
   const auto cell = setting.options.make_cell(setting.truth, setting.machine.correction, image);
   cell->place(setting.box.lo);
-  return measure_diagonal(*cell, body_diagonals(setting.box)[kPnp], kKnotPoints, {}, unused);
+  return sim::measure_diagonal(*cell, body_diagonals(setting.box)[sim::kPnp], sim::kKnotPoints, {},
+                               unused);
 }
 
-nlohmann::json figures_of(const MeasuredDiagonal& diagonal) {
+nlohmann::json figures_of(const sim::MeasuredDiagonal& diagonal) {
   return {{"distance_mm", diagonal.distance_mm},
           {"mean_um", diagonal.mean_um},
           {"max_abs_um", diagonal.max_abs_um},
@@ -37,20 +38,21 @@ double OneDiagonal::rate() const {
 
 bool OneDiagonal::ok() const { return rate() >= kLeastRate; }
 
-OneDiagonal run_one_diagonal(const XyfzOptions& options, const Progress& progress) {
-  const MachineFile machine = read_machine_file(options.machine);
+OneDiagonal run_one_diagonal(const XyfzOptions& options, const host::Progress& progress) {
+  const host::MachineFile machine = host::read_machine_file(options.machine);
   progress(0.0, "tuning the simulated machine");
   const XyfzTuning tuning = tune_xyfz(machine, options.machine_seed);
   const Setting setting{options, machine, make_xyfz_truth(machine, options.machine_seed, tuning),
-                        travel_box(machine)};
-  const Campaign campaign = perfect_campaign(setting.truth, machine);
-  const auto tables = commission(campaign.machine, campaign.runs,
-                                 tables_only(ModelKind::abbe_closed, options.knots));
+                        sim::travel_box(machine)};
+  const sim::Campaign campaign = sim::perfect_campaign(setting.truth, machine);
+  const auto tables =
+      host::commission(campaign.machine, campaign.runs,
+                       host::tables_only(host::ModelKind::abbe_closed, options.knots));
   OneDiagonal result;
   progress(0.1, "diagonal PNP, uncompensated");
   result.uncompensated = measure(setting, {});
   progress(0.5, "diagonal PNP, compensated");
-  result.compensated = measure(setting, make_image(tables->tables));
+  result.compensated = measure(setting, host::make_image(tables->tables));
   progress(1.0, "done");
   return result;
 }
@@ -73,4 +75,4 @@ std::string one_diagonal_summary(const OneDiagonal& result) {
                             result.ok() ? "PASS" : "FAIL", result.rate());
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

@@ -7,21 +7,22 @@
 
 #include "host_sim/experiments/xyfz/scenario.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 
 struct OneDiagonal {
-  MeasuredDiagonal uncompensated;
-  MeasuredDiagonal compensated;
+  sim::MeasuredDiagonal uncompensated;
+  sim::MeasuredDiagonal compensated;
 
   [[nodiscard]] double rate() const;  // per cent of the largest deviation removed
   [[nodiscard]] bool ok() const;      // as much as the whole scenario demands
 };
 
 // Noise-free. Of the options it takes machine, machine_seed and make_cell. Throws UserError.
-[[nodiscard]] OneDiagonal run_one_diagonal(const XyfzOptions& options, const Progress& progress);
+[[nodiscard]] OneDiagonal run_one_diagonal(const XyfzOptions& options,
+                                           const host::Progress& progress);
 
 // Every deviation, for other programs and for people.
 [[nodiscard]] nlohmann::json one_diagonal_figures(const OneDiagonal& result);
 [[nodiscard]] std::string one_diagonal_summary(const OneDiagonal& result);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

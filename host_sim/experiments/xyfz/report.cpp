@@ -10,7 +10,7 @@
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 namespace {
 
 using nlohmann::json;
@@ -23,7 +23,7 @@ json tuned_text(const XyfzResult& r) {
 }
 
 json before_after(const XyfzResult& r) {
-  std::vector<BeforeAfter> lines;
+  std::vector<host::BeforeAfter> lines;
   const ModeResult& before = r.mode.front();
   const ModeResult& after = r.mode.back();
   for (std::size_t d = 0; d < before.body.size(); ++d)
@@ -36,21 +36,21 @@ json before_after(const XyfzResult& r) {
     lines.push_back({fmt::format("positioning of {}, A", r.machine.axes[a].letter),
                      kUmPerMm * r.positioning_check[a].figures.A,
                      kUmPerMm * r.positioning_check[a + 3].figures.A});
-  return before_after_table(
+  return host::before_after_table(
       lines,
       fmt::format("Diagonals and volume noise-free: each diagonal at {} points in both directions, "
                   "the volume at {} random points after aligning the workpiece frame. Positioning "
                   "after ISO 230-2 with {} bidirectional runs of an interferometer. The machine "
                   "moved with the offsets applied; nothing was subtracted afterwards.",
-                  kDiagonalPoints, r.options.volume_points, r.options.runs),
-      kPnp);
+                  sim::kDiagonalPoints, r.options.volume_points, r.options.runs),
+      sim::kPnp);
 }
 
 json models_table(const XyfzResult& r) {
   json rows = json::array();
   for (std::size_t m = 0; m < r.mode.size(); ++m) {
     json row = {kModeTitles[m]};
-    for (const MeasuredDiagonal& d : r.mode[m].body)
+    for (const sim::MeasuredDiagonal& d : r.mode[m].body)
       row.push_back(d.max_abs_um);
     row.push_back(r.mode[m].faces_max_um());
     row.push_back(r.mode[m].volume.max_um);
@@ -78,12 +78,12 @@ json models_table(const XyfzResult& r) {
            "volume at {} random points after aligning the workpiece frame. Rate: reduction of the "
            "PNP "
            "maximum; a single diagonal certifies nothing, look at all of them.",
-           kDiagonalPoints, r.options.volume_points)}};
+           sim::kDiagonalPoints, r.options.volume_points)}};
 }
 
 json lever_table(const XyfzResult& r) {
   json rows = json::array();
-  for (const LeverCheck& c : r.levers) {
+  for (const sim::LeverCheck& c : r.levers) {
     for (std::size_t k = 0; k < 2; ++k) {
       rows.push_back({fmt::format("{}, angle {}", c.axis, k + 1), c.test.expected[k],
                       c.test.found[k], c.test.allowed[k],
@@ -122,7 +122,7 @@ json limits_table(const XyfzResult& r) {
             {"not representable by one-dimensional tables, Z", r.per_axis.max_um.z(), "µm"}}}};
 }
 
-std::vector<std::string> instruments(const NoiseClasses& n, std::size_t runs) {
+std::vector<std::string> instruments(const sim::NoiseClasses& n, std::size_t runs) {
   constexpr double kMicro = 1e6;
   return {
       fmt::format("laser of six degrees of freedom, {} bidirectional runs: repeatability {:g} µm "
@@ -135,8 +135,8 @@ std::vector<std::string> instruments(const NoiseClasses& n, std::size_t runs) {
                   kMicro * n.interferometer, n.temperature_K)};
 }
 
-Origins origins(const XyfzResult& r) {
-  Origins o;
+host::Origins origins(const XyfzResult& r) {
+  host::Origins o;
   o.data = "simulated: no machine was measured; the paper's own curves are not available";
   o.settings = {
       {"noise seed", std::to_string(r.options.seed)},
@@ -157,8 +157,8 @@ Origins origins(const XyfzResult& r) {
 
 }  // namespace
 
-Verdict xyfz_verdict(const XyfzResult& r) {
-  Verdict v;
+host::Verdict xyfz_verdict(const XyfzResult& r) {
+  host::Verdict v;
   v.ok = r.rate(3) >= 98.0 && r.dynamics.line_worst_nm <= 2.0 && r.tick_max_error_nm < 1.0;
   v.text =
       fmt::format("PNP diagonal {:.2f} µm before, {:.2f} µm after ({:.1f} % less, noise-free).",
@@ -177,7 +177,7 @@ Verdict xyfz_verdict(const XyfzResult& r) {
 json xyfz_figures(const XyfzResult& r) {
   json j;
   for (std::size_t m = 0; m < r.mode.size(); ++m) {
-    for (const MeasuredDiagonal& d : r.mode[m].body)
+    for (const sim::MeasuredDiagonal& d : r.mode[m].body)
       j["diagonals_um"][kModeNames[m]][d.name] = d.max_abs_um;
     j["faces_max_um"][kModeNames[m]] = r.mode[m].faces_max_um();
     j["volume_max_um"][kModeNames[m]] = r.mode[m].volume.max_um;
@@ -200,12 +200,12 @@ json xyfz_figures(const XyfzResult& r) {
   j["seed"] = r.options.seed;
   j["machine_seed"] = r.options.machine_seed;
   j["tuned"] = tuned_text(r);
-  j["version"] = kVersion;
+  j["version"] = host::kVersion;
   return j;
 }
 
-json xyfz_document(const XyfzResult& r, const RunContext& run) {
-  ReportParts parts;
+json xyfz_document(const XyfzResult& r, const host::RunContext& run) {
+  host::ReportParts parts;
   parts.title = "XYFZ machine: volumetric compensation";
   parts.subtitle =
       "Simulated three-axis machine after Zhao et al. 2020, measured, tabled, compensated, "
@@ -219,13 +219,13 @@ json xyfz_document(const XyfzResult& r, const RunContext& run) {
     parts.details.push_back(s);
   for (const json& s : dynamics_sections(r))
     parts.details.push_back(s);
-  parts.details.push_back(positioning_table(r.positioning_check,
-                                            "At mid travel of the other axes, by interferometer."));
+  parts.details.push_back(host::positioning_table(
+      r.positioning_check, "At mid travel of the other axes, by interferometer."));
   parts.details.push_back(lever_table(r));
   parts.details.push_back(limits_table(r));
   parts.ticks = run.ticks;
-  parts.provenance = provenance(run, origins(r));
-  return report_document(std::move(parts));
+  parts.provenance = host::provenance(run, origins(r));
+  return host::report_document(std::move(parts));
 }
 
 std::string xyfz_summary(const XyfzResult& r) {
@@ -234,7 +234,7 @@ std::string xyfz_summary(const XyfzResult& r) {
                   "NPP", "PNP", "PPN", "faces", "volume", "rate PNP");
   for (std::size_t m = 0; m < r.mode.size(); ++m) {
     text += fmt::format("{:32}", kModeTitles[m]);
-    for (const MeasuredDiagonal& d : r.mode[m].body)
+    for (const sim::MeasuredDiagonal& d : r.mode[m].body)
       text += fmt::format("{:9.2f}", d.max_abs_um);
     text += fmt::format("{:9.2f}{:9.2f}", r.mode[m].faces_max_um(), r.mode[m].volume.max_um);
     text += m == 0 ? fmt::format("{:>10}\n", "-") : fmt::format("{:8.2f} %\n", r.rate(m));
@@ -243,8 +243,8 @@ std::string xyfz_summary(const XyfzResult& r) {
       "\ntick against double {:.2f} nm, line at {:g} m/min {:.2f} nm, first-order model {:.1f} "
       "nm\n",
       r.tick_max_error_nm, kLineFeed_m_min, r.dynamics.line_worst_nm, r.mode[3].model_bound_nm);
-  const Verdict verdict = xyfz_verdict(r);
+  const host::Verdict verdict = xyfz_verdict(r);
   return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

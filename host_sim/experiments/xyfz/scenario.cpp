@@ -12,90 +12,95 @@
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "host_sim/sim/campaign/measured_positions.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 namespace {
 
-constexpr std::array<ModelKind, 3> kModels{ModelKind::naive, ModelKind::abbe,
-                                           ModelKind::abbe_closed};
+constexpr std::array<host::ModelKind, 3> kModels{host::ModelKind::naive, host::ModelKind::abbe,
+                                                 host::ModelKind::abbe_closed};
 constexpr std::size_t kPerAxisKnots = 32;
 
 // Everything a scenario run needs at hand.
 struct Bench {
   const XyfzOptions& options;
-  MachineFile machine;
-  TrueMachine truth;
+  host::MachineFile machine;
+  sim::TrueMachine truth;
   DiagonalBox box;
   std::filesystem::path folder;
 };
 
 // The road of a user's own data: the runs go through files.
-Campaign through_files(const Campaign& campaign, const std::filesystem::path& folder) {
-  create_folder(folder);
-  Campaign reread{campaign.machine, {}};
-  for (const RunsFile& runs : campaign.runs) {
+sim::Campaign through_files(const sim::Campaign& campaign, const std::filesystem::path& folder) {
+  host::create_folder(folder);
+  sim::Campaign reread{campaign.machine, {}};
+  for (const host::RunsFile& runs : campaign.runs) {
     const std::filesystem::path path = folder / runs.name;
-    write_runs_file(path, runs);
-    reread.runs.push_back(read_runs_file(path));
+    host::write_runs_file(path, runs);
+    reread.runs.push_back(host::read_runs_file(path));
   }
   return reread;
 }
 
 ModeResult verify_mode(const Bench& bench, const std::vector<std::uint8_t>& image) {
-  Random unused(0);
+  sim::Random unused(0);
   const auto cell = bench.options.make_cell(bench.truth, bench.machine.correction, image);
   cell->place(bench.box.lo);
   ModeResult result;
   for (const Diagonal& d : body_diagonals(bench.box)) {
-    result.body.push_back(measure_diagonal(*cell, d, kDiagonalPoints, {}, unused));
+    result.body.push_back(sim::measure_diagonal(*cell, d, sim::kDiagonalPoints, {}, unused));
   }
   for (const Diagonal& d : face_diagonals(bench.box)) {
-    result.face.push_back(measure_diagonal(*cell, d, kDiagonalPoints, {}, unused));
+    result.face.push_back(sim::measure_diagonal(*cell, d, sim::kDiagonalPoints, {}, unused));
   }
-  result.pnp_on_knots =
-      measure_diagonal(*cell, body_diagonals(bench.box)[kPnp], kKnotPoints, {}, unused);
-  result.volume = measure_volume(*cell, bench.box, bench.options.volume_points, bench.options.seed);
+  result.pnp_on_knots = sim::measure_diagonal(*cell, body_diagonals(bench.box)[sim::kPnp],
+                                              sim::kKnotPoints, {}, unused);
+  result.volume =
+      sim::measure_volume(*cell, bench.box, bench.options.volume_points, bench.options.seed);
   return result;
 }
 
-double measure_pnp(const TrueMachine& truth, const Bench& bench,
-                   const std::vector<std::uint8_t>& image, const InterferometerSetup& setup,
-                   Random& random) {
+double measure_pnp(const sim::TrueMachine& truth, const Bench& bench,
+                   const std::vector<std::uint8_t>& image, const sim::InterferometerSetup& setup,
+                   sim::Random& random) {
   const auto cell = bench.options.make_cell(truth, bench.machine.correction, image);
   cell->place(bench.box.lo);
-  return measure_diagonal(*cell, body_diagonals(bench.box)[kPnp], kDiagonalPoints, setup, random)
+  return sim::measure_diagonal(*cell, body_diagonals(bench.box)[sim::kPnp], sim::kDiagonalPoints,
+                               setup, random)
       .max_abs_um;
 }
 
 // The files behind the tables that the report shows, while they are there.
-void note_inputs(const Campaign& campaign, const Commissioned& tables, XyfzResult& result) {
-  result.inputs = {hashed_file("machine file", result.options.machine)};
-  for (const RunsFile& runs : campaign.runs)
-    result.inputs.push_back(hashed_file(fmt::format("runs of {}", runs.letter), runs.name));
-  result.inputs.push_back(
-      hashed_bytes("table image made of them", "tables.vct", make_image(tables.tables)));
+void note_inputs(const sim::Campaign& campaign, const host::Commissioned& tables,
+                 XyfzResult& result) {
+  result.inputs = {host::hashed_file("machine file", result.options.machine)};
+  for (const host::RunsFile& runs : campaign.runs)
+    result.inputs.push_back(host::hashed_file(fmt::format("runs of {}", runs.letter), runs.name));
+  result.inputs.push_back(host::hashed_bytes("table image made of them", "tables.vct",
+                                             host::make_image(tables.tables)));
 }
 
 std::uint64_t draw_seed(std::uint64_t seed, std::size_t draw) { return seed * 1'000'003U + draw; }
 
 DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
-  const NoiseClasses classes;
-  Random random(draw_seed(bench.options.seed, draw));
-  const Campaign measured =
-      measure_machine(bench.truth, bench.machine, classes, bench.options.runs, random);
-  const Campaign campaign =
+  const sim::NoiseClasses classes;
+  sim::Random random(draw_seed(bench.options.seed, draw));
+  const sim::Campaign measured =
+      sim::measure_machine(bench.truth, bench.machine, classes, bench.options.runs, random);
+  const sim::Campaign campaign =
       through_files(measured, bench.folder / fmt::format("draw_{:03}", draw + 1));
 
-  TrueMachine at_check = bench.truth;
+  sim::TrueMachine at_check = bench.truth;
   at_check.temperature_offset_K = random.normal(classes.temperature_K);
-  const InterferometerSetup setup{random.normal(classes.interferometer), classes.repeatability_mm,
-                                  static_cast<int>(bench.options.runs)};
+  const sim::InterferometerSetup setup{random.normal(classes.interferometer),
+                                       classes.repeatability_mm,
+                                       static_cast<int>(bench.options.runs)};
   DrawResult out;
   out.raw_um = measure_pnp(at_check, bench, {}, setup, random);
   for (std::size_t m = 0; m < kModels.size(); ++m) {
-    auto tables =
-        commission(campaign.machine, campaign.runs, tables_only(kModels[m], bench.options.knots));
-    out.residual_um[m] = measure_pnp(at_check, bench, make_image(tables->tables), setup, random);
-    const bool keep = draw == 0 && kModels[m] == ModelKind::abbe_closed;
+    auto tables = host::commission(campaign.machine, campaign.runs,
+                                   host::tables_only(kModels[m], bench.options.knots));
+    out.residual_um[m] =
+        measure_pnp(at_check, bench, host::make_image(tables->tables), setup, random);
+    const bool keep = draw == 0 && kModels[m] == host::ModelKind::abbe_closed;
     if (!keep) continue;
     result.positioning.clear();
     for (const auto& built : tables->built)
@@ -107,7 +112,7 @@ DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
   return out;
 }
 
-PerAxisRemainder per_axis_remainder(const Commissioned& closed) {
+PerAxisRemainder per_axis_remainder(const host::Commissioned& closed) {
   const auto error_at = [&](const Vec3& q) {
     return closed.model.first_order({q.x(), q.y(), q.z()}, kUnknownTravels, Beyond::stand_at_end);
   };
@@ -122,39 +127,40 @@ PerAxisRemainder per_axis_remainder(const Commissioned& closed) {
 }
 
 // Where a customer looks, before and after.
-void look_closer(const Bench& bench, const Commissioned& closed, XyfzResult& result) {
-  const NoiseClasses classes;
-  Random random(bench.options.seed);
-  const InterferometerSetup setup{0.0, classes.repeatability_mm,
-                                  static_cast<int>(bench.options.runs)};
-  result.volume_points = volume_grid(bench.box);
+void look_closer(const Bench& bench, const host::Commissioned& closed, XyfzResult& result) {
+  const sim::NoiseClasses classes;
+  sim::Random random(bench.options.seed);
+  const sim::InterferometerSetup setup{0.0, classes.repeatability_mm,
+                                       static_cast<int>(bench.options.runs)};
+  result.volume_points = sim::volume_grid(bench.box);
   for (const bool after : {false, true}) {
-    const auto cell =
-        bench.options.make_cell(bench.truth, bench.machine.correction,
-                                after ? make_image(closed.tables) : std::vector<std::uint8_t>{});
+    const auto cell = bench.options.make_cell(
+        bench.truth, bench.machine.correction,
+        after ? host::make_image(closed.tables) : std::vector<std::uint8_t>{});
     cell->place(bench.box.lo);
-    result.volume_error.at(after ? 1 : 0) = measure_errors(*cell, result.volume_points);
-    for (Positioning& axis :
-         measure_positioning(*cell, bench.machine, after ? "after" : "before", setup, random))
+    result.volume_error.at(after ? 1 : 0) = sim::measure_errors(*cell, result.volume_points);
+    for (host::Positioning& axis :
+         sim::measure_positioning(*cell, bench.machine, after ? "after" : "before", setup, random))
       result.positioning_check.push_back(std::move(axis));
   }
 }
 
 // Modes verified without noise; returns the closed model for what follows.
-std::unique_ptr<Commissioned> run_noise_free(const Bench& bench, const Progress& progress,
-                                             XyfzResult& result) {
-  const Campaign campaign =
-      through_files(perfect_campaign(bench.truth, bench.machine), bench.folder / "noise_free");
+std::unique_ptr<host::Commissioned> run_noise_free(const Bench& bench,
+                                                   const host::Progress& progress,
+                                                   XyfzResult& result) {
+  const sim::Campaign campaign =
+      through_files(sim::perfect_campaign(bench.truth, bench.machine), bench.folder / "noise_free");
   progress(0.0, "uncompensated machine");
   result.mode[0] = verify_mode(bench, {});
-  std::unique_ptr<Commissioned> closed;
+  std::unique_ptr<host::Commissioned> closed;
   for (std::size_t m = 0; m < kModels.size(); ++m) {
     progress(0.05 * static_cast<double>(m + 1), fmt::format("verifying {}", kModeNames[m + 1]));
-    CommissionOptions options;
+    host::CommissionOptions options;
     options.model = kModels[m];
     options.knots = bench.options.knots;
-    auto tables = commission(campaign.machine, campaign.runs, options);
-    result.mode[m + 1] = verify_mode(bench, make_image(tables->tables));
+    auto tables = host::commission(campaign.machine, campaign.runs, options);
+    result.mode[m + 1] = verify_mode(bench, host::make_image(tables->tables));
     result.mode[m + 1].model_bound_nm = tables->model_bound_nm;
     closed = std::move(tables);
   }
@@ -166,7 +172,7 @@ std::unique_ptr<Commissioned> run_noise_free(const Bench& bench, const Progress&
 
 double ModeResult::faces_max_um() const {
   double worst = 0.0;
-  for (const MeasuredDiagonal& d : face)
+  for (const sim::MeasuredDiagonal& d : face)
     worst = std::max(worst, d.max_abs_um);
   return worst;
 }
@@ -176,7 +182,8 @@ double DrawResult::rate(std::size_t model) const {
 }
 
 double XyfzResult::rate(std::size_t m) const {
-  return improvement_percent(mode[0].body[kPnp].max_abs_um, mode.at(m).body[kPnp].max_abs_um);
+  return improvement_percent(mode[0].body[sim::kPnp].max_abs_um,
+                             mode.at(m).body[sim::kPnp].max_abs_um);
 }
 
 double XyfzResult::rate_on_knots(std::size_t m) const {
@@ -200,26 +207,27 @@ double XyfzResult::draws_reaching(double wanted) const {
   return static_cast<double>(reached) / static_cast<double>(draws.size());
 }
 
-XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress) {
+XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) {
   XyfzResult result;
   result.options = options;
-  result.machine = read_machine_file(options.machine);
+  result.machine = host::read_machine_file(options.machine);
   progress(0.0, "tuning the simulated machine");
   result.tuning = tune_xyfz(result.machine, options.machine_seed);
 
-  const TemporaryFolder temporary;
-  const Bench bench{
-      options, result.machine, make_xyfz_truth(result.machine, options.machine_seed, result.tuning),
-      travel_box(result.machine), options.campaign.empty() ? temporary.path() : options.campaign};
-  std::unique_ptr<Commissioned> closed = run_noise_free(bench, progress, result);
+  const host::TemporaryFolder temporary;
+  const Bench bench{options, result.machine,
+                    make_xyfz_truth(result.machine, options.machine_seed, result.tuning),
+                    sim::travel_box(result.machine),
+                    options.campaign.empty() ? temporary.path() : options.campaign};
+  std::unique_ptr<host::Commissioned> closed = run_noise_free(bench, progress, result);
   progress(0.2, "line and circle");
   result.dynamics = run_dynamics(bench.truth, bench.machine, *closed, options.make_cell);
   look_closer(bench, *closed, result);
   result.tick_max_error_nm = measure_tick_error_nm(*closed, options.tick_points, options.seed);
   result.per_axis = per_axis_remainder(*closed);
-  Random lever_noise(options.seed);
+  sim::Random lever_noise(options.seed);
   result.levers =
-      check_levers(bench.truth, bench.machine, NoiseClasses{}, options.runs, lever_noise);
+      sim::check_levers(bench.truth, bench.machine, sim::NoiseClasses{}, options.runs, lever_noise);
   for (const auto& built : closed->built)
     result.positioning.push_back(built->positioning);
   result.example = std::move(closed);
@@ -232,4 +240,4 @@ XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress) {
   return result;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

@@ -15,7 +15,7 @@
 #include "host_sim/sim/campaign/measured_diagonals.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 
 // The default machine: on PNP the paper's own variant does as well as the paper says, on other
 // diagonals it does not.
@@ -32,7 +32,7 @@ struct XyfzOptions {
   std::size_t knots = kDefaultKnots;  // per table: what the node has room for
   int volume_points = 800;
   int tick_points = 200'000;  // places at which the tick is compared with the double model
-  CellFactory make_cell = make_integrated_cell;  // what drives the machine
+  sim::CellFactory make_cell = sim::make_integrated_cell;  // what drives the machine
 };
 
 // 0 = uncompensated, then the three models in the order of ModelKind.
@@ -40,10 +40,10 @@ inline constexpr std::array<const char*, 4> kModeNames{"uncompensated", "naive",
                                                        "abbe_closed"};
 
 struct ModeResult {
-  std::vector<MeasuredDiagonal> body;  // PPP NPP PNP PPN
-  std::vector<MeasuredDiagonal> face;
-  MeasuredDiagonal pnp_on_knots;
-  VolumeFigures volume;
+  std::vector<sim::MeasuredDiagonal> body;  // PPP NPP PNP PPN
+  std::vector<sim::MeasuredDiagonal> face;
+  sim::MeasuredDiagonal pnp_on_knots;
+  host::VolumeFigures volume;
   double model_bound_nm = 0.0;
 
   [[nodiscard]] double faces_max_um() const;
@@ -78,7 +78,7 @@ struct PerAxisRemainder {
 };
 
 struct XyfzResult {
-  MachineFile machine;
+  host::MachineFile machine;
   XyfzOptions options;
   XyfzTuning tuning;
   std::array<ModeResult, 4> mode;
@@ -87,14 +87,14 @@ struct XyfzResult {
   double tick_max_error_nm = 0.0;  // integer tick against the same model in double
   PerAxisRemainder per_axis;
   std::vector<Iso230Figures> positioning;  // of the first noisy campaign, mm
-  std::vector<LeverCheck> levers;          // realistic instruments
+  std::vector<sim::LeverCheck> levers;     // realistic instruments
   std::vector<std::string> warnings;
-  std::unique_ptr<Commissioned>
+  std::unique_ptr<host::Commissioned>
       example;  // abbe_closed of the first noisy campaign (noise-free without draws)
-  std::vector<Positioning> positioning_check;     // of the axes before, then after
-  std::vector<Vec3> volume_points;                // mm, a grid
-  std::array<std::vector<Vec3>, 2> volume_error;  // there, before and after, mm
-  std::vector<HashedInput> inputs;
+  std::vector<host::Positioning> positioning_check;  // of the axes before, then after
+  std::vector<Vec3> volume_points;                   // mm, a grid
+  std::array<std::vector<Vec3>, 2> volume_error;     // there, before and after, mm
+  std::vector<host::HashedInput> inputs;
 
   [[nodiscard]] double rate(
       std::size_t mode) const;  // PNP, noise-free, between the knots, per cent
@@ -106,6 +106,6 @@ struct XyfzResult {
 inline constexpr double kPaperRate = 87.07;
 
 // Throws UserError.
-[[nodiscard]] XyfzResult run_xyfz(const XyfzOptions& options, const Progress& progress);
+[[nodiscard]] XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

@@ -8,12 +8,12 @@
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/sim/campaign/campaign.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 
 // The machine of run_xyfz, described by a file and with errors of its own.
 struct SimulatedMachine {
-  MachineFile machine;
-  TrueMachine truth;
+  host::MachineFile machine;
+  sim::TrueMachine truth;
 };
 // Throws UserError.
 [[nodiscard]] SimulatedMachine simulated_machine(const std::filesystem::path& path,
@@ -25,22 +25,25 @@ struct Instruments {
 };
 
 // Bidirectional runs of every axis.
-[[nodiscard]] std::vector<RunsFile> simulate_runs(const SimulatedMachine& simulated,
-                                                  const Instruments& instruments, std::size_t runs);
+[[nodiscard]] std::vector<host::RunsFile> simulate_runs(const SimulatedMachine& simulated,
+                                                        const Instruments& instruments,
+                                                        std::size_t runs);
 
 struct DiagonalPlan {
   bool faces = false;  // the six of the faces, too
-  std::size_t points = kKnotPoints;
+  std::size_t points = sim::kKnotPoints;
   std::size_t runs = 5;  // in each direction
 };
 // The machine moves along every diagonal as often as there are runs.
-[[nodiscard]] DiagonalsFile simulate_diagonals(MotionCell& cell, const MachineFile& machine,
-                                               const DiagonalPlan& plan,
-                                               const Instruments& instruments,
-                                               const Progress& progress);
+[[nodiscard]] host::DiagonalsFile simulate_diagonals(sim::MotionCell& cell,
+                                                     const host::MachineFile& machine,
+                                                     const DiagonalPlan& plan,
+                                                     const Instruments& instruments,
+                                                     const host::Progress& progress);
 
 // Random places of the travel, the same for the same seed.
-[[nodiscard]] VolumeFile simulate_volume(MotionCell& cell, const MachineFile& machine, int points,
-                                         std::uint64_t seed);
+[[nodiscard]] host::VolumeFile simulate_volume(sim::MotionCell& cell,
+                                               const host::MachineFile& machine, int points,
+                                               std::uint64_t seed);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

@@ -14,35 +14,36 @@
 #include "host_sim/sim/instruments/ball_bar.hpp"
 #include "host_sim/sim/truth/drawn_errors.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 namespace {
 
-TrueAxis draw_axis(const AxisFile& file, std::size_t own, const XyfzTuning& tuning,
-                   Random& random) {
-  TrueAxis axis;
+sim::TrueAxis draw_axis(const host::AxisFile& file, std::size_t own, const XyfzTuning& tuning,
+                        sim::Random& random) {
+  sim::TrueAxis axis;
   axis.lo = file.lo;
   axis.hi = file.hi;
   for (std::size_t c = 0; c < 6; ++c) {
     const bool angle = c >= 3;
-    const double amplitude = usual_amplitude(c, own) * (angle ? tuning.angle_scale : 1.0);
+    const double amplitude = sim::usual_amplitude(c, own) * (angle ? tuning.angle_scale : 1.0);
     const double rise = angle || c == own ? amplitude * random.uniform(-1.0, 1.0) : 0.0;
-    axis.channel[c] = waves_on_line(rise, amplitude, random);
+    axis.channel[c] = sim::waves_on_line(rise, amplitude, random);
   }
-  draw_ripple(axis.channel[own], random);
-  draw_reversal(own, axis, random);
+  sim::draw_ripple(axis.channel[own], random);
+  sim::draw_reversal(own, axis, random);
   return axis;
 }
 
-SquarenessLines lines_of(const SquarenessFile& file,
+SquarenessLines lines_of(const host::SquarenessFile& file,
                          const std::array<std::vector<double>, 3>& line) {
   return {file.at, line[0], line[1], line[2]};
 }
 
 // Largest deviation on PNP, mean of both directions, µm: measured − predicted where a model is
 // given.
-double pnp_um(const TrueMachine& machine, const MachineFile& file, const Commissioned* predicted) {
-  const DiagonalBox box = travel_box(file);
-  std::vector<double> deviation(kDiagonalPoints);
+double pnp_um(const sim::TrueMachine& machine, const host::MachineFile& file,
+              const host::Commissioned* predicted) {
+  const DiagonalBox box = sim::travel_box(file);
+  std::vector<double> deviation(sim::kDiagonalPoints);
   DiagonalFigures figures;
   const auto error_at = [&](const Vec3& p) -> Vec3 {
     const Pose q{p.x(), p.y(), p.z()};
@@ -51,19 +52,21 @@ double pnp_um(const TrueMachine& machine, const MachineFile& file, const Commiss
       e -= predicted->model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
     return e;
   };
-  require(diagonal_deviations(error_at, body_diagonals(box)[kPnp], deviation, figures), "diagonal");
+  host::require(diagonal_deviations(error_at, body_diagonals(box)[sim::kPnp], deviation, figures),
+                "diagonal");
   return figures.max_abs * kUmPerMm;
 }
 
-double naive_residual_um(const MachineFile& file, std::uint64_t phase_seed,
+double naive_residual_um(const host::MachineFile& file, std::uint64_t phase_seed,
                          const XyfzTuning& tuning) {
-  const TrueMachine machine = make_xyfz_truth(file, phase_seed, tuning);
-  const Campaign campaign = perfect_campaign(machine, file);
-  const auto naive = commission(campaign.machine, campaign.runs, tables_only(ModelKind::naive));
+  const sim::TrueMachine machine = make_xyfz_truth(file, phase_seed, tuning);
+  const sim::Campaign campaign = sim::perfect_campaign(machine, file);
+  const auto naive =
+      host::commission(campaign.machine, campaign.runs, host::tables_only(host::ModelKind::naive));
   return pnp_um(machine, file, naive.get());
 }
 
-double raw_um(const MachineFile& file, std::uint64_t phase_seed, const XyfzTuning& tuning) {
+double raw_um(const host::MachineFile& file, std::uint64_t phase_seed, const XyfzTuning& tuning) {
   return pnp_um(make_xyfz_truth(file, phase_seed, tuning), file, nullptr);
 }
 
@@ -109,20 +112,20 @@ double nearest_root(double start, double step, int steps, const Function& f) {
     up = above;
     down = below;
   }
-  throw UserError(
+  throw host::UserError(
       "this phase seed has no machine with the paper's figures; try another --machine-seed");
 }
 
 }  // namespace
 
-TrueMachine make_xyfz_truth(const MachineFile& file, std::uint64_t phase_seed,
-                            const XyfzTuning& tuning) {
+sim::TrueMachine make_xyfz_truth(const host::MachineFile& file, std::uint64_t phase_seed,
+                                 const XyfzTuning& tuning) {
   if (!file.squareness || file.axes.size() != 3) {
-    throw UserError(file.path +
-                    ": the xyfz scenario needs three linear axes and a [squareness] table");
+    throw host::UserError(file.path +
+                          ": the xyfz scenario needs three linear axes and a [squareness] table");
   }
-  Random random(phase_seed);
-  TrueMachine machine;
+  sim::Random random(phase_seed);
+  sim::TrueMachine machine;
   machine.chain = file.chain;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto own = static_cast<std::size_t>(file.chain.axis(a).axis);
@@ -134,13 +137,13 @@ TrueMachine make_xyfz_truth(const MachineFile& file, std::uint64_t phase_seed,
   // exact.
   const std::array<std::vector<double>, 3> line{file.squareness->line(0), file.squareness->line(1),
                                                 file.squareness->line(2)};
-  const XyfzSquareness own = measure_squareness(machine, machine.chain.tool_point(),
-                                                lines_of(*file.squareness, line), 0.0, random);
+  const XyfzSquareness own = sim::measure_squareness(machine, machine.chain.tool_point(),
+                                                     lines_of(*file.squareness, line), 0.0, random);
   machine.directions = xyfz_directions(close_squareness(file.squareness->measured, own));
   return machine;
 }
 
-XyfzTuning tune_xyfz(const MachineFile& file, std::uint64_t phase_seed) {
+XyfzTuning tune_xyfz(const host::MachineFile& file, std::uint64_t phase_seed) {
   XyfzTuning tuning;
   constexpr int kRounds = 2;  // the two figures hardly influence each other
   for (int round = 0; round < kRounds; ++round) {
@@ -154,10 +157,10 @@ XyfzTuning tune_xyfz(const MachineFile& file, std::uint64_t phase_seed) {
     });
   }
   if (tuning.angle_scale <= 0.0) {
-    throw UserError(
+    throw host::UserError(
         "this phase seed has no machine with the paper's figures; try another --machine-seed");
   }
   return tuning;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

@@ -5,7 +5,7 @@
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/sim/truth/true_machine.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::xyfz {
 
 // The two quantities tuned so that, noise-free, the PNP diagonal shows the paper's figures. Nothing
 // about the optimised models is tuned.
@@ -19,10 +19,10 @@ inline constexpr double kPaperNaive_um = 16.37;
 
 // The machine of a phase seed. Squareness is chosen so that a perfect ball bar at the place of the
 // machine file reads the values of the machine file (the paper's Table 6).
-[[nodiscard]] TrueMachine make_xyfz_truth(const MachineFile& file, std::uint64_t phase_seed,
-                                          const XyfzTuning& tuning);
+[[nodiscard]] sim::TrueMachine make_xyfz_truth(const host::MachineFile& file,
+                                               std::uint64_t phase_seed, const XyfzTuning& tuning);
 
 // Finds the tuning for a phase seed; throws UserError if this seed cannot show the paper's figures.
-[[nodiscard]] XyfzTuning tune_xyfz(const MachineFile& file, std::uint64_t phase_seed);
+[[nodiscard]] XyfzTuning tune_xyfz(const host::MachineFile& file, std::uint64_t phase_seed);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::xyfz

@@ -6,7 +6,7 @@
 
 #include "hal/loopback/frame_bits.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // Data bytes, as architecture and default mappings have them.
@@ -107,4 +107,4 @@ nlohmann::json to_json(const std::vector<BusLoadRow>& table) {
   return rows;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 inline constexpr double kBitRate = 1e6;
 inline constexpr std::array<double, 4> kBusLoadRates_hz{125.0, 250.0, 500.0, 1000.0};
@@ -58,4 +58,4 @@ struct BusLoadRow {
 [[nodiscard]] std::string describe(const std::vector<BusLoadRow>& table);
 [[nodiscard]] nlohmann::json to_json(const std::vector<BusLoadRow>& table);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

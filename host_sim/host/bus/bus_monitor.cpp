@@ -11,7 +11,7 @@
 #include "host_sim/host/bus/device_files/signal_names.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kMostEmergencies = 20;
@@ -252,4 +252,4 @@ BusSnapshot BusMonitor::snapshot(std::uint64_t now_us) {
   return s;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

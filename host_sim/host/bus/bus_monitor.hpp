@@ -17,7 +17,7 @@
 #include "hal/can_port.hpp"
 #include "host_sim/host/bus/device_files/bus_messages.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct StationSeen {
   std::string name;  // "controller", "node", "drive X"
@@ -126,4 +126,4 @@ class BusMonitor {
 [[nodiscard]] std::string describe(const BusSnapshot& snapshot);
 [[nodiscard]] nlohmann::json to_json(const BusSnapshot& snapshot);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

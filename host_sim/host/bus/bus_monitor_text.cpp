@@ -6,7 +6,7 @@
 #include "host_sim/host/bus/device_files/signal_names.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -136,4 +136,4 @@ json to_json(const BusSnapshot& s) {
           {"emergency_count", s.emergency_count}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

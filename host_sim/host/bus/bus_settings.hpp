@@ -10,7 +10,7 @@
 #include "host_sim/host/bus/watched_strokes.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Run-time units (nm or 2^-40 turn) per unit of a drive.
 struct DriveScale {
@@ -52,4 +52,4 @@ struct BusSettings {
 // Node ids, units and software limits as the machine file says.
 [[nodiscard]] BusSettings bus_settings(const MachineFile& machine, double cycle_hz);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

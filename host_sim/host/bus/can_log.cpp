@@ -11,7 +11,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // Frames that two processors handled reach the socket in either order.
@@ -167,4 +167,4 @@ void CanLogWriter::finish() {
   interruption_.reset();
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

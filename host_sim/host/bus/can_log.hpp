@@ -14,7 +14,7 @@
 #include "host_sim/host/io/file_draft.hpp"
 #include "host_sim/host/io/interruption.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct LoggedFrame {
   std::uint64_t time_us = 0;  // the log's own clock
@@ -63,4 +63,4 @@ class CanLogWriter {
   std::string interface_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -2,7 +2,7 @@
 
 #include "firmware/canopen/cob_id.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::Access;
@@ -154,4 +154,4 @@ std::array<canopen::PdoParameters, kTransmitPdos> cia402_transmit_pdos(std::uint
   return parameters(kTransmitLayout, canopen::kPdoNoRtr | node_id);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

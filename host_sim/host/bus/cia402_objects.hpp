@@ -9,7 +9,7 @@
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/pdo.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // CiA 402-2, error code "following error".
 inline constexpr auto kFollowingErrorCode = static_cast<canopen::ErrorCode>(0x8611);
@@ -105,4 +105,4 @@ inline constexpr std::size_t kReceivePdos = 2;  // 200h + n: 6040h, 607Ah; 300h 
 [[nodiscard]] std::array<canopen::PdoParameters, kTransmitPdos> cia402_transmit_pdos(
     std::uint8_t node_id);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

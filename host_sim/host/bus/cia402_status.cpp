@@ -1,6 +1,6 @@
 #include "host_sim/host/bus/cia402_status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 std::uint16_t status_pattern(PowerState state) {
   switch (state) {
@@ -24,4 +24,4 @@ std::uint16_t status_pattern(PowerState state) {
   return 0x0000;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

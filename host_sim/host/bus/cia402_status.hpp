@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 enum class PowerState : std::uint8_t {
   not_ready_to_switch_on,
@@ -32,4 +32,4 @@ enum DriveStatusBit : std::uint16_t {
 // Bits 0…3, 5 and 6 of the statusword.
 [[nodiscard]] std::uint16_t status_pattern(PowerState state);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -1,6 +1,6 @@
 #include "host_sim/host/bus/diagnosis.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // 2^40 (positions) and 2^32 (offsets, limits) units per turn of a rotary axis.
@@ -103,4 +103,4 @@ Diagnosis diagnose(NodeClient& client) {
   return d;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

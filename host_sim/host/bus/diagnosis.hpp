@@ -17,7 +17,7 @@
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/bus/thermal_diagnosis.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct AxisDiagnosis {
   std::size_t number = 0;  // from 1
@@ -73,4 +73,4 @@ struct Diagnosis {
 // What a drive says of itself in 6041h (CiA 402-2).
 [[nodiscard]] std::string describe_drive(std::uint16_t status_word);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 #include "host_sim/host/bus/cia402_status.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::ErrorCode;
@@ -270,4 +270,4 @@ nlohmann::json to_json(const Diagnosis& d) {
           {"thermal", d.thermal ? to_json(*d.thermal) : nlohmann::json()}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 #include "firmware/canopen/exchange.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 using canopen::NmtState;
 
@@ -79,4 +79,4 @@ std::uint64_t LinkPump::operator()(NodeClient& client) const {
   return link_->now_us();
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -13,7 +13,7 @@
 #include "host_sim/host/bus/links/frame_link.hpp"
 #include "host_sim/host/bus/sdo_channel.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The node said no. The text names the object and the reason.
 struct NodeRefused : std::runtime_error {
@@ -81,4 +81,4 @@ class LinkPump {
   std::shared_ptr<FrameLink> link_;  // a Pump is copied
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

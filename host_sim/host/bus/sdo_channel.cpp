@@ -4,7 +4,7 @@
 
 #include "firmware/canopen/cob_id.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 using canopen::SdoClient;
 
@@ -74,4 +74,4 @@ bool SdoChannel::offer(hal::CanFrame& frame) {
   return true;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

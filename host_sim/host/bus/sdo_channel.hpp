@@ -11,7 +11,7 @@
 #include "firmware/canopen/sdo_client.hpp"
 #include "hal/can_port.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class SdoChannel {
  public:
@@ -79,4 +79,4 @@ class SdoChannel {
   return canopen::load_le(bytes.data(), bytes.size() < 8 ? bytes.size() : 8);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 #include "comp/strokes/stroke_offsets.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::ObjectId;
@@ -175,4 +175,4 @@ nlohmann::json to_json(const StrokeDiagnosis& d) {
           {"table", tables}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -13,7 +13,7 @@
 #include "firmware/node/strokes/stroke_objects.hpp"
 #include "host_sim/host/bus/node_client.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The last step of one table.
 struct LearnedTableDiagnosis {
@@ -50,4 +50,4 @@ struct StrokeDiagnosis {
 [[nodiscard]] std::string describe(const StrokeDiagnosis& diagnosis);
 [[nodiscard]] nlohmann::json to_json(const StrokeDiagnosis& diagnosis);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

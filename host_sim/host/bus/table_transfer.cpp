@@ -10,7 +10,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 using canopen::AbortCode;
 using node::table_verdict;
@@ -105,4 +105,4 @@ std::string refusal(NodeClient& client) {
   return place.empty() ? text : fmt::format("{}: {}", fmt::join(place, ", "), text);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 
 #include "host_sim/host/bus/node_client.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The bytes of an image file. Throws UserError for what no node can take: nothing, or more than
 // node::kImageCapacity bytes.
@@ -39,4 +39,4 @@ struct ActiveTables {
 // without one.
 [[nodiscard]] std::string refusal(NodeClient& client);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::uint8_t sub_of(std::size_t input) { return static_cast<std::uint8_t>(input + 1); }
@@ -109,4 +109,4 @@ nlohmann::json to_json(const ThermalDiagnosis& d) {
           {"expired", d.expired}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -10,7 +10,7 @@
 #include "firmware/node/thermal/thermal_objects.hpp"
 #include "host_sim/host/bus/node_client.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct TemperatureDiagnosis {
   double latest_C = 0.0;  // as it came, believed or not
@@ -37,4 +37,4 @@ struct ThermalDiagnosis {
 // A date in words, UTC: "2030-01-01 00:00:00".
 [[nodiscard]] std::string date_text(std::int64_t unix_s);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 #include "comp/strokes/learning_choice.hpp"
 #include "comp/strokes/stroke_offsets.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct WatchedStrokes {
   std::uint16_t slots = 0;  // of the gear
@@ -25,4 +25,4 @@ struct ProcessState {
   std::int32_t feed_nm_per_s = 0;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/io/utf8.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
@@ -107,4 +107,4 @@ double CsvLines::number(std::string_view cell, const std::string& what) const {
   return value;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Without blanks at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
@@ -52,4 +52,4 @@ class CsvLines {
   std::size_t line_ = 0;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 
 #include "comp/core/units.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::array<CsvUnit, 10> kUnits{{{"mm", 1.0, false},
@@ -44,4 +44,4 @@ double length_unit(const CsvLines& lines, std::string_view cell, std::string_vie
   return unit.factor;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 
 #include "host_sim/host/io/csv_cells.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct CsvUnit {
   const char* name;
@@ -22,4 +22,4 @@ struct CsvUnit {
 [[nodiscard]] double length_unit(const CsvLines& lines, std::string_view cell,
                                  std::string_view& label);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

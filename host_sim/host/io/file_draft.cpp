@@ -8,7 +8,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ void FileDraft::discard() const {
   fs::remove(temporary_, ignored);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The file behind a chain of symbolic links, there or not. A descriptor of a process (/dev/fd/3)
 // stays a link: what is open need not have a name.
@@ -46,4 +46,4 @@ class FileDraft {
   std::ofstream stream_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

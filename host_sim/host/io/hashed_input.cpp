@@ -11,7 +11,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 class Digest {
@@ -72,4 +72,4 @@ HashedInput hashed_bytes(const std::string& what, const std::string& name,
   return {what, name, text.size(), sha256(text)};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct HashedInput {
   std::string what;  // "machine file"
@@ -25,4 +25,4 @@ struct HashedInput {
 [[nodiscard]] HashedInput hashed_bytes(const std::string& what, const std::string& name,
                                        const std::vector<std::uint8_t>& bytes);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -4,7 +4,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // What has been read from a pipe is gone.
@@ -38,4 +38,4 @@ std::string InputFile::beginning(std::size_t most) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

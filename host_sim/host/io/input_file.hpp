@@ -7,7 +7,7 @@
 #include <istream>
 #include <string>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 inline constexpr const char* kStandardStream = "-";
 
@@ -31,4 +31,4 @@ class InputFile {
   std::string name_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 struct Noted {
@@ -47,4 +47,4 @@ void Interruption::check() const {
 }
 // NOLINTEND(readability-convert-member-functions-to-static)
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <stdexcept>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Ends the program as the signal would have done (main).
 struct Interrupted : std::runtime_error {
@@ -29,4 +29,4 @@ class Interruption {
   void check() const;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

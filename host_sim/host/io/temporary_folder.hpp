@@ -6,7 +6,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // A folder that is gone when its owner is.
 class TemporaryFolder {
@@ -30,4 +30,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

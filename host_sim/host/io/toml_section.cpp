@@ -7,7 +7,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 TomlSection::TomlSection(const Value& value, std::string file, std::string name)
     : value_(&value), file_(std::move(file)), name_(std::move(name)) {
@@ -116,4 +116,4 @@ void TomlSection::check(const Status& status, const std::string& key) const {
   if (!status.ok()) complain(key, describe(status));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 
 #include "comp/core/status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class TomlSection {
  public:
@@ -59,4 +59,4 @@ class TomlSection {
   std::string name_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

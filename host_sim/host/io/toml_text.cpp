@@ -5,7 +5,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/utf8.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kLargestToml = 1U << 20U;
@@ -40,4 +40,4 @@ void refuse_monsters(const std::string& text, const std::string& name) {
   refuse_other_encodings(text, name);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

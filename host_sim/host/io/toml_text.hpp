@@ -11,7 +11,7 @@
 #include "host_sim/host/io/toml_section.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Of one that refuse_monsters will find too large, not more than it takes to see that.
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& path);
@@ -35,4 +35,4 @@ auto read_toml(const std::string& text, const std::string& name, const Read& rea
   }
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

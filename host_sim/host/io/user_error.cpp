@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 std::vector<std::string> places(const Where& w) {
@@ -38,4 +38,4 @@ void require(const Status& status, const std::string& subject) {
   if (!status.ok()) throw UserError(subject + ": " + describe(status));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

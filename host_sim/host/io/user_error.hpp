@@ -6,7 +6,7 @@
 
 #include "comp/core/status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Printed as it is; the tool then ends with exit code 2.
 struct UserError : std::runtime_error {
@@ -20,4 +20,4 @@ struct UserError : std::runtime_error {
 // Throws UserError("SUBJECT: …") unless the status is ok.
 void require(const Status& status, const std::string& subject);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

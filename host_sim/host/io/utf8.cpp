@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // A first byte says how many follow; of those only the first is restricted further.
@@ -56,4 +56,4 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

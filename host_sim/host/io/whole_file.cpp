@@ -7,7 +7,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 namespace fs = std::filesystem;
 
@@ -76,4 +76,4 @@ void create_folder(const fs::path& path) {
     throw UserError(fmt::format("{}: cannot be created: {}", path.string(), failed.message()));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 
 #include "host_sim/host/io/file_draft.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // All of a file. Throws UserError naming it: cannot be opened, cannot be read, more than `largest`
 // bytes.
@@ -54,4 +54,4 @@ void require_folder(const std::filesystem::path& path);
 // With those above it; one that exists is fine. Throws UserError naming it.
 void create_folder(const std::filesystem::path& path);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 Targets AxisKinds::targets(const Pose& q) const {
   Targets units{};
@@ -28,4 +28,4 @@ AxisKinds axis_kinds(const MachineChain& chain) {
   return kinds;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 #include "comp/machine/machine_chain.hpp"
 #include "comp/tick/instances.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Whatever moves a machine has room for as many axes as the compensation.
 inline constexpr std::size_t kMostAxes = LoadedCompensator::kAxes;
@@ -35,4 +35,4 @@ struct AxisKinds {
   return {xyz_mm.x(), xyz_mm.y(), xyz_mm.z()};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

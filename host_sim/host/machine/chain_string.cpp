@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr const char* kAxisLetters = "XYZABCUVW";
@@ -121,4 +121,4 @@ std::string chain_text(const MachineChain& chain) {
   return fmt::format("w-{}-t", fmt::join(letters, "-"));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 
 #include "comp/machine/machine_chain.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Letters of the axes from the bed outwards.
 struct ChainLetters {
@@ -26,4 +26,4 @@ struct ChainLetters {
 // "w-X-Y-b-Z-t"; a body without a joint is a dot.
 [[nodiscard]] std::string chain_text(const MachineChain& chain);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -10,7 +10,7 @@
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/machine/machine_sections.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using Section = TomlSection;
@@ -209,4 +209,4 @@ void read_bodies(const Section& top, MachineFile& file, MachineDescription& d) {
   read_list(top, file, d);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 #include "host_sim/host/io/toml_section.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Fields of an [[axis]] that stand at its [[body]] when there is a list of those.
 [[nodiscard]] const std::vector<std::string>& joint_fields();
@@ -17,4 +17,4 @@ namespace volcomp::sim {
 // must have been read. Throws UserError.
 void read_bodies(const TomlSection& top, MachineFile& file, MachineDescription& d);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 #include "comp/core/units.hpp"
 #include "firmware/node/wire_scale.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr long kLastNode = 127;
@@ -117,4 +117,4 @@ void read_bus(const TomlSection& top, MachineFile& file) {
     claim(axis.drive.node, fmt::format("axis {}", axis.letter));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

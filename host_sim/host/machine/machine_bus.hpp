@@ -5,7 +5,7 @@
 #include "host_sim/host/io/toml_section.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Fields of an [[axis]].
 [[nodiscard]] const std::vector<std::string>& drive_fields();
@@ -16,4 +16,4 @@ namespace volcomp::sim {
 // [bus], where there is one. Refuses a node id that two have.
 void read_bus(const TomlSection& top, MachineFile& file);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

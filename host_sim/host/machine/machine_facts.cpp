@@ -14,7 +14,7 @@
 #include "comp/tables/image.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 double authority_at(const MachineChain& chain, const Pose& q) {
@@ -154,4 +154,4 @@ std::size_t table_bytes(const MachineFile& machine, std::size_t knots) {
   return image_size(*tables);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

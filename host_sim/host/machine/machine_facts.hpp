@@ -7,7 +7,7 @@
 
 #include "host_sim/host/machine/machine_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Least value over a grid of the travels, where, and the greatest.
 struct LeastAuthority {
@@ -35,4 +35,4 @@ void require_authority(const MachineFile& machine);
 // Bytes of the table image of this machine, at most `knots` a table.
 [[nodiscard]] std::size_t table_bytes(const MachineFile& machine, std::size_t knots);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -16,7 +16,7 @@
 #include "host_sim/host/machine/machine_bus.hpp"
 #include "host_sim/host/machine/machine_sections.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using Section = TomlSection;
@@ -240,4 +240,4 @@ std::filesystem::path bundled_machine(const std::string& name) {
   return path;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -14,7 +14,7 @@
 #include "comp/metrology/tables/error_table.hpp"
 #include "comp/tables/thermal.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The drive of an axis on the bus.
 struct DriveFile {
@@ -127,4 +127,4 @@ struct MachineFile {
 // One of them.
 [[nodiscard]] std::filesystem::path bundled_machine(const std::string& name);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

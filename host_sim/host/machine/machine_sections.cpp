@@ -5,7 +5,7 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/plausibility.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 void read_correction_values(const TomlSection& s, CorrectionFile& c) {
   const auto read = [&s](const char* key, double& value, double lo, double hi) {
@@ -164,4 +164,4 @@ GrindingFile read_grinding(const TomlSection& top) {
   return g;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 #include "host_sim/host/io/toml_section.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Limits, rates and times of [correction].
 void read_correction_values(const TomlSection& s, CorrectionFile& c);
@@ -26,4 +26,4 @@ void read_correction_values(const TomlSection& s, CorrectionFile& c);
 // 0…1000; 0 where nothing is said.
 [[nodiscard]] double read_delay_us(const TomlSection& s, const std::string& key);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -257,4 +257,4 @@ std::string short_text(const MachineFile& m) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 
 #include "host_sim/host/machine/machine_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Everything that follows from the file: chain, lower bodies, axes with their ISO 230-1 errors,
 // what the correcting axes can do at worst, what of the orientation is left, size of the tables.
@@ -18,4 +18,4 @@ namespace volcomp::sim {
 // In short.
 [[nodiscard]] std::string short_text(const MachineFile& machine);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

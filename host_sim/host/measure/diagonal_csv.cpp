@@ -12,7 +12,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kMostDiagonals = 16;
@@ -236,4 +236,4 @@ void require_same_points(const DiagonalsFile& before, const DiagonalsFile& after
   require_points_of(after, before);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct DiagonalRun {
   long number = 0;
@@ -60,4 +60,4 @@ inline constexpr double kSameTarget_mm = 1e-3;
 // Throws UserError naming file and line of what only one of them has: diagonal, target, run.
 void require_same_points(const DiagonalsFile& before, const DiagonalsFile& after);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

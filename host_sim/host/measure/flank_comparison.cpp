@@ -11,7 +11,7 @@
 #include "host_sim/host/measure/gear_choice.hpp"
 #include "host_sim/host/measure/map_csv.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using Surface = std::array<SurfacePoint, kGridCells>;
@@ -157,4 +157,4 @@ std::string grade_text(const std::optional<GradedProfile>& profile) {
   return fmt::format("worse than grade {}", kFaceGearLimits.back().grade);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -16,7 +16,7 @@
 #include "comp/metrology/faces/map_comparison.hpp"
 #include "host_sim/host/report/document.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 enum class Zeroing { as_given, centre, mean };
 
@@ -88,4 +88,4 @@ struct FlankComparison {
 [[nodiscard]] nlohmann::json comparison_document(const FlankComparison& comparison,
                                                  const RunContext& run);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

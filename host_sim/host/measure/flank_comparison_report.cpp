@@ -10,7 +10,7 @@
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -164,4 +164,4 @@ json comparison_document(const FlankComparison& c, const RunContext& run) {
   return report_document(std::move(parts));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 #include "comp/metrology/faces/face_gear_grade.hpp"
 #include "host_sim/host/measure/flank_comparison.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -194,4 +194,4 @@ json comparison_json(const FlankComparison& c) {
   return out;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -3,7 +3,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 TipRelief read_relief(const TomlSection& s) {
@@ -48,4 +48,4 @@ GearChoice choose_face_gear(const std::string& name_or_file) {
   return {gear, plan_face_grid(gear)};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

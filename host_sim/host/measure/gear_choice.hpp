@@ -5,7 +5,7 @@
 
 #include "comp/metrology/faces/face_grid.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct GearChoice {
   FaceGear gear;
@@ -18,4 +18,4 @@ struct GearChoice {
 [[nodiscard]] bool is_published_gear(const std::string& name_or_file);
 [[nodiscard]] FaceGear parse_face_gear(const std::string& text, const std::string& name);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

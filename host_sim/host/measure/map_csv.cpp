@@ -9,7 +9,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 std::vector<std::string> column_names() {
@@ -97,4 +97,4 @@ std::string map_csv(const ErrorMap& map) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

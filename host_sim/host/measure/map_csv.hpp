@@ -12,7 +12,7 @@
 
 #include "comp/metrology/faces/error_map.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Throws UserError with file, line, row and column: text that is no number, NaN or infinity, rows
 // or columns that are missing, twice there or too many.
@@ -22,4 +22,4 @@ namespace volcomp::sim {
 // Four decimals.
 [[nodiscard]] std::string map_csv(const ErrorMap& map);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

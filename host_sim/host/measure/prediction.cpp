@@ -9,7 +9,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr double kLengthTolerance_mm = 0.5;
@@ -97,4 +97,4 @@ DiagonalBox travel_of(const MachineFile& machine) {
   return box;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

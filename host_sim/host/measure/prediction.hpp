@@ -10,7 +10,7 @@
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/host/tables/table_model.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The model of a table image in double.
 class TablesModel {
@@ -44,4 +44,4 @@ struct PredictedDiagonal {
   double rms_difference_um = 0.0;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using Member = std::optional<double> UncertaintyStatement::*;
@@ -144,4 +144,4 @@ std::vector<std::string> left_out(const UncertaintyStatement& s, bool repeated) 
   return list;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

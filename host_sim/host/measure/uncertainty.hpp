@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // What is known of instrument and surroundings. Empty: not stated.
 struct UncertaintyStatement {
@@ -69,4 +69,4 @@ enum class FigureKind : std::uint8_t {
 [[nodiscard]] std::vector<std::string> left_out(const UncertaintyStatement& statement,
                                                 bool repeated);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -10,7 +10,7 @@
 #include "comp/metrology/tables/iso230.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // Mean and standard deviation (n − 1) of the runs of one direction, µm, by target.
@@ -241,4 +241,4 @@ double FigureComparison::reduction_percent() const {
 
 VerificationResult verify(const VerificationInput& input) { return Verification(input).run(); }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -14,7 +14,7 @@
 #include "host_sim/host/measure/volume_csv.hpp"
 #include "host_sim/host/report/provenance.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct Figure {
   double um = 0.0;
@@ -86,4 +86,4 @@ struct VerificationResult {
                                                    const VerificationResult& result,
                                                    const RunContext& run, Origins origins);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/volume_map.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -143,4 +143,4 @@ json verification_document(const VerificationInput& input, const VerificationRes
   return report_document(std::move(parts));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

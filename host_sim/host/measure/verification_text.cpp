@@ -5,7 +5,7 @@
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/measure/verification.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -146,4 +146,4 @@ json verification_json(const VerificationInput& input, const VerificationResult&
           {"remarks", r.remarks}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

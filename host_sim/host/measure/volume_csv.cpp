@@ -15,7 +15,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kFewest = 4;
@@ -187,4 +187,4 @@ std::vector<VolumePoint> aligned_by_place(const VolumeFile& file) {
   return points;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -12,7 +12,7 @@
 
 #include "comp/machine/frame.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct VolumePoint {
   Vec3 at_mm = Vec3::Zero();
@@ -49,4 +49,4 @@ struct VolumeFigures {
 // In the order of their places: two files of the same places in the same order.
 [[nodiscard]] std::vector<VolumePoint> aligned_by_place(const VolumeFile& file);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -53,4 +53,4 @@ json before_after_table(const std::vector<BeforeAfter>& lines, const std::string
   return table;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct BeforeAfter {
   std::string figure;
@@ -24,4 +24,4 @@ struct BeforeAfter {
                                                 const std::string& note,
                                                 std::optional<std::size_t> highlight = {});
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -33,4 +33,4 @@ json report_document(ReportParts parts) {
   return document;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

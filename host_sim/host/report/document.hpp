@@ -30,7 +30,7 @@
 
 #include "host_sim/host/report/progress.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Makes tables of what the compensation did in all control periods; an empty list without periods.
 using TickTables = std::function<nlohmann::json()>;
@@ -56,4 +56,4 @@ struct ReportParts {
 // Before and after, plots, details, tick statistics, provenance.
 [[nodiscard]] nlohmann::json report_document(ReportParts parts);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -61,4 +61,4 @@ json error_functions_group(const std::string& title, const std::vector<ErrorCurv
       {"type", "group"}, {"id", "functions"}, {"title", title}, {"charts", charts}, {"note", note}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 
 #include "comp/machine/error_motion.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct ErrorCurves {
   char letter = '\0';
@@ -23,4 +23,4 @@ struct ErrorCurves {
                                                    const std::vector<ErrorCurves>& axes,
                                                    const std::string& note);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

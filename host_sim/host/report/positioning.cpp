@@ -11,7 +11,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -137,4 +137,4 @@ json positioning_table(const std::vector<Positioning>& axes, const std::string& 
           {"note", note}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 
 #include "comp/metrology/tables/iso230.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // One direction at every target; mm or rad.
 struct DirectionRuns {
@@ -40,4 +40,4 @@ struct Positioning {
 [[nodiscard]] nlohmann::json positioning_table(const std::vector<Positioning>& axes,
                                                const std::string& note);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

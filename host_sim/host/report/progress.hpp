@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // How far a scenario is: 0…1, and what is being done.
 using Progress = std::function<void(double done, const std::string& what)>;
@@ -14,4 +14,4 @@ struct Verdict {
   std::string text;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 
 #include "host_sim/host/io/version.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -55,4 +55,4 @@ json provenance(const RunContext& run, const Origins& origins) {
   return {{"rows", rows}, {"inputs", inputs}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

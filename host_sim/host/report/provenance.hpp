@@ -10,7 +10,7 @@
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/report/document.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct Origins {
   std::string data = "simulated: no machine and no gear was measured";  // or where it is from
@@ -30,4 +30,4 @@ void add_origin(Origins& origins, const std::string& what, const std::string& pa
 // "rows" for readers, "inputs" for programs.
 [[nodiscard]] nlohmann::json provenance(const RunContext& run, const Origins& origins);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

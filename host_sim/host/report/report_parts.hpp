@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 inline constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
 
@@ -24,4 +24,4 @@ inline constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "E
   return {{"title", title}, {"unit", unit}, {"digits", digits}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

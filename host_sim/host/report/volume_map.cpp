@@ -6,7 +6,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -64,4 +64,4 @@ json volume_map(const std::string& title, const std::vector<Vec3>& points,
           {"note", note}};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

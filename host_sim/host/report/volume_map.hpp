@@ -8,7 +8,7 @@
 
 #include "comp/machine/error_motion.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct VolumeArrows {
   std::string name;         // "uncompensated"
@@ -21,4 +21,4 @@ struct VolumeArrows {
                                         const std::vector<VolumeArrows>& arrows,
                                         const std::string& note);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -11,7 +11,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr int kBoundSteps = 7;
@@ -268,4 +268,4 @@ std::vector<std::uint8_t> make_image(const MachineTables& tables) {
   return image;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

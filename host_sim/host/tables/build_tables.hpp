@@ -13,7 +13,7 @@
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/host/tables/runs_csv.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Which model of the paper the tables are for (seed 001 section 2.1).
 enum class ModelKind : std::uint8_t {
@@ -70,4 +70,4 @@ struct Commissioned {
 
 [[nodiscard]] std::vector<std::uint8_t> make_image(const MachineTables& tables);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

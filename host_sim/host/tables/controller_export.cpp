@@ -12,7 +12,7 @@
 #include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
 #include "host_sim/host/tables/formats/volumetric_files.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::array<char, 3> kLetters{'X', 'Y', 'Z'};
@@ -231,4 +231,4 @@ ControllerExport export_tables(const TableModel& tables, const std::string& name
   return out;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -13,7 +13,7 @@
 #include "host_sim/host/io/whole_file.hpp"
 #include "host_sim/host/tables/table_model.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct ExportOptions {
   std::vector<std::string> formats;                       // of the three above
@@ -49,4 +49,4 @@ struct ControllerExport {
 [[nodiscard]] ControllerExport export_tables(const TableModel& tables, const std::string& name,
                                              const ExportOptions& options);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

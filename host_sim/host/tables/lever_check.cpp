@@ -8,7 +8,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr double kSameTarget_mm = 1e-3;
@@ -107,4 +107,4 @@ LeverVerdict check_lever(const MachineFile& machine, const RunsFile& first, cons
   return out;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

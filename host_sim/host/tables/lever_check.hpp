@@ -8,7 +8,7 @@
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/host/tables/runs_csv.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct LeverAngle {
   std::string channel;  // for instance EBX
@@ -35,4 +35,4 @@ struct LeverVerdict {
 [[nodiscard]] LeverVerdict check_lever(const MachineFile& machine, const RunsFile& first,
                                        const RunsFile& second, const Vec3& second_point);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -16,7 +16,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/io/whole_file.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kMaxRuns = 1000;  // both directions together
@@ -236,4 +236,4 @@ void write_runs_file(const std::filesystem::path& path, const RunsFile& runs) {
   write_whole_file(path, runs_csv(runs));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

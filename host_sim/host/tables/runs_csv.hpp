@@ -16,7 +16,7 @@
 #include "comp/machine/error_motion.hpp"
 #include "comp/metrology/tables/table_builder.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 using RunValues = std::vector<ErrorMotion>;  // by target, mm and rad
 
@@ -46,4 +46,4 @@ void write_runs(std::ostream& stream, const RunsFile& runs);
 // Whole or not at all.
 void write_runs_file(const std::filesystem::path& path, const RunsFile& runs);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // A node takes tables over by folding them, which bounds what they can ask for. Done here with room
@@ -44,4 +44,4 @@ std::unique_ptr<MachineTables> read_tables_file(const std::filesystem::path& pat
   return tables;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 #include "comp/metrology/tables/volumetric_model.hpp"
 #include "comp/tables/machine_tables.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Owns the tables its model points at.
 struct TableModel {
@@ -23,4 +23,4 @@ struct TableModel {
 // Throws UserError naming the file.
 [[nodiscard]] std::unique_ptr<MachineTables> read_tables_file(const std::filesystem::path& path);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

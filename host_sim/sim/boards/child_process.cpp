@@ -55,8 +55,8 @@ pid_t start(std::vector<std::string> command, const std::filesystem::path& folde
   const pid_t id = ::fork();
   if (id == 0) become(plan);
   if (id < 0)
-    throw UserError(fmt::format("{} cannot be started: {}", command.front(),
-                                std::generic_category().message(errno)));
+    throw host::UserError(fmt::format("{} cannot be started: {}", command.front(),
+                                      std::generic_category().message(errno)));
   return id;
 }
 

@@ -28,15 +28,16 @@ std::filesystem::path find_emulator(const EmulatedBoard& board) {
   const char* const name = board.has_can_controller ? "qemu-system-aarch64" : "qemu-system-arm";
   std::filesystem::path path = find_program(name);
   if (path.empty())
-    throw UserError(fmt::format("{} is not installed (Debian: apt install qemu-system-arm)", name));
+    throw host::UserError(
+        fmt::format("{} is not installed (Debian: apt install qemu-system-arm)", name));
   return path;
 }
 
 std::filesystem::path find_image(const EmulatedBoard& board, const std::filesystem::path& given) {
   const std::filesystem::path image = given.empty() ? node_image(board) : given;
   if (std::filesystem::is_regular_file(image)) return std::filesystem::absolute(image);
-  if (!given.empty()) throw UserError(fmt::format("{}: no such file", given.string()));
-  throw UserError(fmt::format(
+  if (!given.empty()) throw host::UserError(fmt::format("{}: no such file", given.string()));
+  throw host::UserError(fmt::format(
       "{}: there is no image; build it first: cmake --preset {} && cmake --build --preset {}",
       image.lexically_normal().string(), board.name, board.name));
 }
@@ -78,9 +79,9 @@ Words can_machine(const EmulatedBoard& board, const std::string& interface) {
 }
 
 // Looks after the firmware while this process waits for it.
-class WatchedLink final : public FrameLink {
+class WatchedLink final : public host::FrameLink {
  public:
-  WatchedLink(std::unique_ptr<FrameLink> link, std::function<void()> watch)
+  WatchedLink(std::unique_ptr<host::FrameLink> link, std::function<void()> watch)
       : link_(std::move(link)), watch_(std::move(watch)) {}
 
   [[nodiscard]] bool send(const hal::CanFrame& frame) override { return link_->send(frame); }
@@ -93,7 +94,7 @@ class WatchedLink final : public FrameLink {
   [[nodiscard]] bool turn_by_turn() const override { return false; }
 
  private:
-  std::unique_ptr<FrameLink> link_;
+  std::unique_ptr<host::FrameLink> link_;
   std::function<void()> watch_;
 };
 
@@ -103,7 +104,7 @@ const EmulatedBoard& emulated_board(const std::string& name) {
   for (const EmulatedBoard& board : kEmulatedBoards) {
     if (name == board.name) return board;
   }
-  throw UserError(fmt::format("{}: there is no firmware for such a board", name));
+  throw host::UserError(fmt::format("{}: there is no firmware for such a board", name));
 }
 
 std::filesystem::path node_image(const EmulatedBoard& board) {
@@ -121,7 +122,7 @@ EmulatedNode::EmulatedNode(const EmulatedBoard& board, const std::filesystem::pa
   } else if (!interface.empty()) {
     join_by_can(found, interface);
   } else {
-    throw UserError(fmt::format(
+    throw host::UserError(fmt::format(
         "firmware {}: has a CAN controller of its own and needs an interface to join", board.name));
   }
 }
@@ -133,32 +134,32 @@ void EmulatedNode::start(const std::vector<std::string>& words) {
 // The image is told to exchange its frames by the pipes in its folder.
 void EmulatedNode::join_by_pipe(const std::filesystem::path& image) {
   const Words words = command(board_, {"-M", board_.machine}, ",arg=pipe", image);
-  make_frame_pipes(folder_.path());
+  host::make_frame_pipes(folder_.path());
   start(words);
   with_last_words([this] {
-    pipe_ = std::make_unique<PipeLink>(folder_.path(), [this](bool gone) { watch(gone); });
-    if (!await_boot_up(*pipe_)) fail("runs, but no node starts in it");
+    pipe_ = std::make_unique<host::PipeLink>(folder_.path(), [this](bool gone) { watch(gone); });
+    if (!host::await_boot_up(*pipe_)) fail("runs, but no node starts in it");
   });
 }
 
 // QEMU listens on its monitor before it starts the processor.
 void EmulatedNode::join_by_can(const std::filesystem::path& image, const std::string& interface) {
-  auto socket =
-      std::make_unique<WatchedLink>(std::make_unique<SocketLink>(interface), [this] { watch(); });
+  auto socket = std::make_unique<WatchedLink>(std::make_unique<host::SocketLink>(interface),
+                                              [this] { watch(); });
   start(command(board_, can_machine(board_, interface), "", image));
   with_last_words([&] {
-    if (!await_boot_up(*socket, kCanBootPatience_ms)) fail("runs, but no node starts in it");
+    if (!host::await_boot_up(*socket, kCanBootPatience_ms)) fail("runs, but no node starts in it");
     monitor_ = std::make_unique<QemuMonitor>(folder_.path() / kMonitor);
     const auto progress = [this] {
       watch();
       return monitor_->instructions();
     };
-    can_ =
-        std::make_unique<PacedLink>(std::move(socket), progress, kCanBurst, kInstructionsPerBurst);
+    can_ = std::make_unique<host::PacedLink>(std::move(socket), progress, kCanBurst,
+                                             kInstructionsPerBurst);
   });
 }
 
-FrameLink& EmulatedNode::link() {
+host::FrameLink& EmulatedNode::link() {
   if (pipe_) return *pipe_;
   return *can_;
 }
@@ -192,7 +193,7 @@ std::string EmulatedNode::last_words() const {
 }
 
 void EmulatedNode::fail(const std::string& what) const {
-  throw UserError(fmt::format("firmware {}: {}", board_.name, what));
+  throw host::UserError(fmt::format("firmware {}: {}", board_.name, what));
 }
 
 }  // namespace volcomp::sim

@@ -52,9 +52,9 @@ class EmulatedNode {
 
   // Throws UserError when the firmware has ended, and Interrupted when this process is asked to
   // end.
-  [[nodiscard]] FrameLink& link();
+  [[nodiscard]] host::FrameLink& link();
   // Boards without a CAN controller only.
-  [[nodiscard]] PipeLink& pipe() { return *pipe_; }
+  [[nodiscard]] host::PipeLink& pipe() { return *pipe_; }
   // Asks the firmware to end, where there is a way. Throws UserError when it has not ended well.
   void finish();
 
@@ -63,8 +63,8 @@ class EmulatedNode {
   auto with_last_words(Work&& work) {
     try {
       return work();
-    } catch (const UserError& error) {
-      throw UserError(error.what() + last_words());
+    } catch (const host::UserError& error) {
+      throw host::UserError(error.what() + last_words());
     }
   }
   // The end of what the firmware has said, as the end of a message; empty when it said nothing.
@@ -81,12 +81,12 @@ class EmulatedNode {
   [[noreturn]] void fail(const std::string& what) const;
 
   EmulatedBoard board_;
-  Interruption interruption_;
-  TemporaryFolder folder_;
+  host::Interruption interruption_;
+  host::TemporaryFolder folder_;
   std::unique_ptr<ChildProcess> qemu_;
-  std::unique_ptr<PipeLink> pipe_;
+  std::unique_ptr<host::PipeLink> pipe_;
   std::unique_ptr<QemuMonitor> monitor_;
-  std::unique_ptr<FrameLink> can_;
+  std::unique_ptr<host::FrameLink> can_;
 };
 
 }  // namespace volcomp::sim

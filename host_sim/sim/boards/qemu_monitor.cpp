@@ -51,6 +51,8 @@ nlohmann::json QemuMonitor::next_message() {
   return message;
 }
 
-void QemuMonitor::fail(const char* what) const { throw UserError(socket_.path() + ": " + what); }
+void QemuMonitor::fail(const char* what) const {
+  throw host::UserError(socket_.path() + ": " + what);
+}
 
 }  // namespace volcomp::sim

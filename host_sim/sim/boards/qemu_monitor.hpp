@@ -25,7 +25,7 @@ class QemuMonitor {
   [[nodiscard]] nlohmann::json next_message();
   [[noreturn]] void fail(const char* what) const;
 
-  SerialDevice socket_;
+  host::SerialDevice socket_;
   std::string incoming_;
 };
 

@@ -8,11 +8,11 @@
 namespace volcomp::sim {
 namespace {
 
-RunsFile measure_axis(const TrueMachine& truth, const AxisFile& axis, std::size_t a,
-                      const SensedPoint& sensed, const NoiseClasses& classes, std::size_t runs,
-                      Random& random) {
+host::RunsFile measure_axis(const TrueMachine& truth, const host::AxisFile& axis, std::size_t a,
+                            const SensedPoint& sensed, const NoiseClasses& classes,
+                            std::size_t runs, Random& random) {
   const Laser6D laser(truth, a, sensed, mount_laser(classes, random));
-  RunsFile result;
+  host::RunsFile result;
   result.name = fmt::format("runs_{}.csv", axis.letter);
   result.letter = axis.letter;
   for (std::size_t t = 0; t < axis.targets; ++t) {
@@ -20,7 +20,7 @@ RunsFile measure_axis(const TrueMachine& truth, const AxisFile& axis, std::size_
     result.positions.push_back(axis.lo + s * (axis.hi - axis.lo));
   }
   const auto run = [&](double approach) {
-    RunValues values;
+    host::RunValues values;
     for (const double q : result.positions)
       values.push_back(laser.read(q, approach, classes, random));
     return values;
@@ -33,11 +33,11 @@ RunsFile measure_axis(const TrueMachine& truth, const AxisFile& axis, std::size_
 }
 
 // Mean of all runs of both directions, by target.
-std::vector<ErrorMotion> mean_of(const RunsFile& runs) {
+std::vector<ErrorMotion> mean_of(const host::RunsFile& runs) {
   std::vector<ErrorMotion> mean(runs.positions.size(), ErrorMotion::Zero());
   const auto n = static_cast<double>(runs.up.size() + runs.down.size());
   for (const auto* list : {&runs.up, &runs.down}) {
-    for (const RunValues& run : *list) {
+    for (const host::RunValues& run : *list) {
       for (std::size_t t = 0; t < run.size(); ++t)
         mean[t] += run[t] / n;
     }
@@ -47,12 +47,12 @@ std::vector<ErrorMotion> mean_of(const RunsFile& runs) {
 
 }  // namespace
 
-std::vector<LeverCheck> check_levers(const TrueMachine& truth, const MachineFile& file,
+std::vector<LeverCheck> check_levers(const TrueMachine& truth, const host::MachineFile& file,
                                      const NoiseClasses& classes, std::size_t runs,
                                      Random& random) {
   std::vector<LeverCheck> checks;
   for (std::size_t a = 0; a < file.axes.size(); ++a) {
-    const AxisFile& axis = file.axes[a];
+    const host::AxisFile& axis = file.axes[a];
     SensedPoint second = axis.sensed;
     second.at_zero += Vec3(400.0, 400.0, 400.0);
     const auto first_mean =
@@ -68,14 +68,14 @@ std::vector<LeverCheck> check_levers(const TrueMachine& truth, const MachineFile
   return checks;
 }
 
-Campaign measure_machine(const TrueMachine& truth, const MachineFile& file,
+Campaign measure_machine(const TrueMachine& truth, const host::MachineFile& file,
                          const NoiseClasses& classes, std::size_t runs, Random& random) {
   Campaign campaign{file, {}};
   for (std::size_t a = 0; a < file.axes.size(); ++a) {
     campaign.runs.push_back(
         measure_axis(truth, file.axes[a], a, file.axes[a].sensed, classes, runs, random));
   }
-  const SquarenessFile& place = *file.squareness;
+  const host::SquarenessFile& place = *file.squareness;
   const std::vector<double> x = place.line(0);
   const std::vector<double> y = place.line(1);
   const std::vector<double> z = place.line(2);
@@ -84,12 +84,12 @@ Campaign measure_machine(const TrueMachine& truth, const MachineFile& file,
   return campaign;
 }
 
-Campaign perfect_campaign(const TrueMachine& truth, const MachineFile& file) {
+Campaign perfect_campaign(const TrueMachine& truth, const host::MachineFile& file) {
   Random unused(0);
   return measure_machine(truth, file, no_noise(), 1, unused);
 }
 
-DiagonalBox travel_box(const MachineFile& file) {
+DiagonalBox travel_box(const host::MachineFile& file) {
   return {Vec3(file.axes[0].lo, file.axes[1].lo, file.axes[2].lo),
           Vec3(file.axes[0].hi, file.axes[1].hi, file.axes[2].hi)};
 }

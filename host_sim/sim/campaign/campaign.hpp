@@ -19,17 +19,17 @@ inline constexpr std::size_t kPnp = 2;              // the paper's diagonal, in 
 
 // What a campaign leaves behind: run files and a machine file with the squareness as measured.
 struct Campaign {
-  MachineFile machine;
-  std::vector<RunsFile> runs;
+  host::MachineFile machine;
+  std::vector<host::RunsFile> runs;
 };
 
 // `runs` bidirectional runs per axis at the equally spaced targets of the machine file.
-[[nodiscard]] Campaign measure_machine(const TrueMachine& truth, const MachineFile& file,
+[[nodiscard]] Campaign measure_machine(const TrueMachine& truth, const host::MachineFile& file,
                                        const NoiseClasses& classes, std::size_t runs,
                                        Random& random);
 
 // Noise-free, one run.
-[[nodiscard]] Campaign perfect_campaign(const TrueMachine& truth, const MachineFile& file);
+[[nodiscard]] Campaign perfect_campaign(const TrueMachine& truth, const host::MachineFile& file);
 
 // Positioning measured again at a second place of every axis: the difference must be the angles
 // times the levers.
@@ -39,10 +39,10 @@ struct LeverCheck {
   Status status;
 };
 [[nodiscard]] std::vector<LeverCheck> check_levers(const TrueMachine& truth,
-                                                   const MachineFile& file,
+                                                   const host::MachineFile& file,
                                                    const NoiseClasses& classes, std::size_t runs,
                                                    Random& random);
 
-[[nodiscard]] DiagonalBox travel_box(const MachineFile& file);
+[[nodiscard]] DiagonalBox travel_box(const host::MachineFile& file);
 
 }  // namespace volcomp::sim

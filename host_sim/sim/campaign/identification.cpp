@@ -33,12 +33,12 @@ Place place_of(const MachineChain& chain, std::size_t axis) {
   throw std::logic_error("an axis on neither branch");
 }
 
-double node_of(const AxisFile& axis, std::size_t t) {
+double node_of(const host::AxisFile& axis, std::size_t t) {
   return axis.lo +
          static_cast<double>(t) * (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
 }
 
-std::size_t node_nearest(const AxisFile& axis) {
+std::size_t node_nearest(const host::AxisFile& axis) {
   const double part = (axis.reference - axis.lo) / (axis.hi - axis.lo);
   return static_cast<std::size_t>(std::lround(part * static_cast<double>(axis.targets - 1)));
 }
@@ -47,7 +47,7 @@ std::size_t node_nearest(const AxisFile& axis) {
 // interpolated.
 class Identifier {
  public:
-  Identifier(const TrueMachine& truth, const MachineFile& file) : truth_(truth), file_(file) {
+  Identifier(const TrueMachine& truth, const host::MachineFile& file) : truth_(truth), file_(file) {
     for (std::size_t a = 0; a < file.axes.size(); ++a)
       reference_[a] = node_of(file.axes[a], node_nearest(file.axes[a]));
   }
@@ -55,8 +55,8 @@ class Identifier {
   IdentifiedAxis identify(std::size_t a) {
     IdentifiedAxis result = stations(a);
     const Pose at_zero{};
-    require(check_order(file_.chain, a, identified_, reference_, at_zero),
-            std::string("identification of axis ") + result.letter);
+    host::require(check_order(file_.chain, a, identified_, reference_, at_zero),
+                  std::string("identification of axis ") + result.letter);
     const Place place = place_of(truth_.chain, a);
     const Frame parent =
         actual_frame(file_.chain, *place.path, place.parents, reference_, at_reference_);
@@ -74,10 +74,10 @@ class Identifier {
   void fit(const Frame& parent, std::size_t a, const std::vector<Vec3>& measured,
            IdentifiedAxis& result) const {
     result.motion.resize(result.nodes.size());
-    require(identify_axis(parent, file_.chain.axis(a),
-                          {result.nodes, {kTargets.data(), kTargets.size()}, measured},
-                          {result.motion.data(), result.motion.size()}),
-            std::string("identification of axis ") + result.letter);
+    host::require(identify_axis(parent, file_.chain.axis(a),
+                                {result.nodes, {kTargets.data(), kTargets.size()}, measured},
+                                {result.motion.data(), result.motion.size()}),
+                  std::string("identification of axis ") + result.letter);
   }
 
   // 1 nm for P8, and again as much in every axis that hangs on this one.
@@ -95,7 +95,7 @@ class Identifier {
   }
 
   IdentifiedAxis stations(std::size_t a) const {
-    const AxisFile& axis = file_.axes[a];
+    const host::AxisFile& axis = file_.axes[a];
     IdentifiedAxis result;
     result.letter = axis.letter;
     for (std::size_t t = 0; t < axis.targets; ++t) {
@@ -127,7 +127,7 @@ class Identifier {
   }
 
   const TrueMachine& truth_;
-  const MachineFile& file_;
+  const host::MachineFile& file_;
   Pose reference_{};
   std::uint32_t identified_ = 0;
   ErrorSet at_reference_ = zero_errors();
@@ -137,8 +137,8 @@ class Identifier {
 void judge_targets(Identification& found) {
   const std::array<Vec3, kTargets.size()> still{};
   RigidFit fit;
-  require(fit_rigid({kTargets.data(), kTargets.size()}, {still.data(), still.size()}, fit),
-          "targets");
+  host::require(fit_rigid({kTargets.data(), kTargets.size()}, {still.data(), still.size()}, fit),
+                "targets");
   found.spread = kTracker_mm * fit.cofactors.diagonal().cwiseSqrt();
   found.condition = fit.condition;
 }
@@ -181,7 +181,7 @@ double Identification::max_error() const {
   return worst;
 }
 
-Identification identify_axes(const TrueMachine& truth, const MachineFile& file) {
+Identification identify_axes(const TrueMachine& truth, const host::MachineFile& file) {
   Identification found;
   Identifier identifier(truth, file);
   for (std::size_t a = 0; a < file.axes.size(); ++a)
@@ -207,14 +207,15 @@ Vec3 IdentifiedModel::orientation_error(const Pose& q) const {
       .orientation_work;
 }
 
-MachineTables tables_of(const Identification& found, const MachineFile& file,
+MachineTables tables_of(const Identification& found, const host::MachineFile& file,
                         const MachineDescription& machine, TableKind kind, std::size_t knots) {
   MachineTables tables;
   tables.machine = machine;
   tables.provenance.machine_id = file.id;
   for (std::size_t a = 0; a < found.axis.size(); ++a)
-    require(quantise(table_of(found.axis[a], kind), file.chain.axis(a), knots, tables.axis[a]),
-            file.path);
+    host::require(
+        quantise(table_of(found.axis[a], kind), file.chain.axis(a), knots, tables.axis[a]),
+        file.path);
   return tables;
 }
 

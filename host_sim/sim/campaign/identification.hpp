@@ -35,7 +35,7 @@ inline constexpr double kTracker_mm = 0.3e-3;
 
 // At the equally spaced targets of the machine file. Throws UserError where an axis comes before
 // one that carries it.
-[[nodiscard]] Identification identify_axes(const TrueMachine& truth, const MachineFile& file);
+[[nodiscard]] Identification identify_axes(const TrueMachine& truth, const host::MachineFile& file);
 
 enum class TableKind : std::uint8_t {
   none,        // all zero: the machine as drawn
@@ -62,7 +62,7 @@ class IdentifiedModel {
 };
 
 // `machine`: the chain they are for.
-[[nodiscard]] MachineTables tables_of(const Identification& found, const MachineFile& file,
+[[nodiscard]] MachineTables tables_of(const Identification& found, const host::MachineFile& file,
                                       const MachineDescription& machine, TableKind kind,
                                       std::size_t knots);
 

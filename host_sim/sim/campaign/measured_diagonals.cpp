@@ -55,12 +55,12 @@ MeasuredDiagonal measure_diagonal(MotionCell& cell, const Diagonal& diagonal, st
   return mean_of_directions(diagonal.name, diagonal.length(), pass);
 }
 
-std::vector<VolumePoint> visit_volume(MotionCell& cell, const DiagonalBox& box, int points,
-                                      std::uint64_t seed) {
+std::vector<host::VolumePoint> visit_volume(MotionCell& cell, const DiagonalBox& box, int points,
+                                            std::uint64_t seed) {
   Random random(seed);
-  std::vector<VolumePoint> visited;
+  std::vector<host::VolumePoint> visited;
   for (int i = 0; i < points; ++i) {
-    VolumePoint p;
+    host::VolumePoint p;
     for (Eigen::Index k = 0; k < 3; ++k)
       p.at_mm(k) = random.uniform(box.lo(k), box.hi(k));
     cell.move_to(p.at_mm, kRapid_mm_s);
@@ -70,9 +70,9 @@ std::vector<VolumePoint> visit_volume(MotionCell& cell, const DiagonalBox& box, 
   return visited;
 }
 
-VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box, int points,
-                             std::uint64_t seed) {
-  return aligned_volume_figures(visit_volume(cell, box, points, seed));
+host::VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box, int points,
+                                   std::uint64_t seed) {
+  return host::aligned_volume_figures(visit_volume(cell, box, points, seed));
 }
 
 }  // namespace volcomp::sim

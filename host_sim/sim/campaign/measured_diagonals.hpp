@@ -50,10 +50,10 @@ struct DiagonalPass {
                                                 const InterferometerSetup& setup, Random& random);
 
 // Error vectors at random places of the box.
-[[nodiscard]] std::vector<VolumePoint> visit_volume(MotionCell& cell, const DiagonalBox& box,
-                                                    int points, std::uint64_t seed);
+[[nodiscard]] std::vector<host::VolumePoint> visit_volume(MotionCell& cell, const DiagonalBox& box,
+                                                          int points, std::uint64_t seed);
 // The same as figures, aligned.
-[[nodiscard]] VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box, int points,
-                                           std::uint64_t seed);
+[[nodiscard]] host::VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box,
+                                                 int points, std::uint64_t seed);
 
 }  // namespace volcomp::sim

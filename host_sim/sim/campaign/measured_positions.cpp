@@ -34,13 +34,15 @@ std::vector<std::vector<double>> readings(const std::vector<double>& deviation, 
 
 }  // namespace
 
-std::vector<Positioning> measure_positioning(MotionCell& cell, const MachineFile& machine,
-                                             const std::string& when,
-                                             const InterferometerSetup& setup, Random& random) {
-  std::vector<Positioning> all;
+std::vector<host::Positioning> measure_positioning(MotionCell& cell,
+                                                   const host::MachineFile& machine,
+                                                   const std::string& when,
+                                                   const InterferometerSetup& setup,
+                                                   Random& random) {
+  std::vector<host::Positioning> all;
   const DiagonalBox box = travel_box(machine);
   for (std::size_t a = 0; a < 3; ++a) {
-    const AxisFile& axis = machine.axes[a];
+    const host::AxisFile& axis = machine.axes[a];
     std::vector<double> at;
     std::vector<Vec3> target;
     for (std::size_t t = 0; t < axis.targets; ++t) {
@@ -55,7 +57,7 @@ std::vector<Positioning> measure_positioning(MotionCell& cell, const MachineFile
     const double zero = 0.5 * (up.front() + down.front());
     const auto runs_up = readings(up, zero, setup, random);
     const auto runs_down = readings(down, zero, setup, random);
-    all.push_back(evaluate_positioning(axis.letter, false, when, at, runs_up, runs_down));
+    all.push_back(host::evaluate_positioning(axis.letter, false, when, at, runs_up, runs_down));
   }
   return all;
 }

@@ -11,11 +11,11 @@ namespace volcomp::sim {
 
 // Each axis at the targets of the machine file, the others at mid travel; `runs` bidirectional runs
 // with an interferometer of this repeatability. Zero at the first target, mean of both directions.
-[[nodiscard]] std::vector<Positioning> measure_positioning(MotionCell& cell,
-                                                           const MachineFile& machine,
-                                                           const std::string& when,
-                                                           const InterferometerSetup& setup,
-                                                           Random& random);
+[[nodiscard]] std::vector<host::Positioning> measure_positioning(MotionCell& cell,
+                                                                 const host::MachineFile& machine,
+                                                                 const std::string& when,
+                                                                 const InterferometerSetup& setup,
+                                                                 Random& random);
 
 inline constexpr std::size_t kVolumeGrid = 4;  // points along each edge
 

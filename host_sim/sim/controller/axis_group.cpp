@@ -4,7 +4,7 @@
 
 namespace volcomp::sim {
 
-void AxisGroup::watch(MachineWatch& watch, std::string letters, const AxisKinds& kinds) {
+void AxisGroup::watch(MachineWatch& watch, std::string letters, const host::AxisKinds& kinds) {
   watch_ = &watch;
   letters_ = std::move(letters);
   kinds_ = kinds;
@@ -18,8 +18,8 @@ void AxisGroup::show() {
   ++s.cycle;
   s.period_s = period_s();
   s.axes = kinds_.count;
-  const Targets targets = target();
-  const Offsets offsets = offset();
+  const host::Targets targets = target();
+  const host::Offsets offsets = offset();
   const Pose pose = position();
   const Latches latched = latches();
   for (std::size_t a = 0; a < s.axes; ++a)

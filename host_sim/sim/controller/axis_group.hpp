@@ -16,7 +16,7 @@ struct AxisLatch {
   double position = 0.0;      // of the last one: encoder, offset included, mm or rad
   std::uint32_t time_ns = 0;  // of the last one, since the SYNC before it
 };
-using Latches = std::array<AxisLatch, kMostAxes>;
+using Latches = std::array<AxisLatch, host::kMostAxes>;
 
 class AxisGroup {
  public:
@@ -28,13 +28,13 @@ class AxisGroup {
   // Puts the axes somewhere (mm, rad) without a journey. The compensation sees a jump of position.
   virtual void stand_at(const Pose& pose) = 0;
   // One control period: the drives take the target and the offset that belongs to it together.
-  virtual void cycle(const Targets& target) = 0;
+  virtual void cycle(const host::Targets& target) = 0;
   [[nodiscard]] virtual double period_s() const = 0;
 
   // What the world sees after the last period.
-  [[nodiscard]] virtual Targets target() const = 0;
-  [[nodiscard]] virtual Offsets offset() const = 0;  // as taken by the drives
-  [[nodiscard]] virtual Pose position() const = 0;   // of the encoders, offset included
+  [[nodiscard]] virtual host::Targets target() const = 0;
+  [[nodiscard]] virtual host::Offsets offset() const = 0;  // as taken by the drives
+  [[nodiscard]] virtual Pose position() const = 0;         // of the encoders, offset included
   [[nodiscard]] virtual Approach approach() const = 0;
   // Largest distance between an axis and its target plus offset: nm, or 2^-31 turn.
   [[nodiscard]] virtual double following_error() const = 0;
@@ -44,7 +44,7 @@ class AxisGroup {
   [[nodiscard]] virtual bool ramping() const = 0;
 
   // From the next period on; `watch` must outlive the axes. `letters`: a name for each axis.
-  void watch(MachineWatch& watch, std::string letters, const AxisKinds& kinds);
+  void watch(MachineWatch& watch, std::string letters, const host::AxisKinds& kinds);
 
  protected:
   // To be called at the end of every period.
@@ -55,7 +55,7 @@ class AxisGroup {
  private:
   MachineWatch* watch_ = nullptr;
   std::string letters_;
-  AxisKinds kinds_;
+  host::AxisKinds kinds_;
   MachineSnapshot snapshot_;
 };
 

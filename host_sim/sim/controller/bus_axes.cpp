@@ -17,8 +17,8 @@ constexpr std::size_t kGatewayMailboxes = 4096;
 constexpr std::uint64_t kAnswerTimeout_us = 5'000'000;
 constexpr std::uint32_t kWait_us = 200;
 
-AxisKinds kinds_of(const BusSettings& settings) {
-  AxisKinds kinds;
+host::AxisKinds kinds_of(const host::BusSettings& settings) {
+  host::AxisKinds kinds;
   kinds.count = settings.axes.size();
   for (std::size_t a = 0; a < kinds.count; ++a)
     kinds.rotary.at(a) = settings.axes[a].rotary;
@@ -28,15 +28,15 @@ AxisKinds kinds_of(const BusSettings& settings) {
 // 60A8h of a drive whose unit is so many nanometres: metres where it is a power of ten.
 std::uint32_t position_unit(double nm) {
   const double power = std::log10(nm);
-  if (std::abs(power - std::round(power)) > 1e-9) return kIncrement;
+  if (std::abs(power - std::round(power)) > 1e-9) return host::kIncrement;
   const auto prefix = static_cast<std::uint8_t>(static_cast<int>(std::round(power)) - 9);
-  return std::uint32_t{prefix} << 24U | (kNanometre & 0x00FF'0000U);
+  return std::uint32_t{prefix} << 24U | (host::kNanometre & 0x00FF'0000U);
 }
 
 // What a drive has in its units, in those of this axis: the machine behind it is the same.
-void count_as(const BusAxis& axis, Cia402Drive::Settings& s) {
-  const DriveScale scale =
-      axis.counts_otherwise.value_or(DriveScale{axis.scale_numerator, axis.scale_denominator});
+void count_as(const host::BusAxis& axis, Cia402Drive::Settings& s) {
+  const host::DriveScale scale = axis.counts_otherwise.value_or(
+      host::DriveScale{axis.scale_numerator, axis.scale_denominator});
   const std::uint32_t usual = axis.rotary ? 512 : 1;
   if (scale.numerator == usual && scale.denominator == 1) return;
   const double size = static_cast<double>(scale.numerator) / scale.denominator;
@@ -55,7 +55,7 @@ void count_as(const BusAxis& axis, Cia402Drive::Settings& s) {
   }
 }
 
-BusSettings lock_step(BusSettings settings) {
+host::BusSettings lock_step(host::BusSettings settings) {
   constexpr std::uint32_t kDeadline_us = 60'000'000;
   settings.deadline_us = kDeadline_us;
   settings.status_every_cycle = true;
@@ -65,7 +65,7 @@ BusSettings lock_step(BusSettings settings) {
 
 }  // namespace
 
-BusAxes::BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& image,
+BusAxes::BusAxes(const host::BusSettings& settings, const std::vector<std::uint8_t>& image,
                  hal::FrameLength length)
     : period_us_(settings.period_us),
       bus_(length),
@@ -76,19 +76,19 @@ BusAxes::BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& i
   node_->power_on(0);
 }
 
-BusAxes::BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& image,
+BusAxes::BusAxes(const host::BusSettings& settings, const std::vector<std::uint8_t>& image,
                  CanGateway& gateway)
     : period_us_(settings.period_us), controller_(lock_step(settings), image), gateway_(&gateway) {
   build(settings);
   gateway_port_ = &bus_.attach_served("gateway", {}, kGatewayMailboxes);
 }
 
-void BusAxes::build(const BusSettings& settings) {
-  if (settings.axes.empty() || settings.axes.size() > kMostAxes)
-    throw UserError(fmt::format("the simulated bus takes 1 to {} axes, the machine has {}",
-                                kMostAxes, settings.axes.size()));
+void BusAxes::build(const host::BusSettings& settings) {
+  if (settings.axes.empty() || settings.axes.size() > host::kMostAxes)
+    throw host::UserError(fmt::format("the simulated bus takes 1 to {} axes, the machine has {}",
+                                      host::kMostAxes, settings.axes.size()));
   bus_.attach(controller_, "controller");
-  for (const BusAxis& axis : settings.axes) {
+  for (const host::BusAxis& axis : settings.axes) {
     Cia402Drive::Settings s;
     s.node_id = axis.drive;
     s.rotary = axis.rotary;
@@ -115,19 +115,19 @@ void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& n
 
 // The nearest unit of the drive.
 std::int64_t BusAxes::drive_units(std::size_t a, std::int64_t run_time_units) const {
-  const BusAxis& axis = controller_.settings().axes[a];
+  const host::BusAxis& axis = controller_.settings().axes[a];
   const std::int64_t scaled = run_time_units * axis.scale_denominator;
   const std::int64_t half = axis.scale_numerator / 2;
   return (scaled + (scaled < 0 ? -half : half)) / axis.scale_numerator;
 }
 
-std::vector<std::int32_t> BusAxes::on_wire(const Targets& target) const {
+std::vector<std::int32_t> BusAxes::on_wire(const host::Targets& target) const {
   std::vector<std::int32_t> wire;
   for (std::size_t a = 0; a < drive_.size(); ++a) {
     const std::int64_t units = drive_units(a, target[a]);
     const bool rotary = controller_.settings().axes[a].rotary;
     if (!rotary && saturated(units) != units)
-      throw UserError(fmt::format("{} nm is beyond the 32 bits of 607Ah", target[a]));
+      throw host::UserError(fmt::format("{} nm is beyond the 32 bits of 607Ah", target[a]));
     wire.push_back(wrapped(units));
   }
   return wire;
@@ -171,7 +171,7 @@ void BusAxes::run_cycle(const std::vector<std::int32_t>& path) {
 
 void BusAxes::watch(MachineWatch& watch) {
   std::string letters;
-  for (const BusAxis& axis : controller_.settings().axes)
+  for (const host::BusAxis& axis : controller_.settings().axes)
     letters += axis.letter;
   AxisGroup::watch(watch, letters, kinds_of(controller_.settings()));
 }
@@ -214,7 +214,7 @@ void BusAxes::await_node() {
                 : passed_us >= period_us)
       return;
     if (passed_us > kAnswerTimeout_us)
-      throw UserError("the compensation node does not answer any more");
+      throw host::UserError("the compensation node does not answer any more");
     gateway_->wait(kWait_us);
   }
 }
@@ -230,21 +230,21 @@ void BusAxes::bring_up(double timeout_s) {
       return;
     }
   }
-  throw UserError("the machine on the bus does not start: " + controller_.trouble());
+  throw host::UserError("the machine on the bus does not start: " + controller_.trouble());
 }
 
-void BusAxes::cycle(const Targets& target) {
+void BusAxes::cycle(const host::Targets& target) {
   if (!up_) bring_up();
   target_ = target;
   run_cycle(on_wire(target));
   const std::string trouble = controller_.trouble();
-  if (!trouble.empty()) throw UserError("the machine on the bus has stopped: " + trouble);
+  if (!trouble.empty()) throw host::UserError("the machine on the bus has stopped: " + trouble);
 }
 
-Offsets BusAxes::offset() const {
-  Offsets offsets{};
+host::Offsets BusAxes::offset() const {
+  host::Offsets offsets{};
   for (std::size_t a = 0; a < drive_.size(); ++a) {
-    const BusAxis& axis = controller_.settings().axes[a];
+    const host::BusAxis& axis = controller_.settings().axes[a];
     offsets[a] =
         std::int64_t{drive_[a]->offset_taken()} * axis.scale_numerator / axis.scale_denominator;
   }
@@ -279,19 +279,19 @@ double BusAxes::following_error() const {
 bool BusAxes::ramping() const { return (controller_.report().any_status & kRamping) != 0; }
 
 BusAxesFactory loopback_axes() {
-  return [](const BusSettings& settings, const std::vector<std::uint8_t>& image) {
+  return [](const host::BusSettings& settings, const std::vector<std::uint8_t>& image) {
     return std::make_unique<BusAxes>(settings, image);
   };
 }
 
 BusAxesFactory gateway_axes(CanGateway& gateway) {
-  return [&gateway](const BusSettings& settings, const std::vector<std::uint8_t>& image) {
+  return [&gateway](const host::BusSettings& settings, const std::vector<std::uint8_t>& image) {
     return std::make_unique<BusAxes>(settings, image, gateway);
   };
 }
 
 BusAxesFactory watched(BusAxesFactory make_axes, MachineWatch& watch) {
-  return [make_axes = std::move(make_axes), &watch](const BusSettings& settings,
+  return [make_axes = std::move(make_axes), &watch](const host::BusSettings& settings,
                                                     const std::vector<std::uint8_t>& image) {
     auto axes = make_axes(settings, image);
     axes->watch(watch);
@@ -299,13 +299,14 @@ BusAxesFactory watched(BusAxesFactory make_axes, MachineWatch& watch) {
   };
 }
 
-CellFactory bus_cells(const MachineFile& machine, double cycle_hz, BusAxesFactory make_axes) {
+CellFactory bus_cells(const host::MachineFile& machine, double cycle_hz, BusAxesFactory make_axes) {
   return [machine, cycle_hz, make_axes = std::move(make_axes)](
-             const TrueMachine& truth, const CorrectionFile& correction,
+             const TrueMachine& truth, const host::CorrectionFile& correction,
              const std::vector<std::uint8_t>& image) {
-    MachineFile corrected = machine;
+    host::MachineFile corrected = machine;
     corrected.correction = correction;
-    return std::make_unique<MotionCell>(truth, make_axes(bus_settings(corrected, cycle_hz), image));
+    return std::make_unique<MotionCell>(truth,
+                                        make_axes(host::bus_settings(corrected, cycle_hz), image));
   };
 }
 

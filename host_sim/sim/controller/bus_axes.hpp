@@ -21,21 +21,22 @@ class BusAxes final : public AxisGroup {
  public:
   // Node in the same process, time that of the simulated bus. `image`: tables for the node, empty
   // for an uncompensated machine.
-  BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& image,
+  BusAxes(const host::BusSettings& settings, const std::vector<std::uint8_t>& image,
           hal::FrameLength length = hal::FrameLength::nominal);
   // Node somewhere on the bus behind `gateway`, which must outlive this. Cycles run in lock step:
   // the next SYNC leaves when the node has answered the last one. Machine time is counted in
   // cycles and may run faster or slower than the clock on the wall.
-  BusAxes(const BusSettings& settings, const std::vector<std::uint8_t>& image, CanGateway& gateway);
+  BusAxes(const host::BusSettings& settings, const std::vector<std::uint8_t>& image,
+          CanGateway& gateway);
 
   // Only before the first cycle.
   void stand_at(const Pose& pose) override;
   // Throws UserError when the machine stops: somebody went silent, was refused or lost a reference.
-  void cycle(const Targets& target) override;
+  void cycle(const host::Targets& target) override;
   [[nodiscard]] double period_s() const override { return period_us_ * 1e-6; }
 
-  [[nodiscard]] Targets target() const override { return target_; }
-  [[nodiscard]] Offsets offset() const override;
+  [[nodiscard]] host::Targets target() const override { return target_; }
+  [[nodiscard]] host::Offsets offset() const override;
   [[nodiscard]] Pose position() const override;
   [[nodiscard]] Approach approach() const override;
   [[nodiscard]] double following_error() const override;
@@ -69,13 +70,13 @@ class BusAxes final : public AxisGroup {
 
  private:
   void add_states(MachineSnapshot& snapshot) const override;
-  void build(const BusSettings& settings);
+  void build(const host::BusSettings& settings);
   void attach(const Cia402Drive::Settings& settings, const std::string& name);
   void await_node();
   void serve_drives(std::uint64_t now_us);
   void feel();
   [[nodiscard]] std::int64_t drive_units(std::size_t a, std::int64_t run_time_units) const;
-  [[nodiscard]] std::vector<std::int32_t> on_wire(const Targets& target) const;
+  [[nodiscard]] std::vector<std::int32_t> on_wire(const host::Targets& target) const;
 
   double period_us_;
   SimulatedBus bus_;
@@ -87,11 +88,11 @@ class BusAxes final : public AxisGroup {
   CanGateway* gateway_ = nullptr;
   SimulatedBus::Port* gateway_port_ = nullptr;
   std::optional<TouchProbe> probe_;
-  std::array<bool, kMostAxes> line_broken_{};
+  std::array<bool, host::kMostAxes> line_broken_{};
   Stance felt_{};                         // where the probe has felt last
   std::uint64_t served_ns_ = UINT64_MAX;  // when the drives were, with a probe
   std::uint64_t felt_periods_ = 0;        // of all drives together
-  Targets target_{};
+  host::Targets target_{};
   std::uint64_t next_sync_ns_ = 0;
   std::uint64_t cycles_ = 0;
   bool up_ = false;
@@ -99,14 +100,14 @@ class BusAxes final : public AxisGroup {
 
 // Puts the axes of a machine on a bus, with the node wherever it is.
 using BusAxesFactory = std::function<std::unique_ptr<BusAxes>(
-    const BusSettings& settings, const std::vector<std::uint8_t>& image)>;
+    const host::BusSettings& settings, const std::vector<std::uint8_t>& image)>;
 [[nodiscard]] BusAxesFactory loopback_axes();
 [[nodiscard]] BusAxesFactory gateway_axes(CanGateway& gateway);  // must outlive the axes
 // Axes that are looked at from their first cycle; `watch` must outlive them.
 [[nodiscard]] BusAxesFactory watched(BusAxesFactory make_axes, MachineWatch& watch);
 
 // Cells for the scenarios, whatever their axes are.
-[[nodiscard]] CellFactory bus_cells(const MachineFile& machine, double cycle_hz,
+[[nodiscard]] CellFactory bus_cells(const host::MachineFile& machine, double cycle_hz,
                                     BusAxesFactory make_axes = loopback_axes());
 
 // Cycle on the bus at 1 Mbit/s: 500 Hz for three axes, 250 Hz for up to five.

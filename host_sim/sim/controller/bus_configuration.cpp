@@ -1,6 +1,5 @@
 // What the motion controller writes into drives and node before it starts them.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -14,7 +13,6 @@
 #include "firmware/node/node_objects.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/controller/bus_controller.hpp"
-#include "host_sim/sim/controller/integrated_axes.hpp"
 
 namespace volcomp::sim {
 
@@ -24,7 +22,7 @@ namespace {
 
 // Whether a drive with this 60A8h may count so many nanometres per unit: in metres by a power of
 // ten it must be just those, in increments any but one nanometre.
-bool may_count_in(std::uint32_t unit, const BusAxis& axis) {
+bool may_count_in(std::uint32_t unit, const host::BusAxis& axis) {
   constexpr std::uint32_t kMetre = 0x01;
   const double nm = static_cast<double>(axis.scale_numerator) / axis.scale_denominator;
   if ((unit >> 16U & 0xFFU) != kMetre) return axis.scale_numerator != axis.scale_denominator;
@@ -34,7 +32,7 @@ bool may_count_in(std::uint32_t unit, const BusAxis& axis) {
 
 // Every rising edge is latched; position and instant, then count and following error, go out at the
 // SYNC after it and at no other.
-void arm_probe(SdoChannel& sdo, std::uint8_t drive) {
+void arm_probe(host::SdoChannel& sdo, std::uint8_t drive) {
   constexpr std::uint16_t kRisingContinuously = 0x0013;
   constexpr std::uint8_t kAtNextSync = 0;
   const auto report = [&sdo](std::uint16_t pdo, std::uint32_t id, const std::string& name) {
@@ -49,7 +47,7 @@ void arm_probe(SdoChannel& sdo, std::uint8_t drive) {
   sdo.write_value<std::uint16_t>({0x60B8, 0}, kRisingContinuously, "touch probe function");
 }
 
-void write_real(SdoChannel& sdo, std::uint16_t index, std::size_t sub, double value,
+void write_real(host::SdoChannel& sdo, std::uint16_t index, std::size_t sub, double value,
                 const std::string& what) {
   std::uint64_t raw = 0;
   std::memcpy(&raw, &value, sizeof raw);
@@ -57,21 +55,23 @@ void write_real(SdoChannel& sdo, std::uint16_t index, std::size_t sub, double va
 }
 
 template <class Values>
-void write_reals(SdoChannel& sdo, std::uint16_t index, const Values& values,
+void write_reals(host::SdoChannel& sdo, std::uint16_t index, const Values& values,
                  const std::string& what) {
   for (std::size_t i = 0; i < values.size(); ++i)
     write_real(sdo, index, i + 1, values[i], what);
 }
 
-std::uint8_t axis_number(const BusSettings& b, char letter) {
+std::uint8_t axis_number(const host::BusSettings& b, char letter) {
   for (std::size_t i = 0; i < b.axes.size(); ++i) {
     if (b.axes[i].letter == letter) return static_cast<std::uint8_t>(i + 1);
   }
-  throw UserError(fmt::format("a grinder of helical gears needs an axis {} on the bus", letter));
+  throw host::UserError(
+      fmt::format("a grinder of helical gears needs an axis {} on the bus", letter));
 }
 
 // 2500h…2505h and what it learns from; the last write takes them over.
-void watch_strokes(SdoChannel& sdo, const BusSettings& b, const WatchedStrokes& w) {
+void watch_strokes(host::SdoChannel& sdo, const host::BusSettings& b,
+                   const host::WatchedStrokes& w) {
   sdo.write_value<std::uint8_t>({0x2500, 1}, static_cast<std::uint8_t>(node::StrokeCommand::off),
                                 "strokes off");
   constexpr std::array<char, 3> kAxes{'X', 'Z', 'C'};
@@ -127,7 +127,7 @@ void BusController::configure(Station& s) {
 }
 
 // Heartbeats both ways and the SYNC they all share.
-void BusController::configure_common(SdoChannel& sdo) {
+void BusController::configure_common(host::SdoChannel& sdo) {
   const auto watch = [this](std::uint8_t node) {
     return std::uint32_t{node} << 16U | settings_.heartbeat_timeout_ms;
   };
@@ -143,17 +143,18 @@ void BusController::configure_common(SdoChannel& sdo) {
 // The drive's own idea of its units against the machine file: 60A8h for a linear axis, position
 // units per revolution (6092h through the gear 6091h) for a rotary one.
 void BusController::check_scaling(Station& s, std::size_t axis) {
-  const BusAxis& a = settings_.axes[axis];
+  const host::BusAxis& a = settings_.axes[axis];
   const auto differ = [&s, letter = a.letter](const std::string& what) {
     s.refused = true;
     s.refusal = fmt::format("{}: axis {} has other units than the machine file says: {}", s.name,
                             letter, what);
   };
   if (!a.rotary) {
-    s.channel.read({0x60A8, 0}, 4, "position unit", [a, differ](const SdoChannel::Bytes& unit) {
-      if (!may_count_in(static_cast<std::uint32_t>(number(unit)), a))
-        differ(fmt::format("60A8h is {:08X}h", number(unit)));
-    });
+    s.channel.read({0x60A8, 0}, 4, "position unit",
+                   [a, differ](const host::SdoChannel::Bytes& unit) {
+                     if (!may_count_in(static_cast<std::uint32_t>(host::number(unit)), a))
+                       differ(fmt::format("60A8h is {:08X}h", host::number(unit)));
+                   });
     return;
   }
   auto ratio = std::make_shared<std::array<double, 4>>();
@@ -161,8 +162,8 @@ void BusController::check_scaling(Station& s, std::size_t axis) {
       {{0x6091, 1}, {0x6091, 2}, {0x6092, 1}, {0x6092, 2}}};
   for (std::size_t i = 0; i < objects.size(); ++i) {
     s.channel.read(objects[i], 4, "gear and feed",
-                   [a, differ, ratio, i](const SdoChannel::Bytes& v) {
-                     (*ratio)[i] = static_cast<double>(number(v));
+                   [a, differ, ratio, i](const host::SdoChannel::Bytes& v) {
+                     (*ratio)[i] = static_cast<double>(host::number(v));
                      if (i + 1 < ratio->size()) return;
                      // 6092h counts position units per revolution of the shaft, which is the axis.
                      const double per_turn = (*ratio)[2] / (*ratio)[3];
@@ -176,8 +177,8 @@ void BusController::check_scaling(Station& s, std::size_t axis) {
 }
 
 void BusController::configure_drive(Station& s, std::size_t axis) {
-  const BusAxis& a = settings_.axes[axis];
-  SdoChannel& sdo = s.channel;
+  const host::BusAxis& a = settings_.axes[axis];
+  host::SdoChannel& sdo = s.channel;
   check_scaling(s, axis);
   sdo.write_value<std::uint32_t>(
       {0x1016, 2}, std::uint32_t{settings_.node} << 16U | settings_.heartbeat_timeout_ms,
@@ -192,8 +193,8 @@ void BusController::configure_drive(Station& s, std::size_t axis) {
   if (settings_.probes) arm_probe(sdo, a.drive);
 }
 
-void BusController::configure_node(SdoChannel& sdo) {
-  const BusSettings& b = settings_;
+void BusController::configure_node(host::SdoChannel& sdo) {
+  const host::BusSettings& b = settings_;
   sdo.write_value<std::uint32_t>({0x2000, 1}, b.machine_id, "machine id");
   sdo.write_value<std::uint8_t>({0x2000, 2}, b.controller, "controller");
   sdo.write_value<std::uint8_t>({0x2000, 3}, static_cast<std::uint8_t>(b.limits.source),
@@ -202,7 +203,7 @@ void BusController::configure_node(SdoChannel& sdo) {
   sdo.write_value<std::uint16_t>({0x2200, 2}, b.limits.stale_drop_ticks, "cycles until dropped");
   sdo.write_value<std::uint32_t>({0x2200, 3}, b.deadline_us, "deadline");
   for (std::size_t i = 0; i < b.axes.size(); ++i) {
-    const BusAxis& a = b.axes[i];
+    const host::BusAxis& a = b.axes[i];
     const AxisLimits& l = b.limits.axis[i];
     const auto sub = static_cast<std::uint8_t>(i + 1);
     const auto heartbeat = static_cast<std::uint8_t>(i + 2);
@@ -235,62 +236,28 @@ void BusController::configure_node(SdoChannel& sdo) {
 // What the other side has answered. Of tables the node says more than an abort code (2112h:06);
 // what it said of them before stays until then.
 void BusController::take_refusal(Station& s) {
-  const SdoChannel& sdo = s.channel;
+  const host::SdoChannel& sdo = s.channel;
   const std::string what = sdo.failure();
   if (s.refusal.rfind(what, 0) != 0) s.refusal = what;
   if (is_drive(s) || sdo.failed() != node::kTableCommand || sdo.abort_code() != AbortCode::general)
     return;
   s.channel.clear();
   s.channel.read(node::table_verdict(6), node::kMostReasonText, "reason in words",
-                 [&s, what](const SdoChannel::Bytes& text) {
+                 [&s, what](const host::SdoChannel::Bytes& text) {
                    s.refusal = what + ": " + std::string(text.begin(), text.end());
                  });
 }
 
 // Asks first: a node that has them stored or kept them need not get them again.
-void BusController::queue_tables(SdoChannel& sdo) {
+void BusController::queue_tables(host::SdoChannel& sdo) {
   sdo.read(node::table_verdict(7), 4, "CRC of the active tables",
-           [this, &sdo](const SdoChannel::Bytes& crc) {
-             if (number(crc) == image_crc_) return;
+           [this, &sdo](const host::SdoChannel::Bytes& crc) {
+             if (host::number(crc) == image_crc_) return;
              sdo.write(node::kTableImage, image_, "table image");
              sdo.write_value<std::uint8_t>(node::kTableCommand,
                                            static_cast<std::uint8_t>(node::TableCommand::activate),
                                            "activation of the tables");
            });
-}
-
-BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
-  BusSettings b;
-  b.period_us = static_cast<std::uint32_t>(std::lround(1e6 / cycle_hz));
-  b.machine_id = machine.id;
-  b.node = machine.bus.node;
-  b.controller = machine.bus.controller;
-  CorrectionFile correction = machine.correction;
-  correction.tick_hz = cycle_hz;
-  b.probes = machine.probe.has_value();
-  const AxisKinds kinds = axis_kinds(machine.chain);
-  b.limits = compensator_settings(correction, kinds);
-  for (std::size_t i = 0; i < kinds.count; ++i) {
-    BusAxis a;
-    a.letter = machine.axes[i].letter;
-    const DriveFile& drive = machine.axes[i].drive;
-    a.drive = drive.node;
-    a.rotary = kinds.rotary[i];
-    a.scale_numerator = drive.scale_numerator;
-    a.scale_denominator = drive.scale_denominator;
-    if (drive.software_limits_mm) {
-      const auto units = [&a](double mm) {
-        return static_cast<std::int32_t>(
-            std::clamp(std::round(mm * kNmPerMm * a.scale_denominator / a.scale_numerator),
-                       -2147483648.0, 2147483647.0));
-      };
-      a.lowest = units((*drive.software_limits_mm)[0]);
-      a.highest = units((*drive.software_limits_mm)[1]);
-    }
-    a.latch_delay_ns = std::llround(1000.0 * machine.axes[i].latch_delay_us);
-    b.axes.push_back(a);
-  }
-  return b;
 }
 
 }  // namespace volcomp::sim

@@ -26,10 +26,10 @@ constexpr int kUnheededStarts = 3;  // heartbeats before a node that should run 
 
 }  // namespace
 
-BusController::BusController(BusSettings settings, std::vector<std::uint8_t> image)
+BusController::BusController(host::BusSettings settings, std::vector<std::uint8_t> image)
     : settings_(std::move(settings)), axis_(settings_.axes.size()), probe_(settings_.axes.size()) {
   stations_.reserve(settings_.axes.size() + 1);
-  for (const BusAxis& axis : settings_.axes)
+  for (const host::BusAxis& axis : settings_.axes)
     stations_.emplace_back(axis.drive, fmt::format("drive {} (node {})", axis.letter, axis.drive));
   stations_.emplace_back(settings_.node, fmt::format("compensation node {}", settings_.node));
   load_tables(std::move(image));
@@ -227,7 +227,7 @@ void BusController::taken(std::uint64_t /*now_us*/) {
 void BusController::set_modes() {
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     const std::int8_t mode = axis_[a].wanted_mode();
-    SdoChannel& sdo = stations_[a].channel;
+    host::SdoChannel& sdo = stations_[a].channel;
     if (mode == 0 || !sdo.idle()) continue;
     if (!sdo.failure().empty()) sdo.clear();
     set_mode(sdo, a, mode);
@@ -235,12 +235,13 @@ void BusController::set_modes() {
 }
 
 // Only the drive's own word counts: a response may get lost or belong to an earlier request.
-void BusController::set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode) {
+void BusController::set_mode(host::SdoChannel& sdo, std::size_t axis, std::int8_t mode) {
   axis_[axis].mode_is(0);
   sdo.write({0x6060, 0}, {static_cast<std::uint8_t>(mode)}, "mode of operation");
-  sdo.read({0x6061, 0}, 1, "mode of operation in force", [this, axis](const SdoChannel::Bytes& v) {
-    axis_[axis].mode_is(static_cast<std::int8_t>(number(v)));
-  });
+  sdo.read({0x6061, 0}, 1, "mode of operation in force",
+           [this, axis](const host::SdoChannel::Bytes& v) {
+             axis_[axis].mode_is(static_cast<std::int8_t>(host::number(v)));
+           });
 }
 
 // --- verdict

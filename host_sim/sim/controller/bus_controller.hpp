@@ -36,7 +36,7 @@ struct ProbeReport {
 class BusController {
  public:
   // `image`: tables the node shall work with; empty: none.
-  BusController(BusSettings settings, std::vector<std::uint8_t> image);
+  BusController(host::BusSettings settings, std::vector<std::uint8_t> image);
 
   // --- the loop of canopen/exchange.hpp
   void receive(const hal::CanFrame& frame, std::uint64_t now_us);
@@ -48,7 +48,7 @@ class BusController {
   // Targets in drive units: sent as 607Ah after a SYNC, taken by the drives at the next.
   void send_targets(const std::vector<std::int32_t>& path);
   // What is done at the targets of this cycle, for a node that watches strokes (201Ah).
-  void send_process_state(const ProcessState& state);
+  void send_process_state(const host::ProcessState& state);
   void send_sync();
   // How warm the axes are, deg C by input; not a number: no sensor.
   void send_temperatures(const Temperatures& temperatures);
@@ -64,7 +64,7 @@ class BusController {
   // What the node has made of touches since the last call.
   [[nodiscard]] std::vector<NodePoint> take_points() { return points_.take_points(); }
   // Everything else that is read and written of the node's objects.
-  [[nodiscard]] SdoChannel& node_objects() { return stations_.back().channel; }
+  [[nodiscard]] host::SdoChannel& node_objects() { return stations_.back().channel; }
 
   // Everybody runs, every axis follows its path, the node compensates (or was given no tables).
   [[nodiscard]] bool motion_allowed() const;
@@ -78,7 +78,7 @@ class BusController {
   [[nodiscard]] const Station& node() const { return stations_.back(); }
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }  // drives, node
   [[nodiscard]] const std::vector<EmergencyRecord>& emergencies() const { return emergencies_; }
-  [[nodiscard]] const BusSettings& settings() const { return settings_; }
+  [[nodiscard]] const host::BusSettings& settings() const { return settings_; }
 
  private:
   void command(canopen::NmtCommand what, std::uint8_t node);
@@ -92,16 +92,16 @@ class BusController {
   void retry_tables(Station& s, std::uint64_t now_us);
   void send_latest(const hal::CanFrame& frame);
   void configure(Station& s);
-  void configure_common(SdoChannel& sdo);
+  void configure_common(host::SdoChannel& sdo);
   void check_scaling(Station& s, std::size_t axis);
   void configure_drive(Station& s, std::size_t axis);
-  void configure_node(SdoChannel& sdo);
-  void queue_tables(SdoChannel& sdo);
+  void configure_node(host::SdoChannel& sdo);
+  void queue_tables(host::SdoChannel& sdo);
   void take_refusal(Station& s);
   void set_modes();
-  void set_mode(SdoChannel& sdo, std::size_t axis, std::int8_t mode);
+  void set_mode(host::SdoChannel& sdo, std::size_t axis, std::int8_t mode);
 
-  BusSettings settings_;
+  host::BusSettings settings_;
   std::vector<std::uint8_t> image_;
   std::uint32_t image_crc_ = 0;
   std::optional<NodeProbe> node_probe_;
@@ -110,7 +110,7 @@ class BusController {
   std::vector<ProbeReport> probe_;
   std::vector<Station> stations_;
   std::deque<hal::CanFrame> outgoing_;
-  SdoChannel* offered_sdo_ = nullptr;
+  host::SdoChannel* offered_sdo_ = nullptr;
   std::vector<EmergencyRecord> emergencies_;
   NodeReport report_;
   std::uint64_t next_heartbeat_us_ = 0;

@@ -67,7 +67,7 @@ void BusController::send_sync() {
 }
 
 // 201Ah:01…03 as the node maps them by default.
-void BusController::send_process_state(const ProcessState& state) {
+void BusController::send_process_state(const host::ProcessState& state) {
   unsigned flags = 0;
   if (state.in_face) flags |= node::kInFace;
   if (state.stroke_end) flags |= node::kStrokeEnd;

@@ -32,7 +32,7 @@ void BusRecorder::write(std::uint64_t bus_ns, const hal::CanFrame& frame) {
 }
 
 BusAxesFactory recorded(BusAxesFactory make_axes, BusRecorder& recorder) {
-  return [make_axes = std::move(make_axes), &recorder](const BusSettings& settings,
+  return [make_axes = std::move(make_axes), &recorder](const host::BusSettings& settings,
                                                        const std::vector<std::uint8_t>& image) {
     auto axes = make_axes(settings, image);
     recorder.record(*axes);

@@ -15,7 +15,7 @@ class BusRecorder {
     wall,     // Unix time: the machine is on a real bus too
   };
   // `log` must outlive the recorder.
-  BusRecorder(CanLogWriter& log, Clock clock) : log_(log), clock_(clock) {}
+  BusRecorder(host::CanLogWriter& log, Clock clock) : log_(log), clock_(clock) {}
 
   // From now on, as long as these axes live; the recorder must outlive them.
   void record(BusAxes& axes);
@@ -23,7 +23,7 @@ class BusRecorder {
  private:
   void write(std::uint64_t bus_ns, const hal::CanFrame& frame);
 
-  CanLogWriter& log_;
+  host::CanLogWriter& log_;
   Clock clock_;
   std::uint64_t machine_begin_us_ = 0;
   std::uint64_t last_us_ = 0;

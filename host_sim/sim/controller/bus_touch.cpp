@@ -55,7 +55,7 @@ void BusAxes::feel() {
 Latches BusAxes::latches() const {
   Latches latches{};
   for (std::size_t a = 0; a < drive_.size(); ++a) {
-    const BusAxis& axis = controller_.settings().axes[a];
+    const host::BusAxis& axis = controller_.settings().axes[a];
     const ProbeReport& report = controller_.probe(a);
     const std::int64_t near = drive_units(a, target_[a]);
     const std::int64_t units =

@@ -15,7 +15,7 @@ void CanGateway::exchange(hal::LoopbackBus::Port& port) {
   while (port.receive(frame)) {
     int attempts = 0;
     while (!link_.send(frame)) {
-      if (++attempts == kSendAttempts) throw UserError("the bus accepts no frames");
+      if (++attempts == kSendAttempts) throw host::UserError("the bus accepts no frames");
       wait(kSendPause_us);
     }
   }

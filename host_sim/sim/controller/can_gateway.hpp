@@ -10,7 +10,7 @@ namespace volcomp::sim {
 class CanGateway {
  public:
   // `link` must outlive the gateway. Every function throws UserError when it is of no use any more.
-  explicit CanGateway(FrameLink& link) : link_(link) {}
+  explicit CanGateway(host::FrameLink& link) : link_(link) {}
 
   // Both ways, everything there is: the caller decides when, so that what belongs to one cycle goes
   // out in one burst.
@@ -21,7 +21,7 @@ class CanGateway {
   [[nodiscard]] std::uint64_t now_us() const { return link_.now_us(); }
 
  private:
-  FrameLink& link_;
+  host::FrameLink& link_;
 };
 
 }  // namespace volcomp::sim

@@ -18,15 +18,15 @@ class IntegratedAxes final : public AxisGroup {
  public:
   // `image`: table image of the compensation, empty for an uncompensated machine. The image goes
   // the whole way: decoded, validated, folded, activated, ramped in. Throws UserError.
-  IntegratedAxes(const AxisKinds& kinds, const CorrectionFile& settings,
+  IntegratedAxes(const host::AxisKinds& kinds, const host::CorrectionFile& settings,
                  const std::vector<std::uint8_t>& image);
 
   void stand_at(const Pose& pose) override { axes_.stand_at(pose); }
-  void cycle(const Targets& target) override;
+  void cycle(const host::Targets& target) override;
   [[nodiscard]] double period_s() const override { return period_s_; }
 
-  [[nodiscard]] Targets target() const override { return axes_.target(); }
-  [[nodiscard]] Offsets offset() const override { return axes_.offset(); }
+  [[nodiscard]] host::Targets target() const override { return axes_.target(); }
+  [[nodiscard]] host::Offsets offset() const override { return axes_.offset(); }
   [[nodiscard]] Pose position() const override { return axes_.position(); }
   [[nodiscard]] Approach approach() const override { return axes_.approach(); }
   [[nodiscard]] double following_error() const override { return axes_.following_error(); }
@@ -43,14 +43,10 @@ class IntegratedAxes final : public AxisGroup {
 
 // A CellFactory: one servo period per 1 / tick_hz of the machine file.
 [[nodiscard]] std::unique_ptr<MotionCell> make_integrated_cell(
-    const TrueMachine& machine, const CorrectionFile& correction,
+    const TrueMachine& machine, const host::CorrectionFile& correction,
     const std::vector<std::uint8_t>& image);
 
 // The same with axes of these letters that are looked at; `watch` must outlive the cells.
 [[nodiscard]] CellFactory watched_integrated_cells(std::string letters, MachineWatch& watch);
-
-// Settings of the compensator for a machine file: mm, rad and seconds turned into units and ticks.
-[[nodiscard]] OrientingCompensator::Settings compensator_settings(const CorrectionFile& correction,
-                                                                  const AxisKinds& kinds);
 
 }  // namespace volcomp::sim

@@ -40,7 +40,7 @@ struct MachineSnapshot {
   std::uint64_t cycle = 0;    // control periods of this machine so far, from 1
   double period_s = 0.0;
   std::size_t axes = 0;
-  std::array<AxisSnapshot, kMostAxes> axis{};
+  std::array<AxisSnapshot, host::kMostAxes> axis{};
   std::optional<BusState> bus;  // none: the integrated form
 };
 

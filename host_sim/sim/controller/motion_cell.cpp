@@ -11,7 +11,7 @@ namespace volcomp::sim {
 
 MotionCell::MotionCell(const TrueMachine& machine, std::unique_ptr<AxisGroup> axes)
     : machine_(machine),
-      kinds_(axis_kinds(machine.chain)),
+      kinds_(host::axis_kinds(machine.chain)),
       axes_(std::move(axes)),
       period_s_(axes_->period_s()) {}
 
@@ -27,7 +27,7 @@ void MotionCell::settle() {
   constexpr int kLongest = 20000;
   int quiet = 0;
   for (int i = 0; i < kLongest && quiet < kQuiet; ++i) {
-    const Offsets before = axes_->offset();
+    const host::Offsets before = axes_->offset();
     cycle(target_, {});
     const bool still =
         axes_->offset() == before && axes_->following_error() < 0.5 && !axes_->ramping();
@@ -92,7 +92,8 @@ void MotionCell::circle(const Vec3& centre_mm, double radius_mm, double feed_mm_
   const double sense = turns < 0 ? -1.0 : 1.0;
   for (int k = 1; k * period_s_ < profile.duration_s(); ++k) {
     const double angle = sense * profile.at(k * period_s_) / radius_mm;
-    cycle(pose_of(centre_mm + radius_mm * Vec3(std::cos(angle), std::sin(angle), 0.0)), on_tick);
+    cycle(host::pose_of(centre_mm + radius_mm * Vec3(std::cos(angle), std::sin(angle), 0.0)),
+          on_tick);
   }
 }
 

@@ -14,9 +14,9 @@ namespace volcomp::sim {
 
 // How a probing move has ended.
 struct Touch {
-  bool touched = false;                   // at least one axis has latched
-  std::array<bool, kMostAxes> latched{};  // which
-  Pose latch{};                           // where: encoders, offsets included, mm or rad
+  bool touched = false;                         // at least one axis has latched
+  std::array<bool, host::kMostAxes> latched{};  // which
+  Pose latch{};                                 // where: encoders, offsets included, mm or rad
 };
 
 class MotionCell {
@@ -43,9 +43,9 @@ class MotionCell {
   [[nodiscard]] bool hold(const std::function<bool()>& until, int most);
 
   // --- machines whose first three axes are X, Y and Z
-  void place(const Vec3& at_mm) { place(pose_of(at_mm)); }
+  void place(const Vec3& at_mm) { place(host::pose_of(at_mm)); }
   void move_to(const Vec3& to_mm, double feed_mm_per_s, const OnTick& on_tick = {}) {
-    move_to(pose_of(to_mm), feed_mm_per_s, on_tick);
+    move_to(host::pose_of(to_mm), feed_mm_per_s, on_tick);
   }
   // Full circle in the XY plane, counter-clockwise (turns > 0) or clockwise, starting and ending at
   // angle 0.
@@ -70,7 +70,7 @@ class MotionCell {
   [[nodiscard]] Vec3 shown_beside_target(const Pose& shown) const;
 
   const TrueMachine& machine_;
-  AxisKinds kinds_;
+  host::AxisKinds kinds_;
   std::unique_ptr<AxisGroup> axes_;
   double period_s_;
   Pose target_{};
@@ -79,7 +79,7 @@ class MotionCell {
 // Builds a cell around a true machine, which must outlive it. `image`: tables of the compensation,
 // empty for none. Throws UserError.
 using CellFactory = std::function<std::unique_ptr<MotionCell>(
-    const TrueMachine& machine, const CorrectionFile& correction,
+    const TrueMachine& machine, const host::CorrectionFile& correction,
     const std::vector<std::uint8_t>& image)>;
 
 }  // namespace volcomp::sim

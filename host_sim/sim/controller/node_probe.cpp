@@ -13,19 +13,19 @@ namespace {
 
 constexpr double kNsPerUs = 1e3;
 
-void write_real(SdoChannel& node, std::uint16_t index, std::size_t sub, double value,
+void write_real(host::SdoChannel& node, std::uint16_t index, std::size_t sub, double value,
                 const char* what) {
-  SdoChannel::Bytes bytes(sizeof value);
+  host::SdoChannel::Bytes bytes(sizeof value);
   std::memcpy(bytes.data(), &value, sizeof value);
   node.write({index, static_cast<std::uint8_t>(sub)}, std::move(bytes), what);
 }
 
-void write_ns(SdoChannel& node, canopen::ObjectId object, double us, const char* what) {
+void write_ns(host::SdoChannel& node, canopen::ObjectId object, double us, const char* what) {
   node.write_value<std::uint32_t>(object, static_cast<std::uint32_t>(std::llround(us * kNsPerUs)),
                                   what);
 }
 
-void write_frame(SdoChannel& node, const Frame& frame) {
+void write_frame(host::SdoChannel& node, const Frame& frame) {
   constexpr std::uint16_t kWorkpiece = 0x2303;
   std::size_t sub = 1;
   for (Eigen::Index r = 0; r < 3; ++r) {
@@ -36,7 +36,7 @@ void write_frame(SdoChannel& node, const Frame& frame) {
     write_real(node, kWorkpiece, sub++, kNmPerMm * frame.t(r), "workpiece frame");
 }
 
-void write_gear(SdoChannel& node, const NodeProbe& probe) {
+void write_gear(host::SdoChannel& node, const NodeProbe& probe) {
   const FaceGear& g = probe.gear;
   const std::array<double, 11> numbers{static_cast<double>(g.shaper_teeth),
                                        static_cast<double>(g.teeth),
@@ -62,8 +62,8 @@ double mm_at(const hal::CanFrame& frame, std::size_t at) {
 
 }  // namespace
 
-NodeProbe node_probe(const MachineFile& machine) {
-  if (!machine.probe) throw UserError(machine.path + ": the machine has no [probe]");
+NodeProbe node_probe(const host::MachineFile& machine) {
+  if (!machine.probe) throw host::UserError(machine.path + ": the machine has no [probe]");
   NodeProbe probe;
   probe.delay_us = machine.probe->delay_us;
   probe.radius.coefficient[0] = machine.probe->radius_mm;
@@ -72,7 +72,7 @@ NodeProbe node_probe(const MachineFile& machine) {
   return probe;
 }
 
-void queue_probe(SdoChannel& node, const NodeProbe& probe) {
+void queue_probe(host::SdoChannel& node, const NodeProbe& probe) {
   write_ns(node, {0x2300, 2}, probe.delay_us, "probe delay");
   for (std::size_t a = 0; a < node::kNodeAxes; ++a)
     write_ns(node, {0x2301, static_cast<std::uint8_t>(a + 1)}, probe.latch_delay_us[a],
@@ -89,7 +89,7 @@ void queue_probe(SdoChannel& node, const NodeProbe& probe) {
                                  "settings of the probe");
 }
 
-void queue_flank(SdoChannel& node, const FlankFeature& flank, const FlankFeature& known) {
+void queue_flank(host::SdoChannel& node, const FlankFeature& flank, const FlankFeature& known) {
   constexpr const char* kWhat = "flank";
   constexpr std::uint16_t kFlank = 0x2313;
   if (flank.gear_id != known.gear_id)
@@ -110,10 +110,11 @@ void queue_flank(SdoChannel& node, const FlankFeature& flank, const FlankFeature
     node.write_value<std::uint32_t>({kFlank, 7}, nm_of(flank.gate), kWhat);
 }
 
-void queue_judgement(SdoChannel& node, FlankJudgement& judgement) {
+void queue_judgement(host::SdoChannel& node, FlankJudgement& judgement) {
   constexpr const char* kWhat = "judgement of a touch";
   const auto read = [&](std::uint8_t sub, auto take) {
-    node.read({0x2401, sub}, 4, kWhat, [take](const SdoChannel::Bytes& b) { take(number(b)); });
+    node.read({0x2401, sub}, 4, kWhat,
+              [take](const host::SdoChannel::Bytes& b) { take(host::number(b)); });
   };
   read(12, [&judgement](std::uint64_t n) {
     judgement.distance_nm = static_cast<std::int32_t>(static_cast<std::uint32_t>(n));

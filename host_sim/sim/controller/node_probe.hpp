@@ -32,10 +32,10 @@ struct NodeProbe {
 
 // Delays and radius of the machine file, the part where the work is. Throws UserError when the file
 // describes no probe.
-[[nodiscard]] NodeProbe node_probe(const MachineFile& machine);
+[[nodiscard]] NodeProbe node_probe(const host::MachineFile& machine);
 
 // Writes all of it and switches the probe on.
-void queue_probe(SdoChannel& node, const NodeProbe& probe);
+void queue_probe(host::SdoChannel& node, const NodeProbe& probe);
 
 // A flank that is to be touched: 2313h. mm.
 struct FlankFeature {
@@ -57,9 +57,9 @@ struct FlankJudgement {
 };
 
 // Writes what differs from `known`, what the node has been told last.
-void queue_flank(SdoChannel& node, const FlankFeature& flank, const FlankFeature& known);
+void queue_flank(host::SdoChannel& node, const FlankFeature& flank, const FlankFeature& known);
 // Reads the latest judgement.
-void queue_judgement(SdoChannel& node, FlankJudgement& judgement);
+void queue_judgement(host::SdoChannel& node, FlankJudgement& judgement);
 
 // mm and rad.
 struct NodePoint {

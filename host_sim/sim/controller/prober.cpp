@@ -12,8 +12,8 @@ namespace {
 // Periods; a setting takes one to ten.
 constexpr int kLongestTransfer = 5000;
 
-SdoChannel::Bytes bytes_of(double value) {
-  SdoChannel::Bytes bytes(sizeof value);
+host::SdoChannel::Bytes bytes_of(double value) {
+  host::SdoChannel::Bytes bytes(sizeof value);
   std::memcpy(bytes.data(), &value, sizeof value);
   return bytes;
 }
@@ -22,10 +22,10 @@ SdoChannel::Bytes bytes_of(double value) {
 
 // Time passes on the bus only while the axes are moved, or held.
 void Prober::finish_transfers() {
-  const SdoChannel& node = axes_.controller().node_objects();
+  const host::SdoChannel& node = axes_.controller().node_objects();
   const bool done = cell_.hold([&node] { return node.idle(); }, kLongestTransfer);
-  if (!done) throw UserError("the node does not answer about its probe");
-  if (!node.failure().empty()) throw UserError(node.failure());
+  if (!done) throw host::UserError("the node does not answer about its probe");
+  if (!node.failure().empty()) throw host::UserError(node.failure());
 }
 
 void Prober::configure(const NodeProbe& probe) {
@@ -35,7 +35,7 @@ void Prober::configure(const NodeProbe& probe) {
 
 // Only what is new: the bus is busy enough.
 void Prober::announce(const Vec3& normal, const FlankFeature& flank) {
-  SdoChannel& node = axes_.controller().node_objects();
+  host::SdoChannel& node = axes_.controller().node_objects();
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (normal(k) < normal_(k) || normal(k) > normal_(k))
       node.write({0x2310, static_cast<std::uint8_t>(k + 2)}, bytes_of(normal(k)), "normal");
@@ -59,7 +59,7 @@ NodePoint Prober::touch(const Pose& from, const Pose& beyond, const FlankFeature
   queue_judgement(axes_.controller().node_objects(), point.flank);
   finish_transfers();
   if (point.flank.sequence != point.sequence)
-    throw UserError(fmt::format("touch {}: the node has not judged it", point.sequence));
+    throw host::UserError(fmt::format("touch {}: the node has not judged it", point.sequence));
   return point;
 }
 
@@ -67,14 +67,15 @@ NodePoint Prober::touch_announced(const Pose& from, const Pose& beyond, const Pr
   cell_.move_to(from, feeds.rapid);
   finish_transfers();
   const Touch touch = cell_.probe_to(beyond, feeds.probing, from, feeds.retract);
-  if (!touch.touched) throw UserError(fmt::format("feature {}: nothing was touched", feature_));
+  if (!touch.touched)
+    throw host::UserError(fmt::format("feature {}: nothing was touched", feature_));
   NodePoint point = only_good(take_points());
   point.latched = touch.latch;
   return point;
 }
 
 std::vector<NodePoint> Prober::take_points() {
-  SdoChannel& node = axes_.controller().node_objects();
+  host::SdoChannel& node = axes_.controller().node_objects();
   std::vector<NodePoint> points = axes_.controller().take_points();
   for (const NodePoint& point : points)
     node.write_value<std::uint32_t>({0x2411, 0}, point.sequence, "release of a point");
@@ -88,19 +89,20 @@ NodePoint Prober::only_good(const std::vector<NodePoint>& points) const {
   for (const NodePoint& point : points) {
     if (!accepted(point.verdict)) continue;
     if (good != nullptr)
-      throw UserError(fmt::format("touches {} and {}: two points of feature {}", good->sequence,
-                                  point.sequence, feature_));
+      throw host::UserError(fmt::format("touches {} and {}: two points of feature {}",
+                                        good->sequence, point.sequence, feature_));
     good = &point;
   }
   if (good != nullptr && good->feature == feature_) return *good;
   if (points.empty())
-    throw UserError(fmt::format("feature {}: the node has made no point of the touch", feature_));
+    throw host::UserError(
+        fmt::format("feature {}: the node has made no point of the touch", feature_));
   const NodePoint& rejected = points.front();
   const std::string axis =
       rejected.axis == 0 ? ""
                          : fmt::format(", axis {}", machine_.axes.at(rejected.axis - 1U).letter);
-  throw UserError(fmt::format("touch {}{}: {} [{}]", rejected.sequence, axis,
-                              sentence(rejected.verdict), code(rejected.verdict)));
+  throw host::UserError(fmt::format("touch {}{}: {} [{}]", rejected.sequence, axis,
+                                    sentence(rejected.verdict), code(rejected.verdict)));
 }
 
 }  // namespace volcomp::sim

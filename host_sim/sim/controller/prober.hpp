@@ -18,7 +18,7 @@ struct ProbingFeeds {
 class Prober {
  public:
   // `axes` are those of the cell; both must outlive the prober.
-  Prober(MotionCell& cell, BusAxes& axes, const MachineFile& machine)
+  Prober(MotionCell& cell, BusAxes& axes, const host::MachineFile& machine)
       : cell_(cell), axes_(axes), machine_(machine) {}
 
   // The node's settings from now on, also after it was away.
@@ -47,7 +47,7 @@ class Prober {
 
   MotionCell& cell_;
   BusAxes& axes_;
-  const MachineFile& machine_;
+  const host::MachineFile& machine_;
   std::uint16_t feature_ = 0;
   Vec3 normal_ = Vec3::Zero();  // that the node knows
   FlankFeature flank_{};        // likewise

@@ -16,11 +16,11 @@ class SimulatedAxes {
  public:
   static constexpr std::size_t kSlots = LoadedCompensator::kAxes;
 
-  SimulatedAxes(const AxisKinds& kinds, double period_s, double time_constant_s)
+  SimulatedAxes(const host::AxisKinds& kinds, double period_s, double time_constant_s)
       : kinds_(kinds), drive_(kinds.count, AxisDrive(period_s, time_constant_s)) {}
 
   // --- the controller's side
-  void set_target(const Targets& target) { target_ = target; }
+  void set_target(const host::Targets& target) { target_ = target; }
   void stand_at(const Pose& pose) {
     set_target(kinds_.targets(pose));
     for (std::size_t a = 0; a < drive_.size(); ++a)
@@ -42,8 +42,8 @@ class SimulatedAxes {
   }
 
   // --- what the world sees
-  [[nodiscard]] const Targets& target() const { return target_; }
-  [[nodiscard]] const Offsets& offset() const { return offset_; }
+  [[nodiscard]] const host::Targets& target() const { return target_; }
+  [[nodiscard]] const host::Offsets& offset() const { return offset_; }
   [[nodiscard]] Pose position() const {
     Pose q{};
     for (std::size_t a = 0; a < drive_.size(); ++a)
@@ -75,10 +75,10 @@ class SimulatedAxes {
   }
   [[nodiscard]] double counted(std::size_t a) const { return drive_[a].position_mm() * kNmPerMm; }
 
-  AxisKinds kinds_;
+  host::AxisKinds kinds_;
   std::vector<AxisDrive> drive_;
-  Targets target_{};
-  Offsets offset_{};
+  host::Targets target_{};
+  host::Offsets offset_{};
 };
 
 }  // namespace volcomp::sim

@@ -21,7 +21,7 @@ struct Station {
 
   std::uint8_t id;
   std::string name;
-  SdoChannel channel;
+  host::SdoChannel channel;
   Phase phase = Phase::absent;
   canopen::NmtState state = canopen::NmtState::boot_up;
   std::uint64_t last_heard_us = 0;

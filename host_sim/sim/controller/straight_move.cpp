@@ -6,7 +6,7 @@
 namespace volcomp::sim {
 namespace {
 
-double length_of(const Pose& path, const AxisKinds& kinds, bool rotary) {
+double length_of(const Pose& path, const host::AxisKinds& kinds, bool rotary) {
   double squares = 0.0;
   for (std::size_t a = 0; a < kinds.count; ++a) {
     if (kinds.rotary[a] == rotary) squares += path[a] * path[a];
@@ -42,7 +42,7 @@ double Trapezoid::braking(double t_s, double since_s) const {
 }
 
 StraightMove::Line StraightMove::line_between(const Pose& from, const Pose& to,
-                                              const AxisKinds& kinds, double feed) {
+                                              const host::AxisKinds& kinds, double feed) {
   Line line;
   for (std::size_t a = 0; a < kinds.count; ++a)
     line.direction[a] = to[a] - from[a];
@@ -62,7 +62,8 @@ StraightMove::Line StraightMove::line_between(const Pose& from, const Pose& to,
   return line;
 }
 
-StraightMove::StraightMove(const Pose& from, const Pose& to, const AxisKinds& kinds, double feed)
+StraightMove::StraightMove(const Pose& from, const Pose& to, const host::AxisKinds& kinds,
+                           double feed)
     : StraightMove(from, line_between(from, to, kinds, feed)) {}
 
 StraightMove::StraightMove(const Pose& from, const Line& line)

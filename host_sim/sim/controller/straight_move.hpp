@@ -37,7 +37,7 @@ inline constexpr double kMostTurning_rad_s = 1.0;
 
 class StraightMove {
  public:
-  StraightMove(const Pose& from, const Pose& to, const AxisKinds& kinds, double feed);
+  StraightMove(const Pose& from, const Pose& to, const host::AxisKinds& kinds, double feed);
 
   [[nodiscard]] double duration_s() const { return profile_.duration_s(); }
   [[nodiscard]] Pose at(double t_s) const { return along(profile_.at(t_s)); }
@@ -54,7 +54,8 @@ class StraightMove {
     double feed = 0.0;
     double acceleration = 0.0;
   };
-  static Line line_between(const Pose& from, const Pose& to, const AxisKinds& kinds, double feed);
+  static Line line_between(const Pose& from, const Pose& to, const host::AxisKinds& kinds,
+                           double feed);
   StraightMove(const Pose& from, const Line& line);
   [[nodiscard]] Pose along(double way) const;
 

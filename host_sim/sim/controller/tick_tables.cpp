@@ -35,11 +35,11 @@ json axis_row(const AxisTicks& axis) {
 
 json axis_table(const TickStatistics& ticks) {
   json columns = json::array({{{"title", "axis"}},
-                              column("largest correction", "", 2),
-                              column("largest change per period", "", 3),
+                              host::column("largest correction", "", 2),
+                              host::column("largest change per period", "", 3),
                               {{"title", "unit"}}});
   for (const BitColumn& bit : kBits)
-    columns.push_back(column(bit.title, "periods", 0));
+    columns.push_back(host::column(bit.title, "periods", 0));
   json rows = json::array();
   for (const AxisTicks& axis : ticks.axes())
     rows.push_back(axis_row(axis));

@@ -27,7 +27,7 @@ canopen::CommunicationObjects default_communication(const Cia402Drive::Settings&
 }
 
 // 60C2h: the fewest digits that say the period, as exactly as two of its bytes can.
-void set_cycle(Cia402Objects& objects, std::uint64_t period_us) {
+void set_cycle(host::Cia402Objects& objects, std::uint64_t period_us) {
   std::int8_t exponent = -6;
   while (period_us > UINT8_MAX || (period_us != 0 && period_us % 10 == 0)) {
     period_us /= 10;
@@ -37,8 +37,9 @@ void set_cycle(Cia402Objects& objects, std::uint64_t period_us) {
   objects.cycle_exponent = exponent;
 }
 
-Cia402Objects default_objects(const Cia402Drive::Settings& settings, std::uint64_t period_us) {
-  Cia402Objects o;
+host::Cia402Objects default_objects(const Cia402Drive::Settings& settings,
+                                    std::uint64_t period_us) {
+  host::Cia402Objects o;
   o.following_window = settings.following_window;
   o.software_limit = {settings.software_min, settings.software_max};
   o.quick_stop_deceleration = settings.deceleration;
@@ -47,7 +48,7 @@ Cia402Objects default_objects(const Cia402Drive::Settings& settings, std::uint64
                       : settings.feed_per_turn;
   o.encoder_resolution = {turn, 1};
   o.feed = {turn, 1};
-  o.position_unit = settings.rotary ? kIncrement : settings.units.position_unit;
+  o.position_unit = settings.rotary ? host::kIncrement : settings.units.position_unit;
   set_cycle(o, period_us);
   return o;
 }
@@ -57,7 +58,7 @@ Cia402Objects default_objects(const Cia402Drive::Settings& settings, std::uint64
 Cia402Drive::Cia402Drive(const Settings& settings)
     : settings_(settings),
       period_us_(static_cast<std::uint64_t>(std::llround(settings.period_s * 1e6))),
-      device_({cia402_dictionary(), &objects_.communication, receive_, transmit_}, *this),
+      device_({host::cia402_dictionary(), &objects_.communication, receive_, transmit_}, *this),
       axis_(settings.period_s, settings.time_constant_s, settings.units.presliding) {
   device_.set_node_id(settings.node_id);
 }
@@ -132,8 +133,8 @@ void Cia402Drive::configure(Span<canopen::Pdo> pdos, Span<const canopen::PdoPara
 
 void Cia402Drive::reset_communication() {
   objects_.communication = default_communication(settings_);
-  const auto receive = cia402_receive_pdos(settings_.node_id);
-  const auto transmit = cia402_transmit_pdos(settings_.node_id);
+  const auto receive = host::cia402_receive_pdos(settings_.node_id);
+  const auto transmit = host::cia402_transmit_pdos(settings_.node_id);
   configure(receive_, receive, canopen::PdoKind::receive);
   configure(transmit_, transmit, canopen::PdoKind::transmit);
 }
@@ -158,16 +159,16 @@ bool Cia402Drive::heartbeat(std::uint8_t, canopen::HeartbeatEvent event, std::ui
 void Cia402Drive::bad_sync(canopen::SyncVerdict, std::uint64_t) {}
 
 void Cia402Drive::abort_connection() {
-  switch (static_cast<AbortConnection>(objects_.abort_connection)) {
-    case AbortConnection::nothing:
+  switch (static_cast<host::AbortConnection>(objects_.abort_connection)) {
+    case host::AbortConnection::nothing:
       break;
-    case AbortConnection::fault:
-      fail(kCommunicationErrorCode);
+    case host::AbortConnection::fault:
+      fail(host::kCommunicationErrorCode);
       break;
-    case AbortConnection::disable_voltage:
+    case host::AbortConnection::disable_voltage:
       machine_.command(PowerCommand::disable_voltage, stays_in_quick_stop());
       break;
-    case AbortConnection::stop:
+    case host::AbortConnection::stop:
       machine_.command(PowerCommand::quick_stop, stays_in_quick_stop());
       break;
   }
@@ -179,7 +180,7 @@ void Cia402Drive::fail(canopen::ErrorCode code) {
   objects_.error_code = static_cast<std::uint16_t>(code);
   device_.emergency().raise(code, 0);
   machine_.fail();
-  if (objects_.fault_option == kFaultOff) machine_.standstill(stays_in_quick_stop());
+  if (objects_.fault_option == host::kFaultOff) machine_.standstill(stays_in_quick_stop());
 }
 
 }  // namespace volcomp::sim

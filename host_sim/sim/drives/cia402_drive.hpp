@@ -27,10 +27,10 @@ class Cia402Drive final : private canopen::Application {
  public:
   // How a drive counts.
   struct Units {
-    double mm_per_unit = 1e-6;                   // linear
-    double units_per_turn = kDriveUnitsPerTurn;  // rotary
-    double presliding = 2000.0;                  // way of reversal: 2 µm
-    std::uint32_t position_unit = kNanometre;    // 60A8h of a linear axis
+    double mm_per_unit = 1e-6;                       // linear
+    double units_per_turn = kDriveUnitsPerTurn;      // rotary
+    double presliding = 2000.0;                      // way of reversal: 2 µm
+    std::uint32_t position_unit = host::kNanometre;  // 60A8h of a linear axis
   };
   // Positions in units: 1 nm of a linear, 2⁻³¹ turn of a rotary axis if `units` is left as it is.
   struct Settings {
@@ -62,8 +62,8 @@ class Cia402Drive final : private canopen::Application {
   ~Cia402Drive() = default;
 
   [[nodiscard]] canopen::Device& device() { return device_; }
-  [[nodiscard]] const Cia402Objects& objects() const { return objects_; }
-  [[nodiscard]] PowerState power_state() const { return machine_.state(); }
+  [[nodiscard]] const host::Cia402Objects& objects() const { return objects_; }
+  [[nodiscard]] host::PowerState power_state() const { return machine_.state(); }
 
   // As of canopen::Device, so that canopen::exchange() can serve a drive. poll() also runs the
   // servo periods that no SYNC has started: call it, not the one of the device.
@@ -132,7 +132,7 @@ class Cia402Drive final : private canopen::Application {
   canopen::AbortCode finish_domain(canopen::ObjectId object, std::size_t size) override;
   void abandon_domain(canopen::ObjectId object) override;
 
-  [[nodiscard]] OperationMode mode() const;
+  [[nodiscard]] host::OperationMode mode() const;
   [[nodiscard]] bool in_cyclic_position() const;
   [[nodiscard]] bool stays_in_quick_stop() const;
   [[nodiscard]] std::int32_t on_wire(std::int64_t units) const;
@@ -167,9 +167,9 @@ class Cia402Drive final : private canopen::Application {
 
   Settings settings_;
   std::uint64_t period_us_;
-  Cia402Objects objects_{};
-  std::array<canopen::Pdo, kReceivePdos> receive_{};
-  std::array<canopen::Pdo, kTransmitPdos> transmit_{};
+  host::Cia402Objects objects_{};
+  std::array<canopen::Pdo, host::kReceivePdos> receive_{};
+  std::array<canopen::Pdo, host::kTransmitPdos> transmit_{};
   canopen::Device device_;
   PowerStateMachine machine_;
   Cia402Axis axis_;

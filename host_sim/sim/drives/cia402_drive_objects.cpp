@@ -16,9 +16,9 @@ namespace {
 // have arrived with it: a drive that this controlword enables waits for the next target.
 constexpr std::array<std::uint16_t, 5> kActedUpon{0x607A, 0x607C, 0x6060, 0x60B8, 0x6040};
 
-bool is_supported(OperationMode mode) {
-  return mode == OperationMode::none || mode == OperationMode::homing ||
-         mode == OperationMode::cyclic_position;
+bool is_supported(host::OperationMode mode) {
+  return mode == host::OperationMode::none || mode == host::OperationMode::homing ||
+         mode == host::OperationMode::cyclic_position;
 }
 
 bool maps(const canopen::Pdo& pdo, std::uint16_t index) {
@@ -30,16 +30,16 @@ bool maps(const canopen::Pdo& pdo, std::uint16_t index) {
 
 }  // namespace
 
-OperationMode Cia402Drive::mode() const {
-  return static_cast<OperationMode>(objects_.mode_display);
+host::OperationMode Cia402Drive::mode() const {
+  return static_cast<host::OperationMode>(objects_.mode_display);
 }
 
 bool Cia402Drive::in_cyclic_position() const {
-  return machine_.enabled() && mode() == OperationMode::cyclic_position;
+  return machine_.enabled() && mode() == host::OperationMode::cyclic_position;
 }
 
 bool Cia402Drive::stays_in_quick_stop() const {
-  return objects_.quick_stop_option == kQuickStopThenStay;
+  return objects_.quick_stop_option == host::kQuickStopThenStay;
 }
 
 std::int32_t Cia402Drive::on_wire(std::int64_t units) const {
@@ -71,17 +71,19 @@ void Cia402Drive::control() {
   const bool was_enabled = machine_.enabled();
   machine_.control(objects_.controlword, stays_in_quick_stop());
   if (machine_.enabled() && !was_enabled) target_arrived_ = false;
-  if (machine_.state() == PowerState::switch_on_disabled && fault_ != canopen::ErrorCode::none) {
+  if (machine_.state() == host::PowerState::switch_on_disabled &&
+      fault_ != canopen::ErrorCode::none) {
     device_.emergency().clear(fault_, 0);
     fault_ = canopen::ErrorCode::none;
   }
-  if (machine_.enabled() && mode() == OperationMode::homing && (risen & kControlHomingStart) != 0)
+  if (machine_.enabled() && mode() == host::OperationMode::homing &&
+      (risen & kControlHomingStart) != 0)
     home_here();
 }
 
 // A mode this drive has not got, or the one it is in, changes nothing.
 void Cia402Drive::change_mode() {
-  const auto wanted = static_cast<OperationMode>(objects_.mode);
+  const auto wanted = static_cast<host::OperationMode>(objects_.mode);
   if (!is_supported(wanted) || wanted == mode()) return;
   objects_.mode_display = objects_.mode;
   target_arrived_ = homing_attained_ = false;
@@ -98,11 +100,11 @@ void Cia402Drive::home_here() {
 bool Cia402Drive::possible(canopen::ObjectId object, std::int64_t value) const {
   switch (object.index) {
     case 0x605A:
-      return value == kQuickStopThenOff || value == kQuickStopThenStay;
+      return value == host::kQuickStopThenOff || value == host::kQuickStopThenStay;
     case 0x605E:
-      return value == kFaultOff || value == kFaultBrake;
+      return value == host::kFaultOff || value == host::kFaultBrake;
     case 0x6060:
-      return is_supported(static_cast<OperationMode>(value));
+      return is_supported(static_cast<host::OperationMode>(value));
     case 0x60C2:  // the servo clock has one period
       return value == (object.sub == 1 ? static_cast<std::int8_t>(objects_.cycle_value)
                                        : objects_.cycle_exponent);

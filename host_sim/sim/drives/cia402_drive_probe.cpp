@@ -26,8 +26,8 @@ void Cia402Drive::latch_edges() {
     const std::int32_t position = on_wire(axis_.reading_at(part));
     const auto time_ns = static_cast<std::uint32_t>(edge.latch_ns);
     if (!latch(objects_.probe, edge.rising, position, time_ns)) return;
-    device_.trigger_belated(kLatchPdo);
-    device_.trigger_belated(kEdgePdo);
+    device_.trigger_belated(host::kLatchPdo);
+    device_.trigger_belated(host::kEdgePdo);
   });
   edges_.erase(edges_.begin(), later);
 }

@@ -50,12 +50,13 @@ void Cia402Drive::run_servo_period() {
 }
 
 void Cia402Drive::move() {
-  const PowerState state = machine_.state();
+  const host::PowerState state = machine_.state();
   if (in_cyclic_position()) {
     axis_.follow(demand_);
     return;
   }
-  if (state == PowerState::quick_stop_active || state == PowerState::fault_reaction_active)
+  if (state == host::PowerState::quick_stop_active ||
+      state == host::PowerState::fault_reaction_active)
     brake();
   else
     axis_.stand();
@@ -70,8 +71,8 @@ void Cia402Drive::brake() {
 void Cia402Drive::supervise() {
   const std::int64_t error = demand_ - axis_.reading();
   objects_.following_error = saturated(error);
-  if (!in_cyclic_position() || objects_.following_window == kNoFollowingWindow) return;
-  if (std::abs(error) > std::int64_t{objects_.following_window}) fail(kFollowingErrorCode);
+  if (!in_cyclic_position() || objects_.following_window == host::kNoFollowingWindow) return;
+  if (std::abs(error) > std::int64_t{objects_.following_window}) fail(host::kFollowingErrorCode);
 }
 
 void Cia402Drive::publish() {
@@ -82,23 +83,23 @@ void Cia402Drive::publish() {
 }
 
 std::uint16_t Cia402Drive::statusword() const {
-  unsigned word =
-      status_pattern(machine_.state()) | kStatusVoltageEnabled | kStatusRemote | mode_bits();
-  if (referenced_) word |= kStatusReferenced;
-  if (limited_) word |= kStatusInternalLimit;
+  unsigned word = host::status_pattern(machine_.state()) | host::kStatusVoltageEnabled |
+                  host::kStatusRemote | mode_bits();
+  if (referenced_) word |= host::kStatusReferenced;
+  if (limited_) word |= host::kStatusInternalLimit;
   return static_cast<std::uint16_t>(word);
 }
 
 // Bits 10, 12 and 13. Homing by method 37 takes no time, so it is never under way.
 std::uint16_t Cia402Drive::mode_bits() const {
-  if (mode() == OperationMode::homing)
-    return static_cast<std::uint16_t>(kStatusTargetReached |
-                                      (homing_attained_ ? kStatusHomingAttained : 0));
-  if (mode() != OperationMode::cyclic_position) return 0;
+  if (mode() == host::OperationMode::homing)
+    return static_cast<std::uint16_t>(host::kStatusTargetReached |
+                                      (homing_attained_ ? host::kStatusHomingAttained : 0));
+  if (mode() != host::OperationMode::cyclic_position) return 0;
   const bool follows = machine_.enabled() && target_arrived_;
-  const bool lags = fault_ == kFollowingErrorCode;
-  return static_cast<std::uint16_t>((follows ? kStatusFollowsCommand : 0) |
-                                    (lags ? kStatusFollowingError : 0));
+  const bool lags = fault_ == host::kFollowingErrorCode;
+  return static_cast<std::uint16_t>((follows ? host::kStatusFollowsCommand : 0) |
+                                    (lags ? host::kStatusFollowingError : 0));
 }
 
 }  // namespace volcomp::sim

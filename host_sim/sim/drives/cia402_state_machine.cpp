@@ -9,58 +9,58 @@ constexpr unsigned kEnableVoltage = 1U << 1U;
 constexpr unsigned kQuickStopOff = 1U << 2U;  // active low
 constexpr unsigned kEnableOperation = 1U << 3U;
 
-PowerState after_shutdown(PowerState state) {
+host::PowerState after_shutdown(host::PowerState state) {
   switch (state) {
-    case PowerState::switch_on_disabled:  // transition 2
-    case PowerState::switched_on:         // 6
-    case PowerState::operation_enabled:   // 8
-      return PowerState::ready_to_switch_on;
+    case host::PowerState::switch_on_disabled:  // transition 2
+    case host::PowerState::switched_on:         // 6
+    case host::PowerState::operation_enabled:   // 8
+      return host::PowerState::ready_to_switch_on;
     default:
       return state;
   }
 }
 
-PowerState after_switch_on(PowerState state) {
+host::PowerState after_switch_on(host::PowerState state) {
   switch (state) {
-    case PowerState::ready_to_switch_on:  // 3
-    case PowerState::operation_enabled:   // 5: here the same bits mean "disable operation"
-      return PowerState::switched_on;
+    case host::PowerState::ready_to_switch_on:  // 3
+    case host::PowerState::operation_enabled:   // 5: here the same bits mean "disable operation"
+      return host::PowerState::switched_on;
     default:
       return state;
   }
 }
 
-PowerState after_enable_operation(PowerState state, bool stays_in_quick_stop) {
+host::PowerState after_enable_operation(host::PowerState state, bool stays_in_quick_stop) {
   switch (state) {
-    case PowerState::ready_to_switch_on:  // 3 and, by itself, 4
-    case PowerState::switched_on:         // 4
-      return PowerState::operation_enabled;
-    case PowerState::quick_stop_active:  // 16
-      return stays_in_quick_stop ? PowerState::operation_enabled : state;
+    case host::PowerState::ready_to_switch_on:  // 3 and, by itself, 4
+    case host::PowerState::switched_on:         // 4
+      return host::PowerState::operation_enabled;
+    case host::PowerState::quick_stop_active:  // 16
+      return stays_in_quick_stop ? host::PowerState::operation_enabled : state;
     default:
       return state;
   }
 }
 
-PowerState after_disable_voltage(PowerState state) {
+host::PowerState after_disable_voltage(host::PowerState state) {
   switch (state) {
-    case PowerState::ready_to_switch_on:  // 7
-    case PowerState::switched_on:         // 10
-    case PowerState::operation_enabled:   // 9
-    case PowerState::quick_stop_active:   // 12
-      return PowerState::switch_on_disabled;
+    case host::PowerState::ready_to_switch_on:  // 7
+    case host::PowerState::switched_on:         // 10
+    case host::PowerState::operation_enabled:   // 9
+    case host::PowerState::quick_stop_active:   // 12
+      return host::PowerState::switch_on_disabled;
     default:
       return state;
   }
 }
 
-PowerState after_quick_stop(PowerState state) {
+host::PowerState after_quick_stop(host::PowerState state) {
   switch (state) {
-    case PowerState::ready_to_switch_on:  // 7
-    case PowerState::switched_on:         // 10
-      return PowerState::switch_on_disabled;
-    case PowerState::operation_enabled:  // 11
-      return PowerState::quick_stop_active;
+    case host::PowerState::ready_to_switch_on:  // 7
+    case host::PowerState::switched_on:         // 10
+      return host::PowerState::switch_on_disabled;
+    case host::PowerState::operation_enabled:  // 11
+      return host::PowerState::quick_stop_active;
     default:
       return state;
   }
@@ -78,14 +78,16 @@ PowerCommand decode(std::uint16_t controlword) {
 }
 
 void PowerStateMachine::initialised() {
-  if (state_ == PowerState::not_ready_to_switch_on) state_ = PowerState::switch_on_disabled;
+  if (state_ == host::PowerState::not_ready_to_switch_on)
+    state_ = host::PowerState::switch_on_disabled;
 }
 
 void PowerStateMachine::control(std::uint16_t controlword, bool stays_in_quick_stop) {
   const bool reset_bit = (controlword & kControlFaultReset) != 0;
   const bool rising = reset_bit && !reset_bit_;
   reset_bit_ = reset_bit;
-  if (rising && state_ == PowerState::fault) state_ = PowerState::switch_on_disabled;  // 15
+  if (rising && state_ == host::PowerState::fault)
+    state_ = host::PowerState::switch_on_disabled;  // 15
   command(decode(controlword), stays_in_quick_stop);
 }
 
@@ -112,13 +114,13 @@ void PowerStateMachine::command(PowerCommand command, bool stays_in_quick_stop) 
 }
 
 void PowerStateMachine::fail() {
-  if (state_ != PowerState::fault) state_ = PowerState::fault_reaction_active;
+  if (state_ != host::PowerState::fault) state_ = host::PowerState::fault_reaction_active;
 }
 
 void PowerStateMachine::standstill(bool stays_in_quick_stop) {
-  if (state_ == PowerState::fault_reaction_active) state_ = PowerState::fault;
-  if (state_ == PowerState::quick_stop_active && !stays_in_quick_stop)
-    state_ = PowerState::switch_on_disabled;
+  if (state_ == host::PowerState::fault_reaction_active) state_ = host::PowerState::fault;
+  if (state_ == host::PowerState::quick_stop_active && !stays_in_quick_stop)
+    state_ = host::PowerState::switch_on_disabled;
 }
 
 }  // namespace volcomp::sim

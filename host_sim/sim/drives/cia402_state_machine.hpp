@@ -27,8 +27,8 @@ inline constexpr std::uint16_t kControlFaultReset = 1U << 7U;
 
 class PowerStateMachine {
  public:
-  [[nodiscard]] PowerState state() const { return state_; }
-  [[nodiscard]] bool enabled() const { return state_ == PowerState::operation_enabled; }
+  [[nodiscard]] host::PowerState state() const { return state_; }
+  [[nodiscard]] bool enabled() const { return state_ == host::PowerState::operation_enabled; }
 
   void power_on() { *this = {}; }
   // Transition 1: the self-test is over.
@@ -45,7 +45,7 @@ class PowerStateMachine {
   void standstill(bool stays_in_quick_stop);
 
  private:
-  PowerState state_ = PowerState::not_ready_to_switch_on;
+  host::PowerState state_ = host::PowerState::not_ready_to_switch_on;
   bool reset_bit_ = false;
 };
 

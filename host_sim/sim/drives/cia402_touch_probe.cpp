@@ -17,7 +17,7 @@ constexpr unsigned kStatusOfOne = kEnabled | kPositiveStored | kNegativeStored;
 
 }  // namespace
 
-void apply_function(TouchProbeObjects& probe) {
+void apply_function(host::TouchProbeObjects& probe) {
   unsigned status = probe.status;
   for (unsigned shift = 0; shift <= 8; shift += 8) {
     if ((probe.function & (kEnable << shift)) == 0)
@@ -28,12 +28,13 @@ void apply_function(TouchProbeObjects& probe) {
   probe.status = static_cast<std::uint16_t>(status);
 }
 
-bool latch(TouchProbeObjects& probe, bool rising, std::int32_t position, std::uint32_t time_ns) {
+bool latch(host::TouchProbeObjects& probe, bool rising, std::int32_t position,
+           std::uint32_t time_ns) {
   const unsigned wanted = kEnable | (rising ? kPositiveEdge : kNegativeEdge);
   if ((probe.function & wanted) != wanted) return false;
   const unsigned stored = rising ? kPositiveStored : kNegativeStored;
   if ((probe.status & stored) != 0 && (probe.function & kContinuous) == 0) return false;
-  TouchProbeLatch& edge = rising ? probe.positive_1 : probe.negative_1;
+  host::TouchProbeLatch& edge = rising ? probe.positive_1 : probe.negative_1;
   edge.position = position;
   edge.time_ns = time_ns;
   ++edge.edge_count;

@@ -9,10 +9,11 @@
 namespace volcomp::sim {
 
 // 60B8h has been written: switching a probe off forgets what it stored.
-void apply_function(TouchProbeObjects& probe);
+void apply_function(host::TouchProbeObjects& probe);
 
 // An edge at the input of probe 1. False when nobody asked for it: probe or edge switched off, or
 // a single event was wanted and has been stored.
-bool latch(TouchProbeObjects& probe, bool rising, std::int32_t position, std::uint32_t time_ns);
+bool latch(host::TouchProbeObjects& probe, bool rising, std::int32_t position,
+           std::uint32_t time_ns);
 
 }  // namespace volcomp::sim

@@ -43,7 +43,7 @@ json states_of(std::uint16_t status) {
   return names;
 }
 
-std::string name_of(const ValueNames& names, unsigned value) {
+std::string name_of(const host::ValueNames& names, unsigned value) {
   for (const auto& [number, name] : names) {
     if (number == value) return name;
   }
@@ -145,7 +145,7 @@ json LiveFeed::axes() const {
                   {"probe_edges", axis.latches},
                   {"drive", nullptr},
                   {"states", nullptr}};
-    if (axis.drive_status) shown["drive"] = describe_drive(*axis.drive_status);
+    if (axis.drive_status) shown["drive"] = host::describe_drive(*axis.drive_status);
     if (axis.correction_status) shown["states"] = states_of(*axis.correction_status);
     axes.push_back(std::move(shown));
   }
@@ -159,7 +159,7 @@ json LiveFeed::bus() const {
           {"frames", bus.frames},
           {"emergencies", bus.emergencies},
           {"node", phase_name(bus.node_phase)},
-          {"node_state", name_of(node_states(), bus.node_state)},
+          {"node_state", name_of(host::node_states(), bus.node_state)},
           {"states", states_of(bus.any_status)},
           {"active_tables_crc", bus.active_crc}};
 }

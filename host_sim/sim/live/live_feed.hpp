@@ -22,7 +22,7 @@ class LiveFeed final : public MachineWatch {
   [[nodiscard]] std::uint32_t enter() override;
   void cycle(const MachineSnapshot& snapshot) override;
   void progress(double done, const std::string& what);
-  // The run has come to its end with this report (scenarios/report/document.hpp), or because of
+  // The run has come to its end with this report (host/report/document.hpp), or because of
   // something else. `offered`: the report can be had from the server.
   void ended(const nlohmann::json& document, bool offered);
   void failed(const std::string& why);
@@ -54,8 +54,8 @@ class LiveFeed final : public MachineWatch {
   mutable std::mutex mutex_;  // of all below
   TickStatistics ticks_;
   MachineSnapshot last_;
-  std::vector<std::array<std::uint64_t, kMostAxes>> latches_;  // by machine
-  std::deque<Hit> hits_;                                       // the newest first
+  std::vector<std::array<std::uint64_t, host::kMostAxes>> latches_;  // by machine
+  std::deque<Hit> hits_;                                             // the newest first
   std::uint64_t hit_count_ = 0;
   BusState window_;        // where the load of now is measured from
   double load_now_ = 0.0;  // share of the last tenth of a second of machine time

@@ -56,7 +56,7 @@ class LiveServer::Pages {
     add_pages();
     port_ = port == 0 ? server_.bind_to_any_port(kLoopback) : port;
     if (port_ <= 0 || (port != 0 && !server_.bind_to_port(kLoopback, port)))
-      throw UserError(fmt::format("--serve: port {} of this computer cannot be had", port));
+      throw host::UserError(fmt::format("--serve: port {} of this computer cannot be had", port));
     listener_ = std::thread([this] {
       server_.listen_after_bind();
       over_ = true;
@@ -99,9 +99,9 @@ class LiveServer::Pages {
     server_.set_post_routing_handler([](const Request&, Response& response) {
       if (!response.has_header(kPolicy)) response.set_header(kPolicy, kLivePolicy);
     });
-    add("/", live_page, "text/html");
-    add("/live.js", live_script, "text/javascript");
-    add("/live.css", live_style, "text/css");
+    add("/", host::live_page, "text/html");
+    add("/live.js", host::live_script, "text/javascript");
+    add("/live.css", host::live_style, "text/css");
     server_.Get("/state.json", [this](const Request&, Response& response) {
       response.set_content(state_(), "application/json");
       last_asked_ = Clock::now().time_since_epoch();

@@ -11,7 +11,7 @@
 #include "host_sim/host/bus/device_files/signal_names.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::NamedEntry;
@@ -306,4 +306,4 @@ std::vector<BusMessage> bus_messages(const BusSettings& bus) {
   return messages;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

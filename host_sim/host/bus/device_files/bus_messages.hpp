@@ -9,7 +9,7 @@
 
 #include "host_sim/host/bus/bus_settings.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 using ValueNames = std::vector<std::pair<unsigned, std::string>>;
 
@@ -41,4 +41,4 @@ struct BusMessage {
 // node id outside 1…127 or given twice, more axes than a node has, a letter given twice.
 [[nodiscard]] std::vector<BusMessage> bus_messages(const BusSettings& bus);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 
 #include "host_sim/host/bus/device_files/bus_messages.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 std::string joined(const std::vector<std::string>& names, const char* separator) {
@@ -63,4 +63,4 @@ std::string make_dbc(const BusSettings& bus) {
   return out;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,9 +5,9 @@
 
 #include "host_sim/host/bus/bus_settings.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The whole file; the same text for the same bus. Throws UserError as bus_messages().
 [[nodiscard]] std::string make_dbc(const BusSettings& bus);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

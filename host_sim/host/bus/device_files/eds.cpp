@@ -5,7 +5,7 @@
 #include "firmware/node/node_objects.hpp"
 #include "host_sim/host/bus/device_files/eds_objects.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using Objects = std::vector<EdsObject>;
@@ -147,4 +147,4 @@ std::string make_eds() {
   return out;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The whole file; the same text at every call. Objects, limits and defaults are those of the code.
 [[nodiscard]] std::string make_eds();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -11,7 +11,7 @@
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/node/node.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::Access;
@@ -262,4 +262,4 @@ std::vector<EdsObject> node_eds_objects() {
   return objects;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 
 #include "firmware/canopen/object_dictionary.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // CiA 301, table 42.
 enum class ObjectCode : std::uint8_t { domain = 0x02, var = 0x07, array = 0x08, record = 0x09 };
@@ -35,4 +35,4 @@ struct EdsObject {
 // Every object of the node, by index.
 [[nodiscard]] std::vector<EdsObject> node_eds_objects();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -11,7 +11,7 @@
 #include "firmware/node/node_objects.hpp"
 #include "host_sim/host/bus/cia402_objects.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 template <class Enum>
@@ -134,4 +134,4 @@ ValueNames error_codes() {
           named(ErrorCode::point_lost, "probed point lost")};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

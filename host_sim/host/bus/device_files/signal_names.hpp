@@ -4,7 +4,7 @@
 #include "firmware/canopen/object_access.hpp"
 #include "host_sim/host/bus/device_files/bus_messages.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 enum class Quantity : std::uint8_t { code, count, position, speed, time, temperature };
 
@@ -25,4 +25,4 @@ struct SignalText {
 [[nodiscard]] ValueNames touch_verdicts();
 [[nodiscard]] ValueNames error_codes();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -10,7 +10,7 @@
 #include "host_sim/host/bus/explain/explanation.hpp"
 #include "host_sim/host/bus/explain/object_text.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::AbortCode;
@@ -216,4 +216,4 @@ std::string meaning_text(const Meaning& meaning) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 
 #include "host_sim/host/bus/device_files/eds_objects.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 enum class CodeKind { reason, status_bit, emergency, verdict, abort };
 
@@ -39,4 +39,4 @@ struct Meaning {
 [[nodiscard]] Meaning meaning_of(const std::string& typed);
 [[nodiscard]] std::string meaning_text(const Meaning& meaning);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

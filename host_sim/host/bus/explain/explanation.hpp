@@ -7,7 +7,7 @@
 #include "comp/tick/touch.hpp"
 #include "firmware/canopen/emergency.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct Explanation {
   const char* why = "";
@@ -25,4 +25,4 @@ inline constexpr int kReasons = static_cast<int>(Reason::cannot_orient) + 1;
 // What an object of the node is for, by index; nullptr where nothing is known of it.
 [[nodiscard]] const char* purpose(unsigned index);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

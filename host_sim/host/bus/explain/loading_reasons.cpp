@@ -2,7 +2,7 @@
 
 #include "host_sim/host/bus/explain/reason_rows.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 const std::vector<ReasonRow>& loading_reasons() {
   static const std::vector<ReasonRow> rows{
@@ -145,4 +145,4 @@ const std::vector<ReasonRow>& loading_reasons() {
   return rows;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -2,7 +2,7 @@
 
 #include "host_sim/host/bus/explain/object_text.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
@@ -70,4 +70,4 @@ json meaning_json(const std::string& word, const Meaning& meaning) {
 
 json catalogue_json() { return {{"codes", codes_json(code_catalogue())}}; }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 
 #include "host_sim/host/bus/explain/catalogue.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // {"word", "codes": […], "objects": […]}
 [[nodiscard]] nlohmann::json meaning_json(const std::string& word, const Meaning& meaning);
@@ -13,4 +13,4 @@ namespace volcomp::sim {
 // {"codes": […]}: all of them.
 [[nodiscard]] nlohmann::json catalogue_json();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

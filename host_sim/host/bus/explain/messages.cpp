@@ -6,7 +6,7 @@
 #include "host_sim/host/bus/explain/explanation.hpp"
 #include "host_sim/host/bus/explain/reason_rows.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::ErrorCode;
@@ -206,4 +206,4 @@ Explanation explain(TouchVerdict verdict) { return find(kVerdicts, verdict); }
 
 Explanation explain(StatusBit bit) { return find(kBits, bit); }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 
 #include "host_sim/host/bus/explain/explanation.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::DataType;
@@ -164,4 +164,4 @@ std::string object_text(const EdsObject& object) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 
 #include "host_sim/host/bus/device_files/eds_objects.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Neighbours that differ by nothing but a number stand together: PDO parameters, learned tables,
 // counters of the axes.
@@ -20,4 +20,4 @@ namespace volcomp::sim {
 // Empty where there is nothing to tell.
 [[nodiscard]] const char* purpose_of(const EdsObject& object);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 
 #include "host_sim/host/bus/explain/explanation.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 struct Purpose {
@@ -176,4 +176,4 @@ const char* purpose(unsigned index) {
   return nullptr;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -5,7 +5,7 @@
 
 #include "host_sim/host/bus/explain/explanation.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct ReasonRow {
   Reason reason;
@@ -16,4 +16,4 @@ struct ReasonRow {
 [[nodiscard]] const std::vector<ReasonRow>& loading_reasons();
 [[nodiscard]] const std::vector<ReasonRow>& measuring_reasons();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

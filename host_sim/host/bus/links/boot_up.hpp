@@ -4,7 +4,7 @@
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/host/bus/links/frame_link.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Waits for the boot-up message of a node and drops it, so that a reset that follows has one of its
 // own. False when there is none in `most` waits of a millisecond.
@@ -23,4 +23,4 @@ namespace volcomp::sim {
   return false;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <utility>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class Descriptor {
  public:
@@ -48,4 +48,4 @@ class BrokenPipeIgnored {
   inline static void (*before_)(int) = SIG_DFL;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -14,7 +14,7 @@
 
 #include "hal/can_port.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class FrameLink {
  public:
@@ -43,4 +43,4 @@ inline constexpr const char* kLinkForms =
 // Opens the link of that name. Throws UserError naming it and why it cannot be opened.
 [[nodiscard]] std::unique_ptr<FrameLink> open_frame_link(const std::string& name);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

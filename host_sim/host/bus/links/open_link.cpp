@@ -6,7 +6,7 @@
 #include "host_sim/host/bus/links/socket_link.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // What follows the prefix; empty when it is not there.
@@ -26,4 +26,4 @@ std::unique_ptr<FrameLink> open_frame_link(const std::string& name) {
   return std::make_unique<SocketLink>(name);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

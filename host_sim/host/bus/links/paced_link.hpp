@@ -10,7 +10,7 @@
 
 #include "host_sim/host/bus/links/frame_link.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class PacedLink final : public FrameLink {
  public:
@@ -52,4 +52,4 @@ class PacedLink final : public FrameLink {
   int sent_ = 0;  // since it waited
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -15,7 +15,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using WallClock = std::chrono::steady_clock;
@@ -183,4 +183,4 @@ void PipeLink::gone() const {
   fail("the node at the other end is gone");
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

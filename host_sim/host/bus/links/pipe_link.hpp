@@ -14,7 +14,7 @@
 #include "host_sim/host/bus/links/descriptor.hpp"
 #include "host_sim/host/bus/links/frame_link.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Makes the two pipes in the folder; those that are there stay. Throws UserError naming the folder.
 void make_frame_pipes(const std::filesystem::path& folder);
@@ -63,4 +63,4 @@ class PipeLink final : public FrameLink {
   std::uint64_t now_us_ = 0;  // the node's clock
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -17,7 +17,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr const char* kUsualBaud = "115200";
@@ -111,4 +111,4 @@ void SerialDevice::fail(const std::string& what) const { throw UserError(path_ +
 
 void SerialDevice::fail_for(int error) const { fail(std::generic_category().message(error)); }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

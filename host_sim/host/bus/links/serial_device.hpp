@@ -7,7 +7,7 @@
 
 #include "host_sim/host/bus/links/descriptor.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class SerialDevice {
  public:
@@ -36,4 +36,4 @@ class SerialDevice {
   Descriptor device_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -2,7 +2,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::uint64_t kPatience_us = 5'000'000;
@@ -113,4 +113,4 @@ hal::SlcanLine::Event SlcanLink::await_event(std::uint64_t until_us) {
 
 void SlcanLink::fail(const char* what) const { throw UserError(device_.path() + ": " + what); }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

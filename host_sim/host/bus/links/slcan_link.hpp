@@ -10,7 +10,7 @@
 #include "host_sim/host/bus/links/frame_link.hpp"
 #include "host_sim/host/bus/links/serial_device.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class SlcanLink final : public FrameLink {
  public:
@@ -54,4 +54,4 @@ class SlcanLink final : public FrameLink {
   std::size_t unanswered_ = 0;  // frames sent
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

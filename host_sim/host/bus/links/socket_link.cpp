@@ -2,7 +2,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 SocketLink::SocketLink(const std::string& interface) : interface_(interface) {
   const hal::OpenStatus status = can_.open(interface.c_str());
@@ -25,4 +25,4 @@ void SocketLink::check() const {
   if (can_.network_down()) throw UserError(interface_ + ": the interface is down");
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

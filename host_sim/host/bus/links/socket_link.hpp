@@ -5,7 +5,7 @@
 #include "hal/linux/steady_clock.hpp"
 #include "host_sim/host/bus/links/frame_link.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class SocketLink final : public FrameLink {
  public:
@@ -26,4 +26,4 @@ class SocketLink final : public FrameLink {
   hal::SteadyClock clock_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -4,7 +4,7 @@
 
 #include "firmware/canopen/cob_id.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::uint64_t kLinger_us = 1000;
@@ -82,4 +82,4 @@ void PipedNode::turn(std::uint64_t least_us) {
   }
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -10,7 +10,7 @@
 #include "host_sim/host/bus/links/pipe_link.hpp"
 #include "host_sim/host/bus/replay/replayed_node.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class PipedNode final : public ReplaySubject {
  public:
@@ -44,4 +44,4 @@ class PipedNode final : public ReplaySubject {
   bool booting_ = false;        // the model has been reset and has booted, the node has not yet
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -10,7 +10,7 @@
 #include "host_sim/host/bus/replay/replay_comparison.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 using canopen::NmtCommand;
 
@@ -117,4 +117,4 @@ std::string describe(const ReplayResult& result) {
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -21,7 +21,7 @@
 #include "host_sim/host/bus/can_log.hpp"
 #include "host_sim/host/bus/replay/piped_node.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct ReplayDifference {
   std::uint64_t time_us = 0;              // the log's clock
@@ -57,4 +57,4 @@ struct ReplayResult {
 // Several lines for a person.
 [[nodiscard]] std::string describe(const ReplayResult& result);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

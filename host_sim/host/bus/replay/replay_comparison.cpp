@@ -7,7 +7,7 @@
 
 #include "firmware/canopen/cob_id.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // For frames that are not process data. An emulated node on a busy computer takes many seconds to
@@ -282,4 +282,4 @@ void Comparison::finish() {
   }
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

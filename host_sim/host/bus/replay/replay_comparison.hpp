@@ -9,7 +9,7 @@
 #include "host_sim/host/bus/replay/replay.hpp"
 #include "host_sim/host/bus/replay/replayed_node.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class Comparison {
  public:
@@ -87,4 +87,4 @@ class Comparison {
   bool status_overdue_ = false;                // and one in the cycle before
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

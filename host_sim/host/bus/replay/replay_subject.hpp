@@ -7,7 +7,7 @@
 
 #include "hal/can_port.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 class ReplayedNode;
 
@@ -42,4 +42,4 @@ class ReplaySubject {
 // Makes a subject that reports to this function.
 using MakeSubject = std::function<std::unique_ptr<ReplaySubject>(ReplaySubject::OnSent)>;
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -6,7 +6,7 @@
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 using node::StoreResult;
 
@@ -115,4 +115,4 @@ bool ReplayedNode::status_every_cycle() const {
   return status_pdo().valid() && status_pdo().parameters().inhibit_100us == 0;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

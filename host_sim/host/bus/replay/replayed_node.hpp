@@ -11,7 +11,7 @@
 #include "firmware/node/node.hpp"
 #include "host_sim/host/bus/replay/replay_subject.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 [[nodiscard]] bool is_boot_up(const hal::CanFrame& frame, std::uint8_t node_id);
 
@@ -63,4 +63,4 @@ class ReplayedNode final : public ReplaySubject {
   std::uint64_t time_us_ = 0;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

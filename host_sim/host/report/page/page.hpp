@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Where the page expects the report's JSON.
 inline constexpr std::string_view report_data_mark = "@VOLCOMP_REPORT_DATA@";
@@ -15,4 +15,4 @@ std::string live_page();
 std::string live_script();
 std::string live_style();
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

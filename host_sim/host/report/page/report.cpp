@@ -8,7 +8,7 @@
 
 #include "host_sim/host/report/page/page.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // "</script" or "<!--" inside a text would end or derail the script element that
@@ -43,4 +43,4 @@ std::string report_text(const nlohmann::json& document) {
 
 std::string report_html(const nlohmann::json& document) { return page_with(report_text(document)); }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -4,7 +4,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 class EtalonReader {
@@ -94,4 +94,4 @@ void read_etalon(std::istream& stream, const std::string& name, ForeignErrors& e
   EtalonReader(stream, name, errors).read();
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -18,9 +18,9 @@
 
 #include "host_sim/host/tables/formats/foreign_errors.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Throws UserError with file and line.
 void read_etalon(std::istream& stream, const std::string& name, ForeignErrors& errors);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

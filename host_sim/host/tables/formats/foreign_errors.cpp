@@ -9,7 +9,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::string_view kLetters = "XYZABC";
@@ -129,4 +129,4 @@ std::string locations_csv(const ForeignErrors& errors, const ImportRules& rules)
   return text;
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

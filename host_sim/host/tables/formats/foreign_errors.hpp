@@ -11,7 +11,7 @@
 #include "host_sim/host/io/csv_cells.hpp"
 #include "host_sim/host/tables/runs_csv.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct ForeignPoint {
   double at = 0.0;  // mm or rad
@@ -70,4 +70,4 @@ void add_location(ForeignErrors& errors, std::string_view name, double value,
 // "name,value,unit" with a line per location error; empty if there is none.
 [[nodiscard]] std::string locations_csv(const ForeignErrors& errors, const ImportRules& rules);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

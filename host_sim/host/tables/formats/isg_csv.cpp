@@ -4,7 +4,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 struct Column {
@@ -128,4 +128,4 @@ void read_isg_csv(std::istream& stream, const std::string& name, ForeignErrors& 
   IsgReader(stream, name, errors).read();
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -16,10 +16,10 @@
 
 #include "host_sim/host/tables/formats/foreign_errors.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Throws UserError with file and line. Refused although the format has it: errors that depend on
 // more than their own axis; no table of ours holds them.
 void read_isg_csv(std::istream& stream, const std::string& name, ForeignErrors& errors);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -12,7 +12,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/formats/text_numbers.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kMostEntries = 1500;
@@ -127,4 +127,4 @@ double offset_at(const SsfkTable& table, double position, int travel) {
   return interpolate(Interpolation::linear, Ends::hold, table.nominal, t, {}, position);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 
 #include "comp/core/status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct SsfkTable {
   int axis_number = 1;          // kopf.log_achs_nr
@@ -29,4 +29,4 @@ Status write_ssfk(const SsfkTable& table, std::string& text);
 // t at a position (mm or degree); `travel` is +1 or −1; the ends are held.
 [[nodiscard]] double offset_at(const SsfkTable& table, double position, int travel);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/formats/text_numbers.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 double finite(double value, const CsvLines& lines) {
@@ -85,4 +85,4 @@ double offset_at(const LinuxcncComp& table, double position, int travel) {
   return interpolate(Interpolation::linear, Ends::hold, table.nominal, t, {}, position);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -11,7 +11,7 @@
 
 #include "comp/core/status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 inline constexpr std::size_t kLinuxcncEntries = 256;
 
@@ -32,4 +32,4 @@ Status write_linuxcnc(const LinuxcncComp& table, std::string& text);
 // t at a position; `travel` is +1 or −1; the ends are held.
 [[nodiscard]] double offset_at(const LinuxcncComp& table, double position, int travel);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 #include "host_sim/host/tables/formats/siemens_text.hpp"
 #include "host_sim/host/tables/formats/text_numbers.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr const char* kHeader = "%_N_NC_CEC_INI";
@@ -137,4 +137,4 @@ double offset_at(const CecTable& table, double position, int travel) {
                              position);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

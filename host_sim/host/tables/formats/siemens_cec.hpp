@@ -12,7 +12,7 @@
 
 #include "comp/core/status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct CecTable {
   int number = 0;              // t
@@ -37,4 +37,4 @@ Status write_cec(const CecTable& table, std::string& text);
 // or −1. The ends are held.
 [[nodiscard]] double offset_at(const CecTable& table, double position, int travel);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

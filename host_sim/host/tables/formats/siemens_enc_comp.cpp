@@ -8,7 +8,7 @@
 #include "host_sim/host/tables/formats/siemens_text.hpp"
 #include "host_sim/host/tables/formats/text_numbers.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr const char* kHeader = "%_N_AX_EEC_INI";
@@ -85,4 +85,4 @@ double offset_at(const EncCompTable& table, double position) {
                              position);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

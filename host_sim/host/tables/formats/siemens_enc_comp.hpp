@@ -11,7 +11,7 @@
 
 #include "comp/core/status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct EncCompTable {
   std::string axis;            // machine axis, for instance "Z1"
@@ -32,4 +32,4 @@ Status write_enc_comp(const EncCompTable& table, std::string& text);
 // t at a position (mm or degree); the ends are held.
 [[nodiscard]] double offset_at(const EncCompTable& table, double position);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

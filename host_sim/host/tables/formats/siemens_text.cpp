@@ -8,7 +8,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/formats/text_numbers.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 // The next line without the carriage return of files that come from a control.
@@ -89,4 +89,4 @@ void check_extent(double min, double max, double step, std::size_t entries) {
         fmt::format("MIN {}, MAX {} and STEP {} do not fit {} entries", min, max, step, entries));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

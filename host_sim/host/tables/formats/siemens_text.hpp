@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // $NAME[index,…]=value, without the $; parentheses around the value are taken off.
 struct SystemVariable {
@@ -29,4 +29,4 @@ struct SystemVariable {
 // MIN, MAX and STEP of a table agree with its number of entries. Throws UserError.
 void check_extent(double min, double max, double step, std::size_t entries);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -7,7 +7,7 @@
 
 #include "host_sim/host/io/user_error.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 template <class Number>
@@ -97,4 +97,4 @@ Status check_nominal(const std::vector<double>& nominal, std::size_t offsets,
   return {};
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

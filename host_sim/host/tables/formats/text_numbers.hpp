@@ -6,7 +6,7 @@
 
 #include "comp/core/status.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 [[nodiscard]] std::string six_decimals(double value);
 
@@ -44,4 +44,4 @@ Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, b
 Status check_nominal(const std::vector<double>& nominal, std::size_t offsets,
                      const NumberForm& form, double file_units = 1.0);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

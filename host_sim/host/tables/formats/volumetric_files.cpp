@@ -6,7 +6,7 @@
 
 #include "comp/core/units.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kMostKnots = 129;
@@ -77,4 +77,4 @@ std::string remainder_text(const VolumetricFiles& files) {
          fmt::format("not represented, all components: {:.3f} µm rms\n", files.remainder_rms_um);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -12,7 +12,7 @@
 #include "host_sim/host/tables/formats/siemens_cec.hpp"
 #include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 struct VolumetricFiles {
   std::array<EncCompTable, 3> own;  // X1, Y1, Z1
@@ -29,4 +29,4 @@ Status volumetric_files(const VolumetricModel& model, const std::array<KnotGrid,
 // One line per component and one for all of them.
 [[nodiscard]] std::string remainder_text(const VolumetricFiles& files);
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -97,7 +97,7 @@ struct AxisOfX {
   std::vector<ErrorMotion> motion{kNodes, ErrorMotion::Constant(7.0)};
 
   AxisOfX() {
-    EXPECT_TRUE(MachineChain::build(l300g({}, {}), chain).ok());
+    EXPECT_TRUE(MachineChain::build(l300g_machine({}, {}), chain).ok());
     const Joint& x = chain.axis(0);
     for (const double q : nodes) {
       const Frame moving = joint_offset(x) * joint_motion(x, q);

@@ -154,7 +154,7 @@ TEST(FrameShare, OfPointsAtTheOriginIsTheirShift) {
 // --- machine, gear and patch
 
 TEST(MachineRefusal, AnOffsetThatTurnsByNoNumber) {
-  MachineDescription d = l300g({}, {});
+  MachineDescription d = l300g_machine({}, {});
   d.body[0].joint.orientation[4] = kNan;
   MachineChain chain;
   const Status s = MachineChain::build(d, chain);

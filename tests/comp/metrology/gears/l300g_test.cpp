@@ -25,7 +25,7 @@ constexpr L300gDatum kDatum{0.0, 168.8053};
 
 MachineChain chain_of() {
   MachineChain chain;
-  EXPECT_TRUE(MachineChain::build(l300g(kArm, kDatum), chain).ok());
+  EXPECT_TRUE(MachineChain::build(l300g_machine(kArm, kDatum), chain).ok());
   return chain;
 }
 

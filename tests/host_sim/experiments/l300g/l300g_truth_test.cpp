@@ -9,20 +9,20 @@
 #include "host_sim/sim/campaign/identification.hpp"
 #include "tests/complaint.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::l300g {
 namespace {
 
-const MachineFile& file() {
-  static const MachineFile f = read_machine_file(bundled_machine("l300g"));
+const host::MachineFile& file() {
+  static const host::MachineFile f = host::read_machine_file(host::bundled_machine("l300g"));
   return f;
 }
 
-TrueMachine machine_with(const std::string& errors) {
+sim::TrueMachine machine_with(const std::string& errors) {
   return make_l300g_truth(file(), grinder_errors(errors), 1);
 }
 
 // At the pitch point of the left flank: arm hardly swung, Y = 231 (section 5.2).
-Vec3 error_um(const TrueMachine& machine) {
+Vec3 error_um(const sim::TrueMachine& machine) {
   const Pose q{0.0, 231.0, file().axes[2].reference + 0.02, 0.0};
   return kUmPerMm * machine.error(q, {}, machine.chain.tool_point()).position_work;
 }
@@ -44,7 +44,7 @@ TEST(L300gTruth, Table2IsTheErrorOfTheSpecification) {
 }
 
 TEST(L300gTruth, ASlopeOfATurningAxisReturns) {
-  const TrueMachine machine = machine_with("a-slope");
+  const sim::TrueMachine machine = machine_with("a-slope");
   const auto about_itself = [&](double A) { return machine.errors({0.0, 0.0, 0.0, A}, {})[3](3); };
   for (const double A : {-0.44, -0.1, 0.1, 0.44})
     EXPECT_NEAR(about_itself(A), 8.6e-4 * A, 0.0014 * 8.6e-4 * std::abs(A));
@@ -52,7 +52,7 @@ TEST(L300gTruth, ASlopeOfATurningAxisReturns) {
 }
 
 TEST(L300gTruth, AFileSaysTheSameAsAName) {
-  const TrueMachine by_file =
+  const sim::TrueMachine by_file =
       make_l300g_truth(file(),
                        parse_grinder_errors("convention = \"relative\"\n"
                                             "[X]\nconstant = [3.8, 0, 0, 0, 0, 0]\n"
@@ -66,19 +66,19 @@ TEST(L300gTruth, AFileSaysTheSameAsAName) {
 
 TEST(L300gTruth, ABadFileIsRefusedWithItsLine) {
   const auto refusal = [](const std::string& text) {
-    return complaint_of([&] { return parse_grinder_errors(text, "errors.toml"); });
+    return sim::complaint_of([&] { return parse_grinder_errors(text, "errors.toml"); });
   };
   EXPECT_NE(refusal("arm_mm = 0.1\n").find("missing mandatory field 'convention'"),
             std::string::npos);
   EXPECT_EQ(refusal("convention = \"body\"\n[Q]\n").rfind("errors.toml:2: ", 0), 0U);
   EXPECT_EQ(refusal("convention = \"body\"\n[X]\nwave_um = 1.0\n").rfind("errors.toml:3: ", 0), 0U);
-  EXPECT_THROW(static_cast<void>(grinder_errors("no-such-file.toml")), UserError);
+  EXPECT_THROW(static_cast<void>(grinder_errors("no-such-file.toml")), host::UserError);
 }
 
 // Section 2.2 and its 1e-6; the fit is repeated, so that nothing of second order is left either.
 TEST(L300gIdentification, FindsAll24FunctionsWithoutNoise) {
   for (const char* errors : {"p8", "p8-variation", "a-slope"}) {
-    const Identification found = identify_axes(machine_with(errors), file());
+    const sim::Identification found = sim::identify_axes(machine_with(errors), file());
     ASSERT_EQ(found.axis.size(), 4U);
     EXPECT_LT(found.max_error(), 1e-9) << errors;
   }
@@ -86,7 +86,7 @@ TEST(L300gIdentification, FindsAll24FunctionsWithoutNoise) {
 
 // Section 2.1: the printed equations have rank 3, and their "solution" is the mean reading.
 TEST(L300gIdentification, PrintedProcedureGivesTheMeanReadingAndNoMore) {
-  const Identification found = identify_axes(machine_with("p8-variation"), file());
+  const sim::Identification found = sim::identify_axes(machine_with("p8-variation"), file());
   const PrintedProcedure printed = printed_procedure(found, file());
   EXPECT_EQ(printed.x.rank, 3);
   EXPECT_NEAR(printed.x.least(0) + printed.x.least(4) - printed.x.least(5), printed.own[0].mean,
@@ -95,10 +95,10 @@ TEST(L300gIdentification, PrintedProcedureGivesTheMeanReadingAndNoMore) {
 
 // Section 2.2: targets across the lever keep the noise down; all six unknowns alike.
 TEST(L300gIdentification, TargetsAreWellConditioned) {
-  const Identification found = identify_axes(machine_with("none"), file());
+  const sim::Identification found = sim::identify_axes(machine_with("none"), file());
   EXPECT_LT(found.condition, 30.0);
-  EXPECT_LT(found.spread.head<3>().maxCoeff(), kTracker_mm);
+  EXPECT_LT(found.spread.head<3>().maxCoeff(), sim::kTracker_mm);
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::l300g

@@ -21,7 +21,7 @@
 #include "host_sim/host/io/whole_file.hpp"
 #include "tests/host_sim/host/bus/service_bench.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using canopen::AbortCode;
@@ -268,7 +268,7 @@ TEST(BusLoad, ThreeAxesAt500Hz) {
 }
 
 TEST(BusLoad, MeasuredLiesBetweenTheComputedBoundsAndInTime) {
-  for (const BusLoadRow& row : bus_load_table({3}, measure_bus_load)) {
+  for (const BusLoadRow& row : bus_load_table({3}, xyfz::measure_bus_load)) {
     SCOPED_TRACE(row.cycle_hz);
     EXPECT_EQ(row.measured.has_value(), row.cycle_hz < 600.0);
     if (!row.measured) continue;
@@ -281,4 +281,4 @@ TEST(BusLoad, MeasuredLiesBetweenTheComputedBoundsAndInTime) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

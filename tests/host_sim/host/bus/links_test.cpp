@@ -17,13 +17,13 @@
 #include "tests/complaint.hpp"
 #include "tests/host_sim/host/bus/linux_node.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
 
 std::string refusal_of(const std::string& name) {
-  return complaint_of([&] { return open_frame_link(name); });
+  return sim::complaint_of([&] { return open_frame_link(name); });
 }
 
 // Heartbeat and product code (1018h:02), as any other tool would get them.
@@ -100,7 +100,7 @@ TEST(PipeLink, NodeThatIsGoneIsNamed) {
   PipeLink link(folder.path());
   link.wait(0);
   node.reset();
-  EXPECT_EQ(complaint_of([&] {
+  EXPECT_EQ(sim::complaint_of([&] {
               link.wait(0);
               link.wait(0);
             }),
@@ -114,7 +114,7 @@ TEST(PipeLink, WatchKnowsBetterWhyTheNodeIsGone) {
     if (gone) throw UserError("pulled the plug");
   });
   node.reset();
-  EXPECT_EQ(complaint_of([&] {
+  EXPECT_EQ(sim::complaint_of([&] {
               link.wait(0);
               link.wait(0);
             }),
@@ -144,7 +144,7 @@ TEST(PipeLink, NonsenseFromTheNodeIsRefused) {
   const std::string nonsense(hal::kPipeRecordBytes, 'x');
   ASSERT_EQ(::write(from_node.number(), nonsense.data(), nonsense.size()),
             static_cast<ssize_t>(nonsense.size()));
-  EXPECT_THAT(complaint_of([&] { link.wait(0); }), HasSubstr("no record of a frame pipe"));
+  EXPECT_THAT(sim::complaint_of([&] { link.wait(0); }), HasSubstr("no record of a frame pipe"));
 }
 
 // A turn that comes in two pieces, torn in the middle of a record.
@@ -273,7 +273,7 @@ TEST(SlcanLink, LineThatIsHungUpIsNamed) {
   SlcanLink link(name);
   node.reset();
   hal::CanFrame frame;
-  EXPECT_EQ(complaint_of([&] {
+  EXPECT_EQ(sim::complaint_of([&] {
               for (int i = 0; i < 1000; ++i)
                 static_cast<void>(link.receive(frame));
             }),
@@ -340,4 +340,4 @@ TEST(PacedLink, OtherEndNeverHasMoreThanABurst) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -22,7 +22,7 @@
 #include "hal/slcan.hpp"
 #include "host_sim/host/bus/links/descriptor.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 inline constexpr std::uint8_t kLinuxNode = 32;
 
@@ -130,4 +130,4 @@ class SlcanNode {
   std::thread thread_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

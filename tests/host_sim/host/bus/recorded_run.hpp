@@ -6,7 +6,7 @@
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "tests/host_sim/host/bus/service_bench.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // The machine starts, moves, and lives through what `incident` does to it. `deadline_us`: of the
 // node, 0: 60 % of the cycle. `status_every_cycle`: of the node.
@@ -18,7 +18,7 @@ std::string record_run(const Incident& incident, std::uint32_t deadline_us = 0,
   BusSettings settings = bus_settings(machine.file, 500.0);
   settings.deadline_us = deadline_us;
   settings.status_every_cycle = status_every_cycle;
-  BusAxes axes(settings, machine.image);
+  sim::BusAxes axes(settings, machine.image);
   record(axes.bus(), log);
   axes.stand_at({-250.0, -150.0, -200.0});
   axes.bring_up();
@@ -34,11 +34,11 @@ std::string record_run(const Incident& incident, std::uint32_t deadline_us = 0,
 }
 
 inline std::string record_quiet_run() {
-  return record_run([](BusAxes&) {});
+  return record_run([](sim::BusAxes&) {});
 }
 
 inline std::string record_drive_failure() {
-  return record_run([](BusAxes& axes) { axes.power_drive(1, false); });
+  return record_run([](sim::BusAxes& axes) { axes.power_drive(1, false); });
 }
 
 // Of the node, for 50 cycles. When the drives are started, they report in the middle of a cycle.
@@ -47,7 +47,7 @@ inline std::string record_drive_failure() {
 inline std::string record_power_failure() {
   constexpr std::uint32_t kLateDeadline_us = 1800;
   return record_run(
-      [](BusAxes& axes) {
+      [](sim::BusAxes& axes) {
         axes.power_node(false);
         for (int i = 0; i < 50; ++i)
           axes.run_cycle({-250'000'000, -150'000'000, -200'000'000});
@@ -56,4 +56,4 @@ inline std::string record_power_failure() {
       kLateDeadline_us);
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

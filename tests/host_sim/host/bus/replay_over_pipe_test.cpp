@@ -13,7 +13,7 @@
 #include "tests/host_sim/host/bus/linux_node.hpp"
 #include "tests/host_sim/host/bus/recorded_run.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
@@ -173,4 +173,4 @@ TEST(ReplayOverPipe, NodeThatDiesIsNamed) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

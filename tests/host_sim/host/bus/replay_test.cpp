@@ -22,13 +22,13 @@
 #include "tests/complaint.hpp"
 #include "tests/host_sim/host/bus/recorded_run.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
 
 std::string complaint(const std::string& text) {
-  return complaint_of([&] { return parse_can_log(text, "bus.log"); });
+  return sim::complaint_of([&] { return parse_can_log(text, "bus.log"); });
 }
 
 TEST(CanLog, ReadsALineOfCandump) {
@@ -162,7 +162,7 @@ ReplayResult replay_text(const std::string& log, const std::vector<std::uint8_t>
 }
 
 std::string refusal_of(const std::string& log, const std::vector<std::uint8_t>& image = {}) {
-  return complaint_of([&] { return replay_text(log, image); });
+  return sim::complaint_of([&] { return replay_text(log, image); });
 }
 
 TEST(Replay, NodeDoesTheSameAgain) {
@@ -251,7 +251,7 @@ TEST(Replay, MissingAndAddedAnswersAreDifferences) {
 // node may lack the status of that cycle. One more may always be late.
 TEST(Replay, TheFirstCycleAfterAStartMayHaveNoStatus) {
   const std::vector<LoggedFrame> log =
-      parse_can_log(record_run([](BusAxes&) {}, 0, true), "bus.log");
+      parse_can_log(record_run([](sim::BusAxes&) {}, 0, true), "bus.log");
   const auto next = [&log](std::uint16_t id, std::size_t from) {
     while (log.at(from).frame.id != id)
       ++from;
@@ -327,4 +327,4 @@ TEST(Replay, DownloadUploadAndRefusalAreRepeatedByteForByte) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

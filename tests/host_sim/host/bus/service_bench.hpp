@@ -13,20 +13,20 @@
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "host_sim/sim/controller/simulated_bus.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 // Tables of the machine that comes with the program, measured without noise.
 struct KnownMachine {
   KnownMachine()
       : file(read_machine_file(bundled_machine("xyfz"))),
-        truth(make_xyfz_truth(file, kXyfzMachineSeed, {})),
-        campaign(perfect_campaign(truth, file)),
+        truth(xyfz::make_xyfz_truth(file, xyfz::kXyfzMachineSeed, {})),
+        campaign(sim::perfect_campaign(truth, file)),
         tables(commission(campaign.machine, campaign.runs, {})->tables),
         image(make_image(tables)) {}
 
   MachineFile file;
-  TrueMachine truth;
-  Campaign campaign;
+  sim::TrueMachine truth;
+  sim::Campaign campaign;
   MachineTables tables;
   std::vector<std::uint8_t> image;
 };
@@ -37,7 +37,7 @@ inline const KnownMachine& known_machine() {
 }
 
 // Everything the bus carries, as text.
-inline void record(SimulatedBus& bus, std::string& log) {
+inline void record(sim::SimulatedBus& bus, std::string& log) {
   bus.bus().set_observer([&log](std::uint64_t time_ns, const hal::CanFrame& frame,
                                 const hal::LoopbackBus::Port& /*sender*/) {
     log += log_line(time_ns / 1000U, "loopback", frame) + "\n";
@@ -70,11 +70,11 @@ class ServiceBench {
   static constexpr std::uint8_t kNodeId = 32;
 
   std::string log;
-  SimulatedBus bus;
+  sim::SimulatedBus bus;
   std::unique_ptr<node::Node> node;
   NodeClient client;
-  SimulatedBus::Port& controller =
-      bus.attach_served("controller", [](SimulatedBus::Port&, std::uint64_t) {});
+  sim::SimulatedBus::Port& controller =
+      bus.attach_served("controller", [](sim::SimulatedBus::Port&, std::uint64_t) {});
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

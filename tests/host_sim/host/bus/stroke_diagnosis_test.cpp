@@ -9,7 +9,7 @@
 #include "host_sim/host/bus/diagnosis.hpp"
 #include "tests/host_sim/host/bus/service_bench.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST(StrokeDiagnosis, SaysWhatOneAxisAloneWouldDo) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

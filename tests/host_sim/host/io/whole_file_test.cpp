@@ -15,7 +15,7 @@
 #include "host_sim/host/io/whole_file.hpp"
 #include "tests/complaint.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,7 +59,7 @@ TEST_F(WholeFileTest, ALinkToAFileToComeGetsIt) {
 TEST_F(WholeFileTest, LinksInACircleAreRefused) {
   fs::create_symlink("b", path("a"));
   fs::create_symlink("a", path("b"));
-  EXPECT_EQ(complaint_of([&] { write_whole_file(path("a"), "new"); }),
+  EXPECT_EQ(sim::complaint_of([&] { write_whole_file(path("a"), "new"); }),
             path("a").string() + ": cannot be written");
 }
 
@@ -76,7 +76,7 @@ TEST_F(WholeFileTest, TheModeOfAnEarlierFileIsKept) {
 TEST_F(WholeFileTest, AFileThatNobodyMayWriteIsRefused) {
   write_whole_file(path("file"), "old");
   fs::permissions(path("file"), static_cast<fs::perms>(0444));
-  EXPECT_EQ(complaint_of([&] { write_whole_file(path("file"), "new"); }),
+  EXPECT_EQ(sim::complaint_of([&] { write_whole_file(path("file"), "new"); }),
             path("file").string() + ": cannot be written");
   EXPECT_EQ(text("file"), "old");
   EXPECT_EQ(entries(), 1);
@@ -93,13 +93,13 @@ TEST_F(WholeFileTest, WhatHasNoPlaceIsRefusedBeforeItIsWritten) {
   for (const char* name : {"file", "new", "folder/new", "link"})
     EXPECT_NO_THROW(require_place(path(name))) << name;
   for (const char* name : {"kept", "folder", "none/new", "lost", "file/new"})
-    EXPECT_EQ(complaint_of([&] { require_place(path(name)); }),
+    EXPECT_EQ(sim::complaint_of([&] { require_place(path(name)); }),
               path(name).string() + ": cannot be written");
   EXPECT_NO_THROW(require_place("/dev/null"));
   for (const char* name : {"folder", "new", "new/inner"})
     EXPECT_NO_THROW(require_folder(path(name))) << name;
   for (const char* name : {"file", "file/new", "file/new/inner"})
-    EXPECT_EQ(complaint_of([&] { require_folder(path(name)); }),
+    EXPECT_EQ(sim::complaint_of([&] { require_folder(path(name)); }),
               path(name).string() + ": cannot be created or written");
   EXPECT_EQ(text("file"), "old");
   EXPECT_EQ(entries(), 5);
@@ -146,7 +146,7 @@ TEST_F(WholeFileTest, OfSeveralNoneIsPutInPlaceBeforeAllAreWritten) {
     files.add(path("first"), "new");
     files.add_folder(path("folder/inner"));
     files.add(path("folder/inner/second"), "new");
-    EXPECT_EQ(complaint_of([&] { files.add(path("none/third"), "new"); }),
+    EXPECT_EQ(sim::complaint_of([&] { files.add(path("none/third"), "new"); }),
               path("none/third").string() + ": cannot be written");
   }
   EXPECT_EQ(text("first"), "old");
@@ -160,7 +160,7 @@ TEST_F(WholeFileTest, ADeviceThatFailsLeavesTheFilesAsTheyWere) {
     WholeFiles files;
     files.add(path("first"), "new");
     files.add(path("full"), "new");
-    EXPECT_EQ(complaint_of([&] { files.put_in_place(); }),
+    EXPECT_EQ(sim::complaint_of([&] { files.put_in_place(); }),
               path("full").string() + ": cannot be written");
   }
   EXPECT_EQ(text("first"), "old");
@@ -189,9 +189,9 @@ TEST_F(WholeFileTest, SeveralAppearTogether) {
 TEST(ReadingFiles, WhatCannotBeReadIsNotTakenForItsEnd) {
   const fs::path unreadable = "/proc/self/mem";
   const std::string complaint = "/proc/self/mem: cannot be read";
-  EXPECT_EQ(complaint_of([&] { return read_whole_file(unreadable, kEnough); }), complaint);
-  EXPECT_EQ(complaint_of([&] { return text_of_file(unreadable); }), complaint);
-  EXPECT_EQ(complaint_of([&] { return read_image_file(unreadable); }), complaint);
+  EXPECT_EQ(sim::complaint_of([&] { return read_whole_file(unreadable, kEnough); }), complaint);
+  EXPECT_EQ(sim::complaint_of([&] { return text_of_file(unreadable); }), complaint);
+  EXPECT_EQ(sim::complaint_of([&] { return read_image_file(unreadable); }), complaint);
 }
 
 TEST(ReadingFiles, NoMoreIsReadThanShowsThatItIsTooMuch) {
@@ -202,9 +202,9 @@ TEST(ReadingFiles, NoMoreIsReadThanShowsThatItIsTooMuch) {
   fs::resize_file(path, 8 * kMiB);
   const std::string text = text_of_file(path);
   EXPECT_EQ(text.size(), kMiB + 1);
-  EXPECT_THAT(complaint_of([&] { refuse_monsters(text, "large.toml"); }),
+  EXPECT_THAT(sim::complaint_of([&] { refuse_monsters(text, "large.toml"); }),
               testing::HasSubstr("larger than 1 MiB"));
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

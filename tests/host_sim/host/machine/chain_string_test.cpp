@@ -9,7 +9,7 @@
 #include "host_sim/host/machine/machine_file.hpp"
 #include "tests/host_sim/host/machine/changed_machine.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
@@ -165,4 +165,4 @@ TEST(ChainString, RefusalsNameLineAndAxis) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

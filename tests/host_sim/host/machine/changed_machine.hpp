@@ -6,10 +6,10 @@
 #include "host_sim/host/machine/machine_file.hpp"
 #include "tests/complaint.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 
 [[nodiscard]] inline std::string machine_refusal(const std::string& text) {
-  return complaint_of([&] { return parse_machine(text, "m.toml"); });
+  return sim::complaint_of([&] { return parse_machine(text, "m.toml"); });
 }
 
 // The file in which one passage reads otherwise.
@@ -26,4 +26,4 @@ namespace volcomp::sim {
   return machine_refusal(changed(text, from, to));
 }
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -12,7 +12,7 @@
 #include "host_sim/sim/controller/integrated_axes.hpp"
 #include "tests/host_sim/host/machine/changed_machine.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
@@ -32,7 +32,7 @@ std::string trunnion_with(const std::string& axis, const std::string& fields,
 }
 
 BusAxis axis_of(const std::string& text, std::size_t a) {
-  return bus_settings(parse_machine(text, "m.toml"), kBusCycleOfFive_hz).axes.at(a);
+  return bus_settings(parse_machine(text, "m.toml"), sim::kBusCycleOfFive_hz).axes.at(a);
 }
 
 TEST(MachineBus, UnitsAreExactRationals) {
@@ -55,7 +55,7 @@ TEST(MachineBus, UnitsAreExactRationals) {
 TEST(MachineBus, NodesAreWhereTheFileSays) {
   std::string text = trunnion_with("X", "node_id = 11", "node_id");
   text.replace(text.find("node_id = 32"), 12, "node_id = 40\ncontroller_id = 100");
-  const BusSettings bus = bus_settings(parse_machine(text, "m.toml"), kBusCycleOfFive_hz);
+  const BusSettings bus = bus_settings(parse_machine(text, "m.toml"), sim::kBusCycleOfFive_hz);
   EXPECT_EQ(bus.node, 40);
   EXPECT_EQ(bus.controller, 100);
   EXPECT_EQ(bus.axes[0].drive, 11);
@@ -64,7 +64,7 @@ TEST(MachineBus, NodesAreWhereTheFileSays) {
 
 TEST(MachineBus, WithoutAWordTheDrivesAreNumberedAndCountNanometres) {
   const BusSettings bus =
-      bus_settings(read_machine_file(bundled_machine("l300g")), kBusCycleOfFive_hz);
+      bus_settings(read_machine_file(bundled_machine("l300g")), sim::kBusCycleOfFive_hz);
   EXPECT_EQ(bus.node, 32);
   EXPECT_EQ(bus.controller, 127);
   for (std::size_t a = 0; a < 4; ++a) {
@@ -117,9 +117,9 @@ TEST(MachineBus, AMachineOfCoarseDrivesGoesWhereItIsTold) {
   text.erase(text.find("units_per_mm = 1000000"), 22);
   text.replace(text.find("node_id = 32"), 12, "node_id = 50");
   const MachineFile file = parse_machine(text, "m.toml");
-  TrueMachine truth;
+  sim::TrueMachine truth;
   truth.chain = file.chain;
-  const auto cell = bus_cells(file, kBusCycleOfFive_hz)(truth, file.correction, {});
+  const auto cell = sim::bus_cells(file, sim::kBusCycleOfFive_hz)(truth, file.correction, {});
   const Pose start{10.000004, -20.0, -100.0, 0.1, 1.0};
   cell->place(start);
   const Pose to{12.000004, -21.0, -101.0, 0.15, 1.1};
@@ -130,4 +130,4 @@ TEST(MachineBus, AMachineOfCoarseDrivesGoesWhereItIsTold) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 #include "comp/metrology/tables/pose_offset.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::ElementsAre;
@@ -59,4 +59,4 @@ TEST(MachineFacts, AxesOfTheTrunnionTurnTheToolAgainstTheWork) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -9,7 +9,7 @@
 #include "host_sim/host/measure/volume_csv.hpp"
 #include "tests/complaint.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
@@ -27,7 +27,7 @@ VolumeFile parse_volume(const std::string& text, const std::string& name = "v.cs
 }
 
 std::string refusal_of(const std::string& text) {
-  return complaint_of([&] { return parse(text); });
+  return sim::complaint_of([&] { return parse(text); });
 }
 
 TEST(DiagonalCsv, TakesColumnsInAnyOrderAndUnit) {
@@ -85,7 +85,7 @@ TEST(DiagonalCsv, NamesWhatOnlyOneOfTwoFilesHas) {
   const std::string h = kHeader;
   const std::string two = h + "PPP,0,1,up,0\nPPP,9,1,up,0\n";
   const auto compare = [&](const std::string& before, const std::string& after) {
-    return complaint_of(
+    return sim::complaint_of(
         [&] { require_same_points(parse(before, "b.csv"), parse(after, "a.csv")); });
   };
   EXPECT_EQ(compare(two, two), "accepted");
@@ -104,14 +104,14 @@ TEST(VolumeCsv, ReadsPlacesAndRefusesWithTheLine) {
   ASSERT_EQ(f.points.size(), 4U);
   EXPECT_DOUBLE_EQ(f.points[0].error_mm(2), 3e-3);
   const auto refused = [](const std::string& text) {
-    return complaint_of([&] { return parse_volume(text); });
+    return sim::complaint_of([&] { return parse_volume(text); });
   };
   EXPECT_THAT(refused(h + "0,0,0,1,2,3\n"), HasSubstr("1 places, at least 4"));
   EXPECT_THAT(refused(four + "0,0,1,0,0,0\n"), HasSubstr("v.csv:6: the same place as in line 5"));
   EXPECT_THAT(refused(four + "0,0,inf,0,0,0\n"), HasSubstr("v.csv:6: Z: \"inf\" must be finite"));
   EXPECT_THAT(refused("X [mm],Y [mm],Z [mm],DX [um],DY [um]\n"), HasSubstr("lacks the column DZ"));
   const VolumeFile other = parse_volume(h + "0,0,0,1,2,3\n2,0,0,0,0,0\n0,1,0,0,0,0\n0,0,1,0,0,0\n");
-  EXPECT_THAT(complaint_of([&] { require_same_places(f, other); }),
+  EXPECT_THAT(sim::complaint_of([&] { require_same_places(f, other); }),
               HasSubstr("lacks the place 1 0 0 mm of v.csv:3"));
 }
 
@@ -131,4 +131,4 @@ TEST(VolumeFigures, RigidMotionIsAlignedAway) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

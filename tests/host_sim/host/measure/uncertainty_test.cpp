@@ -9,7 +9,7 @@
 #include "host_sim/sim/truth/noise.hpp"
 #include "tests/complaint.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
@@ -69,7 +69,7 @@ TEST(Uncertainty, ContributionsAddAsSquares) {
 TEST(Uncertainty, RepeatabilityIsWhatRepetitionShows) {
   constexpr int kRuns = 5;
   constexpr int kTimes = 20'000;
-  Random random(7);
+  sim::Random random(7);
   double squares = 0.0;
   for (int i = 0; i < kTimes; ++i) {
     double difference = 0.0;
@@ -95,7 +95,7 @@ TEST(Uncertainty, WhatIsNotStatedIsNamedAndNotGuessed) {
 }
 
 std::string refusal(const std::string& text) {
-  return complaint_of([&] { require_complete(parse_uncertainty(text, "u.toml")); });
+  return sim::complaint_of([&] { require_complete(parse_uncertainty(text, "u.toml")); });
 }
 
 TEST(Uncertainty, FileIsReadAndRefusedWithTheLine) {
@@ -110,4 +110,4 @@ TEST(Uncertainty, FileIsReadAndRefusedWithTheLine) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -8,7 +8,7 @@
 
 #include "host_sim/host/measure/verification.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 using testing::HasSubstr;
@@ -129,4 +129,4 @@ TEST(Verification, TextAndTablesHoldEveryFigure) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

@@ -14,17 +14,17 @@
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "tests/complaint.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 class Commissioning : public testing::Test {
  protected:
   MachineFile file = read_machine_file(bundled_machine("xyfz"));
-  TrueMachine truth = make_xyfz_truth(file, 3, {});
-  Campaign campaign = perfect_campaign(truth, file);
+  sim::TrueMachine truth = xyfz::make_xyfz_truth(file, 3, {});
+  sim::Campaign campaign = sim::perfect_campaign(truth, file);
 
   std::string refusal(const std::vector<RunsFile>& runs) const {
-    return complaint_of([&] { return commission(file, runs, {}); });
+    return sim::complaint_of([&] { return commission(file, runs, {}); });
   }
 };
 
@@ -117,7 +117,7 @@ TEST_F(Commissioning, WhatNoNodeTakesIsRefused) {
 // Machines with the same axes in other places have no naive model.
 TEST_F(Commissioning, TheNaiveModelIsOfItsMachineOnly) {
   const auto complaint = [&] {
-    return complaint_of(
+    return sim::complaint_of(
         [&] { return commission(file, campaign.runs, tables_only(ModelKind::naive)); });
   };
   EXPECT_EQ(complaint(), "accepted");
@@ -133,7 +133,7 @@ class FullTurn : public testing::Test {
   static constexpr std::size_t kC = 4;
 
   std::unique_ptr<Commissioned> commission_with(const ErrorMotion& drift) {
-    Campaign drifting = campaign;
+    sim::Campaign drifting = campaign;
     for (RunValues& run : drifting.runs[kC].up)
       add(drift, run);
     for (RunValues& run : drifting.runs[kC].down) {
@@ -145,8 +145,9 @@ class FullTurn : public testing::Test {
   }
 
   MachineFile file = read_machine_file(bundled_machine("trunnion"));
-  Random random{1};
-  Campaign campaign = measure_any_machine(draw_machine(file, 1), file, no_noise(), 1, random);
+  sim::Random random{1};
+  sim::Campaign campaign = any_machine::measure_any_machine(any_machine::draw_machine(file, 1),
+                                                            file, sim::no_noise(), 1, random);
 
  private:
   static void add(const ErrorMotion& drift, RunValues& run) {
@@ -191,7 +192,7 @@ TEST_F(FullTurn, ATargetLeftOutIsSaid) {
 
 TEST_F(FullTurn, EndsFartherApartThanDriftExplainsAreRefused) {
   const auto complaint = [&](Eigen::Index channel, double drift) {
-    return complaint_of([&] { commission_with(drift * ErrorMotion::Unit(channel)); });
+    return sim::complaint_of([&] { commission_with(drift * ErrorMotion::Unit(channel)); });
   };
   EXPECT_EQ(complaint(2, 4.9e-3), "accepted");
   EXPECT_THAT(complaint(2, 5.1e-3), testing::HasSubstr("runs_C.csv: the ends of the turn of C"));
@@ -200,4 +201,4 @@ TEST_F(FullTurn, EndsFartherApartThanDriftExplainsAreRefused) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

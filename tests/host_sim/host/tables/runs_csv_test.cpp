@@ -9,7 +9,7 @@
 #include "host_sim/host/tables/runs_csv.hpp"
 #include "tests/complaint.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::host {
 namespace {
 
 RunsFile parse(const std::string& text) {
@@ -18,7 +18,7 @@ RunsFile parse(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  return complaint_of([&] { return parse(text); });
+  return sim::complaint_of([&] { return parse(text); });
 }
 
 constexpr const char* kHeader =
@@ -132,4 +132,4 @@ TEST(RunsCsv, NanReadingsReachTheBuilder) {
 }
 
 }  // namespace
-}  // namespace volcomp::sim
+}  // namespace volcomp::host

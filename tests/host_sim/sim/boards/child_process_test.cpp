@@ -30,7 +30,7 @@ struct Shell {
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   }
 
-  TemporaryFolder folder;
+  host::TemporaryFolder folder;
   ChildProcess process;
 };
 
@@ -72,27 +72,27 @@ TEST(ChildProcess, ProgramsAreFoundAsByTheShell) {
 }
 
 TEST(Interruption, IsNoticedByWhoLooks) {
-  const Interruption interruption;
+  const host::Interruption interruption;
   EXPECT_NO_THROW(interruption.check());
   ASSERT_EQ(std::raise(SIGTERM), 0);
   try {
     interruption.check();
     FAIL() << "nothing was thrown";
-  } catch (const Interrupted& interrupted) {
+  } catch (const host::Interrupted& interrupted) {
     EXPECT_EQ(interrupted.signal, SIGTERM);
   }
 }
 
 TEST(Interruption, OneInsideAnotherDoesNotForget) {
-  const Interruption outer;
+  const host::Interruption outer;
   ASSERT_EQ(std::raise(SIGTERM), 0);
-  { const Interruption inner; }
+  { const host::Interruption inner; }
   EXPECT_TRUE(outer.asked());
 }
 
 TEST(Interruption, TheSecondSignalEndsWhoDoesNotLook) {
   const auto stuck = [] {
-    const Interruption interruption;
+    const host::Interruption interruption;
     static_cast<void>(std::raise(SIGINT));
     static_cast<void>(std::raise(SIGINT));
   };
@@ -102,7 +102,7 @@ TEST(Interruption, TheSecondSignalEndsWhoDoesNotLook) {
 TEST(Interruption, NobodyHangsUpWhatNohupStarted) {
   const auto before = std::signal(SIGHUP, SIG_IGN);
   {
-    const Interruption interruption;
+    const host::Interruption interruption;
     ASSERT_EQ(std::raise(SIGHUP), 0);
     EXPECT_FALSE(interruption.asked());
   }

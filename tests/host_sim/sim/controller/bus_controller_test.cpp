@@ -15,9 +15,11 @@ using ::testing::HasSubstr;
 
 constexpr double kShortTime_s = 2.0;
 
-BusSettings xyfz() { return bus_settings(read_machine_file(bundled_machine("xyfz")), 500.0); }
+host::BusSettings xyfz() {
+  return host::bus_settings(host::read_machine_file(host::bundled_machine("xyfz")), 500.0);
+}
 
-std::string refusal(const BusSettings& settings, const std::vector<std::uint8_t>& image = {},
+std::string refusal(const host::BusSettings& settings, const std::vector<std::uint8_t>& image = {},
                     double seconds = kShortTime_s) {
   BusAxes axes(settings, image);
   return complaint_of([&] { return axes.bring_up(seconds), 0; });
@@ -28,9 +30,9 @@ TEST(BusController, BringsUpAMachineWithoutTables) { EXPECT_EQ(refusal(xyfz()), 
 // The drives count nanometres (60A8h); a machine file that says 2 nm per unit would correct twice
 // as much as it should.
 TEST(BusController, RefusesADriveWithOtherUnits) {
-  BusSettings settings = xyfz();
+  host::BusSettings settings = xyfz();
   settings.axes[1].scale_numerator = 2;
-  settings.axes[1].counts_otherwise = DriveScale{1, 1};
+  settings.axes[1].counts_otherwise = host::DriveScale{1, 1};
   const std::string text = refusal(settings);
   EXPECT_THAT(text, HasSubstr("axis Y"));
   EXPECT_THAT(text, HasSubstr("other units"));
@@ -38,12 +40,12 @@ TEST(BusController, RefusesADriveWithOtherUnits) {
 
 // 2^31 units per turn on the wire are 512 run-time units (2^-40 turn) each.
 TEST(BusController, ComparesTheFeedOfARotaryDrive) {
-  BusSettings settings = xyfz();
+  host::BusSettings settings = xyfz();
   settings.axes[2].rotary = true;
   settings.axes[2].scale_numerator = 512;
   EXPECT_EQ(refusal(settings), "accepted");
   settings.axes[2].scale_numerator = 1024;
-  settings.axes[2].counts_otherwise = DriveScale{512, 1};
+  settings.axes[2].counts_otherwise = host::DriveScale{512, 1};
   EXPECT_THAT(refusal(settings), HasSubstr("units per turn"));
 }
 
@@ -51,11 +53,11 @@ TEST(BusController, ComparesTheFeedOfARotaryDrive) {
 TEST(BusController, TakesDrivesThatCountAsTheFileSays) {
   for (const auto& [numerator, denominator] :
        {std::pair{1000U, 1U}, std::pair{78125U, 65536U}, std::pair{10U, 1U}}) {
-    BusSettings settings = xyfz();
+    host::BusSettings settings = xyfz();
     settings.axes[0].scale_numerator = numerator;
     settings.axes[0].scale_denominator = denominator;
     EXPECT_EQ(refusal(settings), "accepted") << numerator;
-    settings.axes[0].counts_otherwise = DriveScale{1, 1};
+    settings.axes[0].counts_otherwise = host::DriveScale{1, 1};
     EXPECT_THAT(refusal(settings), HasSubstr("other units")) << numerator;
   }
 }
@@ -90,7 +92,7 @@ TEST(BusController, SaysWhoIsSilent) {
   try {
     axes.bring_up(kShortTime_s);
     FAIL() << "brought up without a drive";
-  } catch (const UserError& e) {
+  } catch (const host::UserError& e) {
     EXPECT_THAT(e.what(), HasSubstr("drive Z (node 3) is silent"));
   }
 }
@@ -103,7 +105,7 @@ TEST(BusController, TellsWhatIsGround) {
       [&seen](std::uint64_t, const hal::CanFrame& frame, const hal::LoopbackBus::Port&) {
         if (frame.id == 0x1FF) seen.push_back(frame);
       });
-  ProcessState state;
+  host::ProcessState state;
   state.slot = 300;
   state.stroke = Direction::backward;
   state.in_face = true;
@@ -120,7 +122,7 @@ TEST(BusController, RefusesTargetsBeyondTheWire) {
   BusAxes axes(xyfz(), {});
   axes.stand_at({0.0, 0.0, 0.0});
   axes.cycle({0, 0, 0});
-  EXPECT_THROW(axes.cycle({std::int64_t{1} << 31, 0, 0}), UserError);
+  EXPECT_THROW(axes.cycle({std::int64_t{1} << 31, 0, 0}), host::UserError);
 }
 
 }  // namespace

@@ -18,11 +18,11 @@ namespace {
 
 class Cell : public testing::Test {
  protected:
-  MachineFile file = read_machine_file(bundled_machine("xyfz"));
-  TrueMachine truth = make_xyfz_truth(file, 5, {});
+  host::MachineFile file = host::read_machine_file(host::bundled_machine("xyfz"));
+  TrueMachine truth = xyfz::make_xyfz_truth(file, 5, {});
 };
 
-constexpr AxisKinds kThreeLinear{3, {}};
+constexpr host::AxisKinds kThreeLinear{3, {}};
 
 // Axes that follow at once, write down where they were sent, and pretend a ramp for a while.
 class IdealAxes final : public AxisGroup {
@@ -31,13 +31,13 @@ class IdealAxes final : public AxisGroup {
       : period_s_(period_s), ramp_cycles_(ramp_cycles) {}
 
   void stand_at(const Pose& pose) override { target_ = kThreeLinear.targets(pose); }
-  void cycle(const Targets& target) override {
+  void cycle(const host::Targets& target) override {
     target_ = target;
     ramp_cycles_ = std::max(0, ramp_cycles_ - 1);
   }
   [[nodiscard]] double period_s() const override { return period_s_; }
-  [[nodiscard]] Targets target() const override { return target_; }
-  [[nodiscard]] Offsets offset() const override { return {}; }
+  [[nodiscard]] host::Targets target() const override { return target_; }
+  [[nodiscard]] host::Offsets offset() const override { return {}; }
   [[nodiscard]] Pose position() const override {
     Pose q{};
     for (std::size_t a = 0; a < kThreeLinear.count; ++a)
@@ -51,10 +51,10 @@ class IdealAxes final : public AxisGroup {
  private:
   double period_s_;
   int ramp_cycles_;
-  Targets target_{};
+  host::Targets target_{};
 };
 
-double distance_mm(const Targets& a, const Targets& b) {
+double distance_mm(const host::Targets& a, const host::Targets& b) {
   Vec3 d;
   for (std::size_t i = 0; i < kThreeLinear.count; ++i)
     d(static_cast<Eigen::Index>(i)) = static_cast<double>(a[i] - b[i]) / kNmPerMm;
@@ -71,14 +71,14 @@ TEST_F(Cell, LineKeepsItsFeedAndItsDurationAtAnyPeriod) {
     const Vec3 from(-400.0, -200.0, -300.0);
     const Vec3 to(-100.0, -250.0, -50.0);
     cell.place(from);
-    Targets last = cell.axes().target();
+    host::Targets last = cell.axes().target();
     int cycles = 0;
     cell.move_to(to, kFeed, [&](const MotionCell& c) {
       EXPECT_LE(distance_mm(c.axes().target(), last), kFeed * period_s + 2e-6);
       last = c.axes().target();
       ++cycles;
     });
-    EXPECT_EQ(last, kThreeLinear.targets(pose_of(to)));
+    EXPECT_EQ(last, kThreeLinear.targets(host::pose_of(to)));
     EXPECT_NEAR(cycles * period_s, (to - from).norm() / kFeed + kFeed / kAcceleration, period_s);
   }
 }
@@ -119,18 +119,20 @@ TEST_F(Cell, ArrivingFromBelowAndAboveDiffersByTheReversal) {
 TEST_F(Cell, DamagedImageNeverReachesTheMachine) {
   const Campaign campaign = perfect_campaign(truth, file);
   std::vector<std::uint8_t> image =
-      make_image(commission(campaign.machine, campaign.runs, {})->tables);
+      host::make_image(host::commission(campaign.machine, campaign.runs, {})->tables);
   image[image.size() / 2] ^= 1U;
-  EXPECT_THROW(static_cast<void>(make_integrated_cell(truth, file.correction, image)), UserError);
+  EXPECT_THROW(static_cast<void>(make_integrated_cell(truth, file.correction, image)),
+               host::UserError);
 }
 
 TEST_F(Cell, EveryOffsetObeysLimitAndRate) {
   const Campaign campaign = perfect_campaign(truth, file);
-  CorrectionFile tight = file.correction;
+  host::CorrectionFile tight = file.correction;
   tight.limit_mm = 0.02;
   tight.rate_mm_per_s = 0.5;
   const auto cell = make_integrated_cell(
-      truth, tight, make_image(commission(campaign.machine, campaign.runs, {})->tables));
+      truth, tight,
+      host::make_image(host::commission(campaign.machine, campaign.runs, {})->tables));
   cell->place(Vec3(-500.0, -300.0, -400.0));
   auto before = cell->axes().offset();
   bool limit_reached = false;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
+#include "host_sim/host/machine/compensator_settings.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 
@@ -14,7 +15,7 @@ constexpr double kRotaryUnit_rad = 2.0 * kPi / kDriveUnitsPerTurn;
 
 // An L300G without errors.
 struct Grinder {
-  MachineFile file = read_machine_file(bundled_machine("l300g"));
+  host::MachineFile file = host::read_machine_file(host::bundled_machine("l300g"));
   TrueMachine truth = [this] {
     TrueMachine machine;
     machine.chain = file.chain;
@@ -57,7 +58,7 @@ TEST(RotaryAxes, GoWhereTheyAreToldOnTheBus) {
 TEST(RotaryAxes, HaveLimitsOfTheirOwn) {
   const Grinder grinder;
   const auto settings =
-      compensator_settings(grinder.file.correction, axis_kinds(grinder.file.chain));
+      host::compensator_settings(grinder.file.correction, host::axis_kinds(grinder.file.chain));
   EXPECT_EQ(settings.axis[1].limit, 200'000);
   EXPECT_EQ(settings.axis[2].limit, 683'565);
   EXPECT_EQ(settings.axis[2].hysteresis, 6'836);

@@ -9,7 +9,7 @@ namespace volcomp::sim {
 namespace {
 
 // X, Y, B, A.
-constexpr AxisKinds kGrinder{4, {false, false, true, true}};
+constexpr host::AxisKinds kGrinder{4, {false, false, true, true}};
 
 double fastest(const StraightMove& move, std::size_t axis) {
   constexpr double kStep_s = 1e-4;
@@ -63,8 +63,9 @@ TEST(StraightMove, BrakesOverTheSquareOfTheSpeedByTwiceTheAcceleration) {
 }
 
 TEST(AxisKinds, CountInNanometresAndTwoToTheMinusFortyTurns) {
-  const Targets units = kGrinder.targets({1.0, -0.0000005, kPi, -2.0 * kPi});
-  EXPECT_EQ(units, (Targets{1'000'000, -1, std::int64_t{1} << 39, -(std::int64_t{1} << 40), 0}));
+  const host::Targets units = kGrinder.targets({1.0, -0.0000005, kPi, -2.0 * kPi});
+  EXPECT_EQ(units,
+            (host::Targets{1'000'000, -1, std::int64_t{1} << 39, -(std::int64_t{1} << 40), 0}));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace volcomp::sim {
 namespace {
 
 // The ball goes along −Y into a wall.
-Touch touch_wall(const MachineFile& file, std::unique_ptr<BusAxes> axes) {
+Touch touch_wall(const host::MachineFile& file, std::unique_ptr<BusAxes> axes) {
   constexpr Pose kBegin{0.0, 233.0, -0.68, 0.0};
   constexpr Pose kBeyond{0.0, 229.0, -0.68, 0.0};
   TrueMachine truth;
@@ -25,14 +25,14 @@ Touch touch_wall(const MachineFile& file, std::unique_ptr<BusAxes> axes) {
 }
 
 TEST(TouchThroughGateway, IsTheSameTouch) {
-  const MachineFile file = read_machine_file(bundled_machine("l300g"));
-  const BusSettings settings = bus_settings(file, kBusCycleOfFive_hz);
+  const host::MachineFile file = host::read_machine_file(host::bundled_machine("l300g"));
+  const host::BusSettings settings = host::bus_settings(file, kBusCycleOfFive_hz);
   const std::vector<std::uint8_t> no_tables;
   const Touch here = touch_wall(file, std::make_unique<BusAxes>(settings, no_tables));
 
-  const TemporaryFolder folder;
-  const PipeNode node(folder.path());
-  PipeLink link(folder.path());
+  const host::TemporaryFolder folder;
+  const host::PipeNode node(folder.path());
+  host::PipeLink link(folder.path());
   CanGateway gateway(link);
   const Touch there = touch_wall(file, std::make_unique<BusAxes>(settings, no_tables, gateway));
 

@@ -125,7 +125,7 @@ TEST(CyclicPosition, WhatIsNotEnabledStandsStill) {
 
 TEST(CyclicPosition, TheSumOfTargetAndOffsetSaturates) {
   auto settings = Bench::node_three();
-  settings.following_window = kNoFollowingWindow;
+  settings.following_window = host::kNoFollowingWindow;
   Bench bench(settings);
   bench.drive.stand_at(INT32_MAX - 10);
   bench.enable(INT32_MAX - 10);

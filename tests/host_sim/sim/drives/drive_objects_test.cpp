@@ -12,7 +12,7 @@ constexpr std::uint32_t kReadOnly = 0x0601'0002;
 constexpr std::uint32_t kTooHigh = 0x0609'0031;
 
 TEST(DriveObjects, AreSortedWithoutOverlap) {
-  const Span<const canopen::Entry> rows = cia402_dictionary().rows;
+  const Span<const canopen::Entry> rows = host::cia402_dictionary().rows;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const bool in_order =
         rows[i - 1].index < rows[i].index ||

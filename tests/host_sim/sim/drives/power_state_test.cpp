@@ -23,36 +23,36 @@ struct Pattern {
   std::uint16_t mask = 0;
   std::uint16_t value = 0;
 };
-const std::map<PowerState, Pattern> kPatterns{
-    {PowerState::not_ready_to_switch_on, {0x004F, 0x0000}},  // x0xx 0000
-    {PowerState::switch_on_disabled, {0x004F, 0x0040}},      // x1xx 0000
-    {PowerState::ready_to_switch_on, {0x006F, 0x0021}},      // x01x 0001
-    {PowerState::switched_on, {0x006F, 0x0023}},             // x01x 0011
-    {PowerState::operation_enabled, {0x006F, 0x0027}},       // x01x 0111
-    {PowerState::quick_stop_active, {0x006F, 0x0007}},       // x00x 0111
-    {PowerState::fault_reaction_active, {0x004F, 0x000F}},   // x0xx 1111
-    {PowerState::fault, {0x004F, 0x0008}},                   // x0xx 1000
+const std::map<host::PowerState, Pattern> kPatterns{
+    {host::PowerState::not_ready_to_switch_on, {0x004F, 0x0000}},  // x0xx 0000
+    {host::PowerState::switch_on_disabled, {0x004F, 0x0040}},      // x1xx 0000
+    {host::PowerState::ready_to_switch_on, {0x006F, 0x0021}},      // x01x 0001
+    {host::PowerState::switched_on, {0x006F, 0x0023}},             // x01x 0011
+    {host::PowerState::operation_enabled, {0x006F, 0x0027}},       // x01x 0111
+    {host::PowerState::quick_stop_active, {0x006F, 0x0007}},       // x00x 0111
+    {host::PowerState::fault_reaction_active, {0x004F, 0x000F}},   // x0xx 1111
+    {host::PowerState::fault, {0x004F, 0x0008}},                   // x0xx 1000
 };
 
-PowerStateMachine machine_in(PowerState state) {
+PowerStateMachine machine_in(host::PowerState state) {
   PowerStateMachine m;
-  if (state == PowerState::not_ready_to_switch_on) return m;
+  if (state == host::PowerState::not_ready_to_switch_on) return m;
   m.initialised();
-  if (state == PowerState::switch_on_disabled) return m;
-  if (state == PowerState::fault_reaction_active || state == PowerState::fault) {
+  if (state == host::PowerState::switch_on_disabled) return m;
+  if (state == host::PowerState::fault_reaction_active || state == host::PowerState::fault) {
     m.fail();
-    if (state == PowerState::fault) m.standstill(false);
+    if (state == host::PowerState::fault) m.standstill(false);
     return m;
   }
   m.control(kShutdown, false);
-  if (state != PowerState::ready_to_switch_on) m.control(kSwitchOn, false);
-  if (state == PowerState::operation_enabled || state == PowerState::quick_stop_active)
+  if (state != host::PowerState::ready_to_switch_on) m.control(kSwitchOn, false);
+  if (state == host::PowerState::operation_enabled || state == host::PowerState::quick_stop_active)
     m.control(kEnable, false);
-  if (state == PowerState::quick_stop_active) m.control(kQuickStop, false);
+  if (state == host::PowerState::quick_stop_active) m.control(kQuickStop, false);
   return m;
 }
 
-PowerState after(PowerState from, std::uint16_t controlword, bool stays = false) {
+host::PowerState after(host::PowerState from, std::uint16_t controlword, bool stays = false) {
   PowerStateMachine m = machine_in(from);
   EXPECT_EQ(m.state(), from);
   m.control(controlword, stays);
@@ -61,20 +61,20 @@ PowerState after(PowerState from, std::uint16_t controlword, bool stays = false)
 
 TEST(PowerState, EveryStateHasThePatternOfTheStandard) {
   for (const auto& [state, pattern] : kPatterns)
-    EXPECT_EQ(status_pattern(state) & pattern.mask, pattern.value);
+    EXPECT_EQ(host::status_pattern(state) & pattern.mask, pattern.value);
 }
 
 TEST(PowerState, NoPatternFitsTwoStates) {
   for (const auto& [state, unused] : kPatterns) {
     int fitting = 0;
     for (const auto& [other, pattern] : kPatterns)
-      fitting += (status_pattern(state) & pattern.mask) == pattern.value ? 1 : 0;
+      fitting += (host::status_pattern(state) & pattern.mask) == pattern.value ? 1 : 0;
     EXPECT_EQ(fitting, 1);
   }
 }
 
 TEST(PowerState, TransitionsOnCommand) {
-  using S = PowerState;
+  using S = host::PowerState;
   EXPECT_EQ(after(S::switch_on_disabled, kShutdown), S::ready_to_switch_on);        // 2
   EXPECT_EQ(after(S::ready_to_switch_on, kSwitchOn), S::switched_on);               // 3
   EXPECT_EQ(after(S::switched_on, kEnable), S::operation_enabled);                  // 4
@@ -95,29 +95,29 @@ TEST(PowerState, TransitionsOnCommand) {
 TEST(PowerState, TransitionsByThemselves) {
   PowerStateMachine m;
   m.initialised();  // 1
-  EXPECT_EQ(m.state(), PowerState::switch_on_disabled);
-  m = machine_in(PowerState::quick_stop_active);
+  EXPECT_EQ(m.state(), host::PowerState::switch_on_disabled);
+  m = machine_in(host::PowerState::quick_stop_active);
   m.standstill(false);  // 12
-  EXPECT_EQ(m.state(), PowerState::switch_on_disabled);
-  m = machine_in(PowerState::quick_stop_active);
+  EXPECT_EQ(m.state(), host::PowerState::switch_on_disabled);
+  m = machine_in(host::PowerState::quick_stop_active);
   m.standstill(true);
-  EXPECT_EQ(m.state(), PowerState::quick_stop_active);
-  m = machine_in(PowerState::fault_reaction_active);
+  EXPECT_EQ(m.state(), host::PowerState::quick_stop_active);
+  m = machine_in(host::PowerState::fault_reaction_active);
   m.standstill(true);  // 14
-  EXPECT_EQ(m.state(), PowerState::fault);
+  EXPECT_EQ(m.state(), host::PowerState::fault);
 }
 
 TEST(PowerState, EveryStateButFaultFallsIntoFaultReaction) {
   for (const auto& [state, unused] : kPatterns) {
-    if (state == PowerState::fault) continue;
+    if (state == host::PowerState::fault) continue;
     PowerStateMachine m = machine_in(state);
     m.fail();  // 13
-    EXPECT_EQ(m.state(), PowerState::fault_reaction_active);
+    EXPECT_EQ(m.state(), host::PowerState::fault_reaction_active);
   }
 }
 
 TEST(PowerState, ForbiddenCommandsChangeNothing) {
-  using S = PowerState;
+  using S = host::PowerState;
   const std::vector<std::pair<S, std::uint16_t>> forbidden{
       {S::not_ready_to_switch_on, kShutdown},
       {S::not_ready_to_switch_on, kEnable},
@@ -145,32 +145,34 @@ TEST(PowerState, ForbiddenCommandsChangeNothing) {
 }
 
 TEST(PowerState, OnlyTheRisingEdgeOfBit7ResetsAFault) {
-  PowerStateMachine m = machine_in(PowerState::switched_on);
+  PowerStateMachine m = machine_in(host::PowerState::switched_on);
   m.control(0x80, false);  // risen before there was a fault
   m.fail();
   m.standstill(false);
   m.control(0x80, false);
-  EXPECT_EQ(m.state(), PowerState::fault);
+  EXPECT_EQ(m.state(), host::PowerState::fault);
   m.control(0x00, false);
   m.control(0x80, false);  // 15
-  EXPECT_EQ(m.state(), PowerState::switch_on_disabled);
+  EXPECT_EQ(m.state(), host::PowerState::switch_on_disabled);
 }
 
 TEST(PowerState, FaultResetWaitsForTheEndOfTheReaction) {
-  PowerStateMachine m = machine_in(PowerState::fault_reaction_active);
+  PowerStateMachine m = machine_in(host::PowerState::fault_reaction_active);
   m.control(0x80, false);
-  EXPECT_EQ(m.state(), PowerState::fault_reaction_active);
+  EXPECT_EQ(m.state(), host::PowerState::fault_reaction_active);
 }
 
 TEST(PowerState, CommandsNeedBit7Low) {
-  EXPECT_EQ(after(PowerState::switch_on_disabled, 0x86), PowerState::switch_on_disabled);
-  EXPECT_EQ(after(PowerState::operation_enabled, 0x80), PowerState::operation_enabled);
+  EXPECT_EQ(after(host::PowerState::switch_on_disabled, 0x86),
+            host::PowerState::switch_on_disabled);
+  EXPECT_EQ(after(host::PowerState::operation_enabled, 0x80), host::PowerState::operation_enabled);
 }
 
 TEST(PowerState, DoNotCareBitsAreNotCaredFor) {
-  EXPECT_EQ(after(PowerState::switch_on_disabled, 0x0E), PowerState::ready_to_switch_on);
-  EXPECT_EQ(after(PowerState::operation_enabled, 0x0D), PowerState::switch_on_disabled);
-  EXPECT_EQ(after(PowerState::operation_enabled, 0x0B), PowerState::quick_stop_active);
+  EXPECT_EQ(after(host::PowerState::switch_on_disabled, 0x0E),
+            host::PowerState::ready_to_switch_on);
+  EXPECT_EQ(after(host::PowerState::operation_enabled, 0x0D), host::PowerState::switch_on_disabled);
+  EXPECT_EQ(after(host::PowerState::operation_enabled, 0x0B), host::PowerState::quick_stop_active);
 }
 
 // The walk over the bus: TPDO1 carries the statusword that the controlword of this SYNC led to.

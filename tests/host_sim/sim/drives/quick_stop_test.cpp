@@ -21,7 +21,8 @@ class QuickStop : public testing::Test {
   }
   // Until the state is left that brakes, at most 200 ms.
   void wait_for_standstill() {
-    for (int i = 0; i < 200 && bench.drive.power_state() == PowerState::quick_stop_active; ++i)
+    for (int i = 0; i < 200 && bench.drive.power_state() == host::PowerState::quick_stop_active;
+         ++i)
       bench.wait(Bench::kPeriod_us);
   }
   [[nodiscard]] double braking_distance() const { return bench.drive.position_units() - start; }

@@ -13,7 +13,7 @@ std::int32_t wrapped_sum(std::int32_t a, std::int32_t b) {
 
 TEST(RotaryDrive, TurnsOnAndOnThroughTheWrap) {
   auto settings = Bench::rotary();
-  settings.following_window = kNoFollowingWindow;
+  settings.following_window = host::kNoFollowingWindow;
   Bench bench(settings);
   bench.enable();
   constexpr std::int32_t kEighth = 1 << 28;

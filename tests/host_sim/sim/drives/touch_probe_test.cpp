@@ -82,7 +82,7 @@ TEST(TouchProbeInMotion, LatchesWhereTheAxisWasThen) {
     bench.cycle(0x0F, target += 20'000);
     ASSERT_NEAR(bench.drive.objects().actual - before, 20'000, 1);
     bench.drive.probe_edge(true, c.edge_ns);
-    const TouchProbeLatch& latch = bench.drive.objects().probe.positive_1;
+    const host::TouchProbeLatch& latch = bench.drive.objects().probe.positive_1;
     EXPECT_EQ(latch.time_ns, c.latch_ns);
     EXPECT_NEAR(latch.position, before + 0.02 * static_cast<double>(c.latch_ns), 1.0);
   }

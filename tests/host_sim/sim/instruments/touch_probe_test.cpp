@@ -24,7 +24,7 @@ struct TimedEdge {
 
 class Probe : public testing::Test {
  protected:
-  Probe() { truth.chain = read_machine_file(bundled_machine("l300g")).chain; }
+  Probe() { truth.chain = host::read_machine_file(host::bundled_machine("l300g")).chain; }
 
   static Stance at(double y, double B = kArmLevel) {
     Stance stance;

@@ -18,10 +18,10 @@ using canopen::AbortCode;
 using ::testing::HasSubstr;
 
 // Drives 1, 2, 3 …
-sim::BusSettings bus_with(const std::string& letters) {
-  sim::BusSettings bus;
+host::BusSettings bus_with(const std::string& letters) {
+  host::BusSettings bus;
   for (const char letter : letters) {
-    sim::BusAxis axis;
+    host::BusAxis axis;
     axis.letter = letter;
     axis.drive = static_cast<std::uint8_t>(bus.axes.size() + 1);
     bus.axes.push_back(axis);
@@ -30,7 +30,7 @@ sim::BusSettings bus_with(const std::string& letters) {
 }
 
 TEST(CommittedDatabase, IsTheOneTheCodeMakes) {
-  EXPECT_TRUE(project_file("firmware/volcomp.dbc") == sim::make_dbc(bus_with("XYZ")))
+  EXPECT_TRUE(project_file("firmware/volcomp.dbc") == host::make_dbc(bus_with("XYZ")))
       << kRegenerate;
 }
 
@@ -72,9 +72,9 @@ TEST(CommittedDatabase, HoldsEveryPdoOfTheNode) {
 // Each sent by one station, and no signal over another or over the end. TIME has four reserved bits
 // (CiA 301, 7.1.6.5).
 TEST(Database, SignalsFitTheirMessages) {
-  for (const sim::BusMessage& m : sim::bus_messages(bus_with("XYZAB"))) {
+  for (const host::BusMessage& m : host::bus_messages(bus_with("XYZAB"))) {
     std::size_t end = 0;
-    for (const sim::BusSignal& s : m.signals) {
+    for (const host::BusSignal& s : m.signals) {
       EXPECT_EQ(s.first_bit, end + (m.name == "TIME" && end == 28 ? 4 : 0))
           << m.name << '.' << s.name;
       end = s.first_bit + s.bits;
@@ -85,9 +85,9 @@ TEST(Database, SignalsFitTheirMessages) {
 
 // 2^31 units are a turn.
 TEST(Database, RotaryPositionsAreInDegrees) {
-  sim::BusSettings bus = bus_with("A");
+  host::BusSettings bus = bus_with("A");
   bus.axes[0].rotary = true;
-  for (const sim::BusMessage& m : sim::bus_messages(bus)) {
+  for (const host::BusMessage& m : host::bus_messages(bus)) {
     if (m.name != "A_Command") continue;
     EXPECT_EQ(m.signals.at(1).unit, "deg");
     EXPECT_DOUBLE_EQ(m.signals.at(1).factor * 0x4000'0000, 180.0);
@@ -98,17 +98,17 @@ TEST(Database, RotaryPositionsAreInDegrees) {
 
 // --- refused, each in one sentence
 
-std::string refusal(const sim::BusSettings& bus) {
+std::string refusal(const host::BusSettings& bus) {
   try {
-    static_cast<void>(sim::make_dbc(bus));
-  } catch (const sim::UserError& e) {
+    static_cast<void>(host::make_dbc(bus));
+  } catch (const host::UserError& e) {
     return e.what();
   }
   return "";
 }
 
 TEST(Database, TwoStationsCannotShareANodeId) {
-  sim::BusSettings bus = bus_with("XY");
+  host::BusSettings bus = bus_with("XY");
   bus.axes[1].drive = 1;
   EXPECT_THAT(refusal(bus), HasSubstr("two stations have node id 1"));
   bus.axes[1].drive = bus.controller;
@@ -116,7 +116,7 @@ TEST(Database, TwoStationsCannotShareANodeId) {
 }
 
 TEST(Database, NodeIdsAreFrom1To127) {
-  sim::BusSettings bus = bus_with("X");
+  host::BusSettings bus = bus_with("X");
   bus.axes[0].drive = 0;
   EXPECT_THAT(refusal(bus), HasSubstr("node id 0"));
   bus = bus_with("X");

@@ -29,7 +29,7 @@ class CommittedEds : public ::testing::Test {
 };
 
 TEST_F(CommittedEds, IsTheOneTheCodeMakes) {
-  EXPECT_TRUE(project_file("firmware/volcomp.eds") == sim::make_eds()) << kRegenerate;
+  EXPECT_TRUE(project_file("firmware/volcomp.eds") == host::make_eds()) << kRegenerate;
 }
 
 // --- every value of the EDS is in the node

@@ -16,10 +16,10 @@
 namespace volcomp::test {
 namespace {
 
-using sim::write_cec;
-using sim::write_enc_comp;
-using sim::write_linuxcnc;
-using sim::write_ssfk;
+using host::write_cec;
+using host::write_enc_comp;
+using host::write_linuxcnc;
+using host::write_ssfk;
 
 constexpr double kRounding_mm = 0.5001e-6;
 constexpr double kRounding_rad = 0.5001e-6 * kDegree;
@@ -31,9 +31,9 @@ std::vector<double> random_offsets(Random& random, std::size_t n, double most) {
   return t;
 }
 
-sim::LinuxcncComp read_linuxcnc(const std::string& text, int type = 1) {
+host::LinuxcncComp read_linuxcnc(const std::string& text, int type = 1) {
   std::istringstream stream(text);
-  return sim::read_linuxcnc(stream, "x.comp", type);
+  return host::read_linuxcnc(stream, "x.comp", type);
 }
 
 // What a reader says about a file.
@@ -41,7 +41,7 @@ template <class Read>
 std::string complaint(const Read& read) {
   try {
     read();
-  } catch (const sim::UserError& e) {
+  } catch (const host::UserError& e) {
     return e.what();
   }
   return "";
@@ -51,11 +51,11 @@ TEST(EncComp, GivesBackWhatWasWritten) {
   Random random;
   for (const bool rotary : {false, true}) {
     const double most = rotary ? 1e-3 : 0.1;
-    const sim::EncCompTable table{"Z1",  random_offsets(random, 33, most), -12.5, 0.25, false,
-                                  rotary};
+    const host::EncCompTable table{"Z1",  random_offsets(random, 33, most), -12.5, 0.25, false,
+                                   rotary};
     std::string text;
     ASSERT_TRUE(write_enc_comp(table, text).ok());
-    const sim::EncCompTable back = sim::read_enc_comp(text, rotary);
+    const host::EncCompTable back = host::read_enc_comp(text, rotary);
     EXPECT_EQ(back.axis, "Z1");
     for (int i = 0; i < 100; ++i) {
       const double z = random.uniform(-15.0, -2.0);
@@ -72,10 +72,10 @@ TEST(EncComp, EntryIsMinusTheOffset) {
 }
 
 TEST(EncComp, ModuloTableMustClose) {
-  sim::EncCompTable table{"C1", {1e-4, 2e-4, 3e-4, 1e-4}, 0.0, 120.0, true, true};
+  host::EncCompTable table{"C1", {1e-4, 2e-4, 3e-4, 1e-4}, 0.0, 120.0, true, true};
   std::string text = "before";
   ASSERT_TRUE(write_enc_comp(table, text).ok());
-  const sim::EncCompTable back = sim::read_enc_comp(text, true);
+  const host::EncCompTable back = host::read_enc_comp(text, true);
   EXPECT_TRUE(back.modulo);
   EXPECT_NEAR(offset_at(back, 60.0 + 720.0), 1.5e-4, kRounding_rad);
   EXPECT_NEAR(offset_at(back, -60.0), 2e-4, kRounding_rad);
@@ -88,11 +88,11 @@ TEST(EncComp, ModuloTableMustClose) {
 TEST(Cec, GivesBackWhatWasWrittenInItsDirection) {
   Random random;
   for (const int sign : {1, -1}) {
-    const sim::CecTable up{3,     "Z1", "C1", random_offsets(random, 65, 1e-4), -8.0, 0.25, 1,
-                           false, true, sign};
+    const host::CecTable up{3,     "Z1", "C1", random_offsets(random, 65, 1e-4), -8.0, 0.25, 1,
+                            false, true, sign};
     std::string text;
     ASSERT_TRUE(write_cec(up, text).ok());
-    const sim::CecTable back = sim::read_cec(text, true, sign);
+    const host::CecTable back = host::read_cec(text, true, sign);
     EXPECT_EQ(back.number, 3);
     EXPECT_EQ(back.input, "Z1");
     EXPECT_EQ(back.output, "C1");
@@ -113,10 +113,10 @@ TEST(Linuxcnc, BothTypesMeanTheSame) {
   const std::vector<double> up = random_offsets(random, 40, 0.05);
   const std::vector<double> down = random_offsets(random, 40, 0.05);
   for (const int type : {0, 1}) {
-    const sim::LinuxcncComp table{type, nominal, up, down};
+    const host::LinuxcncComp table{type, nominal, up, down};
     std::string text;
     ASSERT_TRUE(write_linuxcnc(table, text).ok());
-    const sim::LinuxcncComp back = read_linuxcnc(text, type);
+    const host::LinuxcncComp back = read_linuxcnc(text, type);
     for (std::size_t k = 0; k < nominal.size(); ++k) {
       EXPECT_NEAR(offset_at(back, back.nominal[k], 1), up[k], 2.0 * kRounding_mm);
       EXPECT_NEAR(offset_at(back, back.nominal[k], -1), down[k], 2.0 * kRounding_mm);
@@ -128,15 +128,15 @@ TEST(Linuxcnc, BothTypesMeanTheSame) {
 TEST(Ssfk, GivesBackWhatWasWrittenToATenthOfAMicrometre) {
   Random random;
   for (const bool rotary : {false, true}) {
-    const sim::SsfkTable table{2,
-                               "Z",
-                               {-10.0, -5.0, 0.0, 5.0},
-                               random_offsets(random, 4, 1e-3),
-                               random_offsets(random, 4, 1e-3),
-                               rotary};
+    const host::SsfkTable table{2,
+                                "Z",
+                                {-10.0, -5.0, 0.0, 5.0},
+                                random_offsets(random, 4, 1e-3),
+                                random_offsets(random, 4, 1e-3),
+                                rotary};
     std::string text;
     ASSERT_TRUE(write_ssfk(table, text).ok());
-    const sim::SsfkTable back = sim::read_ssfk(text, rotary);
+    const host::SsfkTable back = host::read_ssfk(text, rotary);
     const double half = rotary ? 0.5001e-4 * kDegree : 0.5001e-4;
     for (int k = 0; k < 30; ++k) {
       const double z = -12.0 + 0.7 * k;
@@ -149,7 +149,7 @@ TEST(Ssfk, GivesBackWhatWasWrittenToATenthOfAMicrometre) {
 
 TEST(ControllerTableRefusal, BeforeAnythingIsWritten) {
   std::string text = "before";
-  const auto linuxcnc = [&text](const sim::LinuxcncComp& table) {
+  const auto linuxcnc = [&text](const host::LinuxcncComp& table) {
     return write_linuxcnc(table, text).reason;
   };
   EXPECT_EQ(linuxcnc({1, {0, 1}, {0, 0}, {0}}), Reason::length_mismatch);
@@ -163,7 +163,7 @@ TEST(ControllerTableRefusal, BeforeAnythingIsWritten) {
   EXPECT_EQ(write_enc_comp({"Z1", {0.0}, 0, 1, false, false}, text).reason, Reason::too_few_knots);
   EXPECT_EQ(write_enc_comp({"Z1", {0, 0}, 0, 0, false, false}, text).reason, Reason::bad_setting);
   EXPECT_EQ(write_enc_comp({"", {0, 0}, 0, 1, false, false}, text).reason, Reason::bad_setting);
-  sim::CecTable cec{0, "Z1", "C1", {0, 0}, 0, 1, 2, false, true, 1};
+  host::CecTable cec{0, "Z1", "C1", {0, 0}, 0, 1, 2, false, true, 1};
   EXPECT_STREQ(write_cec(cec, text).where.field, "direction");
   cec.direction = 0;
   cec.sign = 0;
@@ -213,7 +213,7 @@ TEST(ControllerTableFile, ComplaintsNameTheLine) {
   const auto changed = [&text](const std::string& from, const std::string& to) {
     std::string other = text;
     other.replace(other.find(from), from.size(), to);
-    return complaint([&other] { (void)sim::read_enc_comp(other, false); });
+    return complaint([&other] { (void)host::read_enc_comp(other, false); });
   };
   EXPECT_EQ(changed("-0.020000", "-0,02"), "line 4: '-0,02' is not a number");
   EXPECT_EQ(changed("[0,1,Z1]", "[0,0,Z1]"), "line 4: an entry is there twice");
@@ -237,9 +237,9 @@ TEST(ControllerTableFile, ComplaintsNameTheLine) {
   EXPECT_EQ(linuxcnc(std::string("\xFF\xFE") + "0"),
             "x.comp:1: the file is UTF-16; it must be saved as UTF-8 or ASCII");
   EXPECT_EQ(
-      complaint([] { (void)sim::read_ssfk("kopf.log_achs_nr 1\nkopf.log_achs_nr 1\n", false); }),
+      complaint([] { (void)host::read_ssfk("kopf.log_achs_nr 1\nkopf.log_achs_nr 1\n", false); }),
       "line 2: kopf.log_achs_nr is there twice");
-  EXPECT_EQ(complaint([] { (void)sim::read_ssfk("a b c\n", false); }),
+  EXPECT_EQ(complaint([] { (void)host::read_ssfk("a b c\n", false); }),
             "line 1: expected: key value");
 }
 
@@ -249,13 +249,13 @@ TEST(ControllerTableFile, CarriageReturnsDoNotMatter) {
   ASSERT_TRUE(write_enc_comp({"Z1", {0.01, 0.02, 0.03}, 0, 1, false, false}, text).ok());
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2))
     text.insert(at, 1, '\r');
-  EXPECT_DOUBLE_EQ(sim::read_enc_comp(text, false).offset.at(1), 0.02);
+  EXPECT_DOUBLE_EQ(host::read_enc_comp(text, false).offset.at(1), 0.02);
   EXPECT_EQ(read_linuxcnc("0 0 0\r\n1 2 3\r\n").reverse.at(1), 3.0);
 }
 
 // What sscanf("%lf") takes, and what an editor puts in front of a file.
 TEST(ControllerTableFile, SignsAndMarksOfEditorsAreRead) {
-  const sim::LinuxcncComp table = read_linuxcnc("\xEF\xBB\xBF-1 +0.5 -.5\n+2 +1e-3 1.\n");
+  const host::LinuxcncComp table = read_linuxcnc("\xEF\xBB\xBF-1 +0.5 -.5\n+2 +1e-3 1.\n");
   EXPECT_EQ(table.nominal, (std::vector<double>{-1.0, 2.0}));
   EXPECT_EQ(table.forward, (std::vector<double>{0.5, 1e-3}));
   EXPECT_EQ(table.reverse, (std::vector<double>{-0.5, 1.0}));
@@ -279,21 +279,21 @@ TEST(VolumetricFiles, AreTheModelUpToTheirRemainder) {
     model.table[a] = &tables[a];
     grid[a] = {-100.0, 50.0, 5};
   }
-  sim::VolumetricFiles files;
+  host::VolumetricFiles files;
   ASSERT_TRUE(volumetric_files(model, grid, files).ok());
 
   // Through the files and back.
-  std::array<sim::EncCompTable, 3> own;
-  std::array<sim::CecTable, 6> cross;
+  std::array<host::EncCompTable, 3> own;
+  std::array<host::CecTable, 6> cross;
   for (std::size_t a = 0; a < own.size(); ++a) {
     std::string text;
     ASSERT_TRUE(write_enc_comp(files.own[a], text).ok());
-    own[a] = sim::read_enc_comp(text, false);
+    own[a] = host::read_enc_comp(text, false);
   }
   for (std::size_t i = 0; i < cross.size(); ++i) {
     std::string text;
     ASSERT_TRUE(write_cec(files.cross[i], text).ok());
-    cross[i] = sim::read_cec(text, false, 1);
+    cross[i] = host::read_cec(text, false, 1);
   }
 
   Vec3 worst = Vec3::Zero();
@@ -306,7 +306,7 @@ TEST(VolumetricFiles, AreTheModelUpToTheirRemainder) {
     Vec3 left = model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
     for (std::size_t a = 0; a < own.size(); ++a)
       left(static_cast<Eigen::Index>(a)) += offset_at(own[a], q[a]);
-    for (const sim::CecTable& table : cross)
+    for (const host::CecTable& table : cross)
       left(table.output[0] - 'X') +=
           offset_at(table, q[static_cast<std::size_t>(table.input[0] - 'X')], 1);
     worst = worst.cwiseMax(left.cwiseAbs());

@@ -1,0 +1,54 @@
+#include "host_sim/host/machine/compensator_settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "comp/core/units.hpp"
+
+namespace volcomp::host {
+namespace {
+
+// What a machine file says about the correction of one axis: mm or rad.
+struct AxisCorrection {
+  double limit;
+  double rate_per_s;
+  double hysteresis;
+  double max_speed_per_s;
+};
+
+// Offsets of a rotary axis count in 2^-32 turn, its positions in 2^-40 turn.
+AxisLimits in_units(const AxisCorrection& c, bool rotary, double period_s, double ramp_s) {
+  const double position_units = rotary ? kUnitsPerRad : kNmPerMm;
+  const double offset_units = rotary ? kUnitsPerRad / 256.0 : kNmPerMm;
+  const auto offset = [offset_units](double value) {
+    return static_cast<std::int32_t>(
+        std::min<std::int64_t>(to_units(value, offset_units), INT32_MAX));
+  };
+  AxisLimits l;
+  l.limit = offset(c.limit);
+  l.rate = std::max(1, offset(c.rate_per_s * period_s));
+  l.soft_rate = std::max(1, std::min(l.rate, offset(c.limit * period_s / ramp_s)));
+  l.hysteresis = offset(c.hysteresis);
+  // seed 001, bad input: a jump beyond v_max·Δt·2
+  l.max_step = to_units(2.0 * c.max_speed_per_s * period_s, position_units);
+  return l;
+}
+
+}  // namespace
+
+OrientingCompensator::Settings compensator_settings(const CorrectionFile& c,
+                                                    const AxisKinds& kinds) {
+  OrientingCompensator::Settings s;
+  const double period = 1.0 / c.tick_hz;
+  for (std::size_t a = 0; a < s.axis.size(); ++a) {
+    const AxisCorrection values =
+        kinds.rotary[a]
+            ? AxisCorrection{c.limit_rad, c.rate_rad_per_s, c.hysteresis_rad, c.max_speed_rad_per_s}
+            : AxisCorrection{c.limit_mm, c.rate_mm_per_s, c.hysteresis_mm, c.max_speed_mm_per_s};
+    s.axis[a] = in_units(values, kinds.rotary[a], period, c.ramp_s);
+  }
+  s.ramp_ticks = static_cast<std::uint32_t>(std::max(1.0, std::round(c.ramp_s * c.tick_hz)));
+  return s;
+}
+
+}  // namespace volcomp::host

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "comp/tick/instances.hpp"
+#include "host_sim/host/machine/axis_kinds.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
+
+namespace volcomp::host {
+
+// Settings of the compensator for a machine file: mm, rad and seconds turned into units and ticks.
+[[nodiscard]] OrientingCompensator::Settings compensator_settings(const CorrectionFile& correction,
+                                                                  const AxisKinds& kinds);
+
+}  // namespace volcomp::host
