@@ -9,6 +9,7 @@
 #   setup       install what is missing
 #   format      clang-format over all C++ files
 #   scripts     shellcheck over the scripts
+#   arrows      includes follow the order of the rooms, without a circle
 #   build       the optimized host build
 #   test        its tests
 #   proofs      no heap, exceptions, globals, recursion ... in the libraries of the target
@@ -30,7 +31,7 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 # shellcheck source=toolchain/common.sh
 . "$script_folder/common.sh"
 
-readonly all_steps=(setup format scripts build test proofs can asan coverage boards evidence tidy loop cppcheck fuzz bench)
+readonly all_steps=(setup format scripts arrows build test proofs can asan coverage boards evidence tidy loop cppcheck fuzz bench)
 readonly quick_steps=(format build test)
 # Emulate one processor most of the time: each runs beside the step after it.
 readonly one_processor_steps=(can evidence loop)
@@ -65,6 +66,12 @@ step_scripts() {
   files+=(toolchain/with-vcan toolchain/vm/init .ci/run)
   shellcheck -x "${files[@]}"
   printf '%s files\n' "${#files[@]}"
+}
+
+step_arrows() {
+  need python3
+  python3 toolchain/arrows.py --self-test
+  python3 toolchain/arrows.py
 }
 
 step_build() {
