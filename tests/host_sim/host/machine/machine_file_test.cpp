@@ -29,7 +29,8 @@ TEST(MachineFile, BundledL300gIsTheMachineOfThePaper) {
   const MachineFile file = read_machine_file(bundled_machine("l300g"));
   MachineChain chain;
   ASSERT_TRUE(
-      MachineChain::build(l300g_machine({173.7135, -39.025 * kPi / 180.0}, {0.0, 168.8053}), chain).ok());
+      MachineChain::build(l300g_machine({173.7135, -39.025 * kPi / 180.0}, {0.0, 168.8053}), chain)
+          .ok());
   EXPECT_TRUE(same_chain(make_runtime_chain(file.chain.description()),
                          make_runtime_chain(chain.description())));
   const Pose q{12.0, 230.0, -0.6, 2.5};
