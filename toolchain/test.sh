@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs every test and check of the project and stops at the first failure.
+# Runs every test and check of the project, goes on after a step that fails, and names all that failed at the end.
 #
 #   toolchain/test.sh               everything
 #   toolchain/test.sh --quick       format, build and tests of the host only
@@ -182,16 +182,19 @@ count_tests() {
 }
 
 finish() {
-  local failed_step=$1 passed failed
+  local step passed failed
   read -r passed failed < <(count_tests)
-  if [ -n "$failed_step" ]; then
-    [ "$failed" -gt 0 ] || failed=1
-    printf '\nThe step "%s" failed; repeat it with toolchain/test.sh --step %s.\n' "$failed_step" "$failed_step"
+  if [ ${#failed_steps[@]} -gt 0 ]; then
+    [ "$failed" -ge ${#failed_steps[@]} ] || failed=${#failed_steps[@]}
+    printf '\n'
+    for step in "${failed_steps[@]}"; do
+      printf 'The step "%s" failed; repeat it with toolchain/test.sh --step %s.\n' "$step" "$step"
+    done
   else
     printf '\nAll steps passed in %s s.\n' "$SECONDS"
   fi
   printf '%s passed, %s failed\n' "$passed" "$failed"
-  [ -z "$failed_step" ]
+  [ ${#failed_steps[@]} -eq 0 ]
 }
 
 steps=()
@@ -223,18 +226,18 @@ run_step() {
   ) 2>&1
   status=$?
   printf '%s: %s s\n' "$1" "$((SECONDS - started))"
-  [ "$status" = 0 ] || failed_step=$1
+  return "$status"
 }
 
 begin_beside() {
   printf 'beside the next step\n'
-  (run_step "$1"; [ -z "$failed_step" ]) > "$logs/step-$1.txt" &
+  run_step "$1" > "$logs/step-$1.txt" &
   beside=$1
 }
 
 end_beside() {
   [ -n "$beside" ] || return 0
-  wait "$!" || failed_step=$beside
+  wait "$!" || failed_steps+=("$beside")
   printf '\n%s, meanwhile:\n' "$beside"
   cat "$logs/step-$beside.txt"
   beside=
@@ -243,7 +246,7 @@ end_beside() {
 mkdir -p "$logs"
 rm -f "$logs"/ctest-*.txt
 set +e
-number=0 failed_step='' beside=''
+number=0 failed_steps=() beside=''
 for step in "${steps[@]}"; do
   number=$((number + 1))
   printf '\n[%s/%s] %s\n' "$number" "${#steps[@]}" "$step"
@@ -252,7 +255,10 @@ for step in "${steps[@]}"; do
     continue
   fi
   run_step "$step"
+  status=$?
+  [ "$status" = 0 ] || failed_steps+=("$step")
   end_beside
-  [ -z "$failed_step" ] || break
+  # Nothing can be judged without what the setup installs.
+  [[ " ${failed_steps[*]} " != *" setup "* ]] || break
 done
-finish "$failed_step"
+finish
