@@ -59,6 +59,10 @@ void SdoClient::aborted(AbortCode code) {
   if (no_blocks && phase_ == Phase::initiate_block_download) return start_download();
   if (no_blocks && phase_ == Phase::initiate_block_upload) return start_upload();
   finish(code, true);
+  // As long as segments may be under way, the server takes a new request for one of them.
+  if (phase_ != Phase::block_download && phase_ != Phase::block_download_end) return;
+  request_ = abort_frame(object_, code);
+  request_waiting_ = true;
 }
 
 void SdoClient::poll(std::uint64_t now_us) {

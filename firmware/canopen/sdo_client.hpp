@@ -41,6 +41,8 @@ class SdoClient {
   void poll(std::uint64_t now_us);
 
   [[nodiscard]] State state() const { return state_; }
+  // The server takes whatever comes for a segment: to be left with cancel() only.
+  [[nodiscard]] bool in_block_download() const { return state_ == State::busy && sends_blocks(); }
   // Why the transfer failed, and who said so.
   [[nodiscard]] AbortCode abort_code() const { return abort_code_; }
   [[nodiscard]] bool aborted_by_server() const { return aborted_by_server_; }
@@ -76,6 +78,10 @@ class SdoClient {
 
   void begin(ObjectId object, std::uint64_t now_us);
   void aborted(AbortCode code);
+  [[nodiscard]] bool sends_blocks() const {
+    return phase_ == Phase::initiate_block_download || phase_ == Phase::block_download ||
+           phase_ == Phase::block_download_end;
+  }
   void confirm_block();
   [[nodiscard]] bool answers(const SdoData& frame, std::uint8_t command);
   [[nodiscard]] bool accept(AbortCode code);

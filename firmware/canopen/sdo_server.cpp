@@ -4,10 +4,15 @@ namespace volcomp::canopen {
 
 void SdoServer::request(const SdoData& frame, std::uint64_t now_us) {
   last_active_us_ = now_us;
-  prompted_ = false;
+  const bool again = frame == last_request_;
+  last_request_ = frame;
   if (frame[0] == kSdoAbort) return reset();
-  // Segments of a block fill the whole first byte: it holds no command then.
-  if (phase_ == Phase::block_download) return block_download_segment(frame);
+  if (phase_ == Phase::block_download_aborted) return;
+  if (in_block_download()) {
+    // CAN may deliver a frame twice, and a second answer would make the client repeat the block.
+    if (!again) block_download_frame(frame);
+    return;
+  }
   switch (command_of(frame)) {
     case ccs::kInitiateDownload:
       return initiate_download(frame);
@@ -45,12 +50,9 @@ void SdoServer::poll(std::uint64_t now_us) {
   const std::uint64_t silence_us = now_us - last_active_us_;
   if (silence_us >= timeout_us_) {
     if (phase_ == Phase::block_download_aborted) return drop();
-    return abort(AbortCode::timeout);
+    last_active_us_ = now_us;
+    abort(AbortCode::timeout);
   }
-  // If the end of a block is lost, both sides wait for each other.
-  if (phase_ != Phase::block_download || prompted_ || silence_us < timeout_us_ / 2) return;
-  prompted_ = true;
-  confirm_block();
 }
 
 void SdoServer::reset() {
@@ -74,6 +76,7 @@ bool SdoServer::open_download(const SdoData& frame, std::optional<std::size_t> a
 void SdoServer::finish_download(const SdoData& response) {
   AbortCode code = receiver_.complete();
   if (code == AbortCode::none) {
+    phase_ = Phase::idle;
     download_open_ = false;
     code = access_.finish_download(object_, receiver_.received());
   }
@@ -139,7 +142,18 @@ void SdoServer::upload_segment(const SdoData& frame) {
 
 void SdoServer::block_download(const SdoData& frame) {
   if ((frame[0] & kSenderSubcommand) == kBlockInitiate) return initiate_block_download(frame);
-  if (!in(Phase::block_download_end)) return;
+  abort(AbortCode::unknown_command);
+}
+
+// Segments fill the whole first byte: it holds no command then.
+void SdoServer::block_download_frame(const SdoData& frame) {
+  if (phase_ == Phase::block_download) return block_download_segment(frame);
+  const bool end =
+      command_of(frame) == ccs::kBlockDownload && (frame[0] & kSenderSubcommand) == kBlockEnd;
+  return end ? end_block_download(frame) : abort(AbortCode::unknown_command);
+}
+
+void SdoServer::end_block_download(const SdoData& frame) {
   const AbortCode code = receiver_.block_end(frame);
   if (code != AbortCode::none) return abort(code);
   finish_download({scs::kBlockDownload | kBlockEnd});
@@ -207,7 +221,7 @@ void SdoServer::block_upload_confirmed(const SdoData& frame) {
 // Whether a request belongs to the transfer that is running; aborts that transfer if not.
 bool SdoServer::in(Phase phase) {
   if (phase_ == phase) return true;
-  if (phase_ != Phase::block_download_aborted) abort(AbortCode::unknown_command);
+  abort(AbortCode::unknown_command);
   return false;
 }
 
@@ -217,10 +231,14 @@ void SdoServer::answer(const SdoData& frame) {
 }
 
 void SdoServer::abort(AbortCode code) {
-  const bool inside_block = phase_ == Phase::block_download;
+  const bool inside_block = in_block_download();
   answer(abort_frame(object_, code));
   drop();
   if (inside_block) phase_ = Phase::block_download_aborted;
+}
+
+bool SdoServer::in_block_download() const {
+  return phase_ == Phase::block_download || phase_ == Phase::block_download_end;
 }
 
 void SdoServer::drop() {

@@ -6,6 +6,11 @@
 //   while (server.response(frame)) send(frame);
 //
 // Incoming bytes go straight into the object's memory, outgoing ones come straight from it.
+//
+// A segment of a block has its number in the first byte and can look like any request but the abort
+// 80h (CiA 301, section 7.2.4.3). After a block download has failed, segments that are still under
+// way must not be executed: until the client aborts, too, or is silent for the timeout, everything
+// is dropped.
 
 #include "firmware/canopen/sdo_transfer.hpp"
 
@@ -16,12 +21,11 @@ class SdoServer {
   // `access` must outlive the server.
   explicit SdoServer(ObjectAccess& access) : access_(access) {}
 
-  // A transfer without a request for that long is aborted. After half of it in the middle of a
-  // block download the client is told what has arrived, once, in case the end of the block was
-  // lost.
+  // A transfer without a request for that long is aborted.
   void set_timeout_us(std::uint64_t timeout_us) { timeout_us_ = timeout_us; }
 
-  // One frame from the client. An initiate request in the middle of a transfer drops that transfer.
+  // One frame from the client. An initiate request in the middle of a transfer drops that transfer,
+  // unless it is a block download.
   void request(const SdoData& frame, std::uint64_t now_us);
   // The next frame to send, false when there is none: one per request, up to 127 segments after the
   // request for a block, made when they are asked for.
@@ -38,7 +42,7 @@ class SdoServer {
     upload,
     block_download,
     block_download_end,
-    block_download_aborted,  // segments that were under way when the transfer failed still arrive
+    block_download_aborted,  // segments that were under way when it failed may still arrive
     block_upload_start,
     block_upload,
     block_upload_end,
@@ -51,7 +55,9 @@ class SdoServer {
   void answer_upload();
   void block_download(const SdoData& frame);
   void initiate_block_download(const SdoData& frame);
+  void block_download_frame(const SdoData& frame);
   void block_download_segment(const SdoData& frame);
+  void end_block_download(const SdoData& frame);
   void confirm_block();
   void block_upload(const SdoData& frame);
   void initiate_block_upload(const SdoData& frame);
@@ -63,6 +69,7 @@ class SdoServer {
   void finish_download(const SdoData& response);
   void answer(const SdoData& frame);
   void abort(AbortCode code);
+  [[nodiscard]] bool in_block_download() const;
   void drop();
 
   ObjectAccess& access_;
@@ -70,6 +77,7 @@ class SdoServer {
   SdoReceiver receiver_;
   ObjectId object_{};
   SdoData response_{};
+  SdoData last_request_{};
   std::uint64_t timeout_us_ = kSdoTimeout_us;
   std::uint64_t last_active_us_ = 0;
   Phase phase_ = Phase::idle;
@@ -77,7 +85,6 @@ class SdoServer {
   bool response_waiting_ = false;
   bool download_open_ = false;  // begun at the ObjectAccess, neither finished nor abandoned
   bool sending_ = false;        // block segments left since the last poll
-  bool prompted_ = false;       // the client, since its last request
 };
 
 }  // namespace volcomp::canopen

@@ -18,12 +18,20 @@ void SdoChannel::read(canopen::ObjectId object, std::size_t most, std::string wh
 
 void SdoChannel::clear() {
   jobs_.clear();
-  client_.cancel(canopen::AbortCode::general);
+  if (client_.in_block_download()) client_.cancel(canopen::AbortCode::general);
+  keep_last_word();
   client_ = {};
-  started_ = outgoing_ = false;
+  started_ = false;
   failure_.clear();
   abort_code_ = canopen::AbortCode::none;
   refused_ = false;
+}
+
+// An abort leaves before the next transfer begins; a server in a block download waits for it.
+void SdoChannel::keep_last_word() {
+  const bool waits = outgoing_ && request_[0] == canopen::kSdoAbort;
+  const bool ended = client_.state() == SdoClient::State::failed;
+  outgoing_ = (ended && client_.request(request_)) || waits;
 }
 
 void SdoChannel::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
@@ -56,6 +64,7 @@ void SdoChannel::advance(std::uint64_t now_us) {
                            static_cast<std::uint32_t>(abort_code_));
     jobs_.clear();
     started_ = false;
+    keep_last_word();
   }
   if (started_ || jobs_.empty()) return;
   started_ = true;

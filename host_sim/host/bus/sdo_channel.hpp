@@ -40,7 +40,7 @@ class SdoChannel {
   [[nodiscard]] bool refused() const { return refused_; }
   // Whose transfer the last failure was.
   [[nodiscard]] canopen::ObjectId failed() const { return failed_; }
-  // Forgets everything queued and any failure.
+  // Forgets everything queued and any failure; a block download that is running is aborted.
   void clear();
 
   // Bytes of the running transfer so far.
@@ -61,6 +61,7 @@ class SdoChannel {
     OnRead read;
   };
   void advance(std::uint64_t now_us);
+  void keep_last_word();
 
   std::uint8_t node_;
   canopen::SdoClient client_;

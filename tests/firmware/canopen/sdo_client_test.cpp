@@ -107,6 +107,26 @@ TEST_F(SdoClientFrames, BlockDownloadToAServerWithoutCrcInBlocksOfOne) {
   EXPECT_THAT(after({0xA2, 1, 1}), ElementsAre(SdoData{0xD5}));
 }
 
+// Until it hears an abort, a server drops what may be segments that are still under way.
+TEST_F(SdoClientFrames, AbortByTheServerInsideABlockIsAnsweredWithAnAbort) {
+  const SdoData too_long{0x80, 0x10, 0x21, 0x01, 0x12, 0x00, 0x07, 0x06};
+  client.set_block_threshold(5);
+  download(bytes_of("123456789"));
+  requests();
+  EXPECT_THAT(after(too_long), IsEmpty()) << "no segment has been sent";
+  download(bytes_of("123456789"));
+  requests();
+  after({0xA4, 0x10, 0x21, 0x01, 127});
+  EXPECT_THAT(after(too_long), ElementsAre(too_long));
+  expect_failed(AbortCode::too_long, true);
+  download(bytes_of("123456789"));
+  requests();
+  after({0xA4, 0x10, 0x21, 0x01, 127});
+  after({0xA2, 2, 127});
+  EXPECT_THAT(after(too_long), ElementsAre(too_long));
+  expect_failed(AbortCode::too_long, true);
+}
+
 TEST_F(SdoClientFrames, BlockUpload) {
   upload(64);
   EXPECT_THAT(requests(), ElementsAre(SdoData{0xA4, 0x10, 0x21, 0x01, 127, 63}));

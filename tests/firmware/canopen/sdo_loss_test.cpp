@@ -9,12 +9,15 @@ namespace {
 
 // Loses block segments and nothing else. Which frames are segments follows from the conversation:
 // all between the confirmation that opens a block and the one that closes it. A block that follows
-// one whose end was lost arrives undisturbed: two silences running are a dead line.
+// one whose end was lost, or of which nothing was taken, arrives undisturbed: two silences running
+// are a dead line, and the same end twice in a row is one frame doubled.
 class SegmentLoss {
  public:
   SegmentLoss(unsigned seed, double probability, std::size_t size)
       : random_(seed), lost_(probability), left_((size + 6) / 7) {}
 
+  // A segment that does not end its block.
+  static bool inside(const SdoData& frame) { return frame[0] < kMostBlockSegments; }
   // A frame of the side that sends the data.
   bool data_side(const SdoData&) {
     end_lost_ = in_block_ && !spared_ && left_ != 0 && lost_(random_);
@@ -25,7 +28,7 @@ class SegmentLoss {
     if (frame[0] == opening) in_block_ = true;
     if (frame[0] != 0xA2) return false;
     left_ -= frame[1];
-    spared_ = end_lost_;
+    spared_ = end_lost_ || frame[1] == 0;
     return false;
   }
 
@@ -56,7 +59,10 @@ TEST_P(SdoLoss, DownloadArrivesWhole) {
     objects.add(kObject, value.size());
     SegmentLoss loss(seed, GetParam(), value.size());
     Line line{client, server};
-    line.lose_request = [&](const SdoData& frame) { return loss.data_side(frame); };
+    // The end of a block that is lost ends the transfer.
+    line.lose_request = [&](const SdoData& frame) {
+      return SegmentLoss::inside(frame) && loss.data_side(frame);
+    };
     line.lose_response = [&](const SdoData& frame) { return loss.receiving_side(frame, 0xA4); };
     client.download(kObject, {value.data(), value.size()}, 0);
     line.run();

@@ -77,19 +77,19 @@ TEST_F(SdoServerBlocks, DownloadOfNothing) {
   EXPECT_TRUE(object.value.empty());
 }
 
-TEST_F(SdoServerBlocks, LostEndOfABlockIsConfirmedOnceAfterHalfTheTimeout) {
+// A confirmation nobody asked for would make a client with a queue send the same segments twice.
+TEST_F(SdoServerBlocks, LostEndOfABlockEndsTheTransferInTime) {
   objects.add(kObject, 9);
   ask(server, {0xC6, 0x10, 0x21, 0x01, 9}, 0);
   ask(server, kFirst, 1'000);
-  server.poll(500'999);
-  EXPECT_THAT(responses(server), IsEmpty());
-  server.poll(501'000);
-  EXPECT_THAT(responses(server), ElementsAre(SdoData{0xA2, 1, 127}));
-  server.poll(1'000'999);
-  EXPECT_THAT(responses(server), IsEmpty());
+  for (const std::uint64_t now_us : {501'000U, 999'000U, 1'000'999U}) {
+    server.poll(now_us);
+    EXPECT_THAT(responses(server), IsEmpty());
+  }
   server.poll(1'001'000);
   EXPECT_THAT(responses(server),
               ElementsAre(SdoData{0x80, 0x10, 0x21, 0x01, 0x00, 0x00, 0x04, 0x05}));
+  EXPECT_EQ(objects.abandoned(), 1);
 }
 
 TEST_F(SdoServerBlocks, UploadWithCrc) {
