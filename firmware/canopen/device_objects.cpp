@@ -110,12 +110,13 @@ AbortCode Device::check_communication(ObjectId object, Span<const std::uint8_t> 
   }
   if (object.index == 0x1019) {
     if (value == 1) return AbortCode::invalid_value;
-    if (values_.cycle_period_us != 0 && state_ == NmtState::operational)
-      return AbortCode::device_state;
+    // CiA 301, 7.5.2.22. Stored values come back in the order of their indices.
+    if (values_.cycle_period_us != 0 && state_ != NmtState::boot_up) return AbortCode::device_state;
   }
   if (object.index == 0x1016 && (value & 0xFFFFU) != 0) {
     const std::uint64_t node = value >> 16U;
-    if (node == 0 || node == node_id_) return AbortCode::invalid_value;
+    if (node == 0) return AbortCode::none;  // CiA 301, 7.5.2.17: not used
+    if (node == node_id_) return AbortCode::invalid_value;
     for (std::size_t i = 0; i < kHeartbeatConsumers; ++i) {
       const std::uint32_t other = values_.consumer_heartbeat[i];
       const bool same = (other >> 16U) == node && (other & 0xFFFFU) != 0;

@@ -115,6 +115,13 @@ TEST_F(HeartbeatConsumption, NodesBeyond127AreRefused) {
   EXPECT_EQ(write({0x1016, 1}, 0x0080'0064, 4), AbortCode::value_too_high);
 }
 
+// CiA 301, 7.5.2.17: such an entry is not used.
+TEST_F(HeartbeatConsumption, EntriesOfNode0AreNotUsed) {
+  EXPECT_EQ(write({0x1016, 1}, 0x0000'0064, 4), AbortCode::none);
+  EXPECT_EQ(write({0x1016, 3}, 0x0000'0064, 4), AbortCode::none) << "no second one of a node";
+  EXPECT_THAT(sent_after_ms(1000), IsEmpty());
+}
+
 // CiA 301, 7.5.2.17: of others.
 TEST_F(HeartbeatConsumption, ADeviceDoesNotWatchItself) {
   EXPECT_EQ(write({0x1016, 1}, (std::uint32_t{kNode} << 16U) + 100U, 4), AbortCode::invalid_value);

@@ -252,10 +252,22 @@ TEST_F(SyncOfDevice, ReservedOverflowsAreRefused) {
   EXPECT_EQ(write({0x1019, 0}, 240, 1), AbortCode::none);
 }
 
-TEST_F(SyncOfDevice, OverflowIsFixedWhileACycleRuns) {
+// CiA 301, 7.5.2.22: 0800 0022h, in every state.
+TEST_F(SyncOfDevice, OverflowIsFixedWhileThereIsACyclePeriod) {
   ASSERT_EQ(write({0x1006, 0}, 4000, 4), AbortCode::none);
+  EXPECT_EQ(write({0x1019, 0}, 240, 1), AbortCode::device_state) << "PRE-OPERATIONAL";
   start();
   EXPECT_EQ(write({0x1019, 0}, 240, 1), AbortCode::device_state);
+  EXPECT_EQ(static_cast<std::uint32_t>(AbortCode::device_state), 0x0800'0022U);
+  ASSERT_EQ(write({0x1006, 0}, 0, 4), AbortCode::none);
+  EXPECT_EQ(write({0x1019, 0}, 240, 1), AbortCode::none);
+}
+
+// CiA 301, table 40; 081h is EMCY of node 1.
+TEST_F(SyncOfDevice, RestrictedIdentifiersAreRefused) {
+  for (const std::uint32_t id :
+       {0x000U, 0x07FU, 0x081U, 0x0FFU, 0x101U, 0x180U, 0x581U, 0x67FU, 0x6E0U, 0x701U, 0x7FFU})
+    EXPECT_EQ(write({0x1005, 0}, id, 4), AbortCode::invalid_value) << std::hex << id;
 }
 
 }  // namespace

@@ -153,6 +153,7 @@ std::string NodeBench::text(std::uint16_t index, std::uint8_t sub) {
 // --- life
 
 void NodeBench::configure() {
+  EXPECT_EQ(set<std::uint32_t>(0x1006, 0, 0), canopen::AbortCode::none);
   EXPECT_EQ(set<std::uint8_t>(0x1019, 0, 240), canopen::AbortCode::none);
   BenchDevice::configure(kPeriod_us);
 }
