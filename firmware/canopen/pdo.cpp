@@ -171,6 +171,12 @@ AbortCode PdoTable::write_mapping(const Place& place, std::uint8_t sub, std::uin
   PdoParameters p = place.pdo->parameters();
   if (sub > kMostMapped) return AbortCode::no_subindex;
   if (place.pdo->valid()) return AbortCode::unsupported_access;
+  // What only the application sends is what it has judged. Tools may write the same again, count 0
+  // first; the mapping stays as it is.
+  if (place.kind == PdoKind::transmit && place.pdo < transmit_.begin() + timed_) {
+    const bool same = sub == 0 ? value == 0 || value == p.count : value == p.mapping[sub - 1U];
+    return same ? AbortCode::none : AbortCode::not_mappable;
+  }
   if (sub == 0) {
     if (value > kMostMapped) return AbortCode::mapping_too_long;
     p.count = static_cast<std::uint8_t>(value);

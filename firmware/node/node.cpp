@@ -22,10 +22,11 @@ constexpr canopen::ObjectId kStrokes{0x2500, 1};
 constexpr canopen::ObjectId kLearn{0x2520, 1};
 constexpr canopen::ObjectId kLearnedImage{0x2526, 1};
 
-// What the cycle relies on may change only while there is no cycle.
+// What the cycle and its supervision rely on may change only while there is no cycle.
 bool is_setting(std::uint16_t index) {
-  return index == 0x2000 || index == 0x2010 || (index >= 0x2030 && index <= 0x2033) ||
-         (index >= 0x2200 && index <= 0x2205) ||
+  return (index >= 0x1005 && index <= 0x1007) || index == 0x1016 || index == 0x1017 ||
+         index == 0x1019 || index == 0x1029 || index == 0x2000 || index == 0x2010 ||
+         (index >= 0x2030 && index <= 0x2033) || (index >= 0x2200 && index <= 0x2205) ||
          (kWatchesStrokes && index >= 0x2500 && index <= 0x2505);
 }
 

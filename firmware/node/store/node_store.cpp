@@ -182,8 +182,13 @@ void Node::apply_pdo(std::uint16_t index, Span<const std::uint8_t> value) {
   const std::size_t number = index & 0x1FFU;
   if (number >= (receive ? kReceivePdos : kTransmitPdos)) return;
   Pdo& pdo = receive ? receive_[number] : transmit_[number];
-  static_cast<void>(pdo.configure(
-      unpack(value.data()), receive ? PdoKind::receive : PdoKind::transmit, device_.objects()));
+  PdoParameters p = unpack(value.data());
+  if (!receive && number < kStatusPdo) {  // of an offset: the mapping is constant
+    p.count = pdo.parameters().count;
+    p.mapping = pdo.parameters().mapping;
+  }
+  static_cast<void>(
+      pdo.configure(p, receive ? PdoKind::receive : PdoKind::transmit, device_.objects()));
 }
 
 // The application area brings the tables along: validated, armed and active before the first cycle.

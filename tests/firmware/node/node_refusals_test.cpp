@@ -270,6 +270,45 @@ TEST(NodeCommands, OffsetsAreSentByTheCycleAlone) {
   EXPECT_EQ(bench.set<std::uint16_t>(status, 5, 100), AbortCode::none);
 }
 
+// A drive takes whatever arrives in its 60B0h: a checksum in its place is a step of any size.
+TEST(NodeCommands, MappingOfTheOffsetsIsConstant) {
+  NodeBench bench;
+  bench.configure();
+  for (std::uint8_t a = 0; a < 3; ++a) {
+    const auto communication = static_cast<std::uint16_t>(0x1800 + a);
+    const auto mapping = static_cast<std::uint16_t>(0x1A00 + a);
+    const std::uint64_t cob_id = bench.number(communication, 1);
+    const std::uint32_t offset = 0x2020'0020U | (a + 1U) << 8U;
+    ASSERT_EQ(bench.set<std::uint32_t>(communication, 1,
+                                       static_cast<std::uint32_t>(cob_id | 0x8000'0000U)),
+              AbortCode::none);
+    EXPECT_EQ(bench.set<std::uint8_t>(mapping, 0, 0), AbortCode::none);
+    EXPECT_EQ(bench.set<std::uint32_t>(mapping, 1, 0x2112'0720), AbortCode::not_mappable);
+    EXPECT_EQ(bench.set<std::uint32_t>(mapping, 1, 0), AbortCode::not_mappable);
+    EXPECT_EQ(bench.set<std::uint32_t>(mapping, 2, 0x2600'0108), AbortCode::not_mappable);
+    EXPECT_EQ(bench.set<std::uint8_t>(mapping, 0, 2), AbortCode::not_mappable);
+    EXPECT_EQ(bench.set<std::uint32_t>(mapping, 1, offset), AbortCode::none);
+    EXPECT_EQ(bench.set<std::uint8_t>(mapping, 0, 1), AbortCode::none);
+    EXPECT_EQ(bench.number(mapping, 0), 1U);
+    EXPECT_EQ(bench.number(mapping, 1), offset);
+  }
+}
+
+TEST(NodeCommands, CycleAndSupervisionAreFixedInOperation) {
+  NodeBench bench;
+  bench.bring_up();
+  EXPECT_EQ(bench.set<std::uint32_t>(0x1005, 0, 0x4000'0080), AbortCode::device_state);
+  EXPECT_EQ(bench.set<std::uint32_t>(0x1006, 0, 0), AbortCode::device_state);
+  EXPECT_EQ(bench.set<std::uint32_t>(0x1007, 0, 1), AbortCode::device_state);
+  EXPECT_EQ(bench.set<std::uint32_t>(0x1016, 1, 127U << 16U | 50U), AbortCode::device_state);
+  EXPECT_EQ(bench.set<std::uint16_t>(0x1017, 0, 0), AbortCode::device_state);
+  EXPECT_EQ(bench.set<std::uint8_t>(0x1029, 1, 1), AbortCode::device_state);
+  bench.nmt(NmtCommand::enter_pre_operational);
+  EXPECT_EQ(bench.set<std::uint32_t>(0x1006, 0, 4000), AbortCode::none);
+  EXPECT_EQ(bench.set<std::uint16_t>(0x1017, 0, 200), AbortCode::none);
+  EXPECT_EQ(bench.set<std::uint8_t>(0x1029, 1, 1), AbortCode::none);
+}
+
 TEST(NodeCommands, ASlewLimitBelowAUnitOfTheDriveIsRefused) {
   NodeBench bench;
   bench.configure();

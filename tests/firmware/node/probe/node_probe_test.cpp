@@ -232,6 +232,7 @@ TEST_F(NodeProbe, BadSettingsLeaveTheGoodOnes) {
 TEST_F(NodeProbe, WithoutACyclePeriodItIsNotSwitchedOn) {
   start();
   const std::uint64_t period_us = bench.number(0x1006, 0);
+  bench.nmt(canopen::NmtCommand::enter_pre_operational);
   ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, 0), AbortCode::none);
   EXPECT_EQ(switch_on(), AbortCode::invalid_value);
   EXPECT_EQ(bench.number(0x2300, 5), static_cast<std::uint64_t>(Reason::bad_setting));

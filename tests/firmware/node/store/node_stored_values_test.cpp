@@ -80,6 +80,29 @@ TEST_F(StoredValues, APdoOfOnesOwnComesBackWhole) {
   EXPECT_EQ(bench.number(kStatusMapping, 1), mapped);
 }
 
+// Of a version that let it be changed.
+TEST_F(StoredValues, AnotherMappingOfAnOffsetIsLeftOut) {
+  ASSERT_EQ(bench.set<std::uint8_t>(0x2010, 1, 1), AbortCode::none);
+  ASSERT_EQ(bench.set<std::uint8_t>(0x1800, 2, 255), AbortCode::none);
+  save();
+  ASSERT_EQ(kept.value_of(0x1800, kWholePdo), 0x01);
+  std::uint8_t* const mapping = &kept.value_of(0x1800, kWholePdo) + 10;
+  canopen::store_le(mapping, 4, 0x2112'0720);
+  bench.power_on();
+  EXPECT_EQ(bench.number(0x1800, 2), 255U);
+  EXPECT_EQ(bench.number(0x1A00, 1), 0x2020'0120U);
+}
+
+// 1006h is applied before 1019h.
+TEST_F(StoredValues, TheOverflowOfTheCounterComesBackBesideACyclePeriod) {
+  ASSERT_EQ(bench.set<std::uint8_t>(0x1019, 0, 100), AbortCode::none);
+  ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, 4000), AbortCode::none);
+  save();
+  bench.power_on();
+  EXPECT_EQ(bench.number(0x1019, 0), 100U);
+  EXPECT_EQ(bench.number(0x1006, 0), 4000U);
+}
+
 TEST_F(StoredValues, PdosThisVersionDoesNotHaveAreLeftOut) {
   const std::uint64_t type = bench.number(0x1400, 2);
   const std::uint64_t timer = bench.number(0x1800, 5);
