@@ -1,8 +1,11 @@
 #include "comp/machine/machine_chain.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/LU>
+
+#include "comp/machine/machine_limits.hpp"
 
 namespace volcomp {
 namespace {
@@ -12,13 +15,16 @@ Status check_joint(const Body& body, const Where& where) {
   if (static_cast<int>(joint.axis) > 2 || (joint.sign != 1 && joint.sign != -1)) {
     return refuse(Reason::bad_joint, where);
   }
-  const Frame offset = joint_offset(joint);
-  if (!offset.t.allFinite() || !offset.R.allFinite()) return refuse(Reason::not_finite, where);
-  if (!is_rotation(offset.R)) return refuse(Reason::not_a_rotation, where);
-  for (const double value : body.constant_error) {
-    if (!std::isfinite(value)) return refuse(Reason::not_finite, where);
-  }
-  return {};
+  // An entry of a rotation is a cosine; what is not one is told from a number that is none.
+  constexpr double kAnyNumber = std::numeric_limits<double>::max();
+  Reason reason = check_numbers(joint.offset.data(), joint.offset.size(), kMaxOffset_mm);
+  if (reason == Reason::ok)
+    reason = check_numbers(joint.orientation.data(), joint.orientation.size(), kAnyNumber);
+  if (reason == Reason::ok && !is_rotation(joint_offset(joint).R)) reason = Reason::not_a_rotation;
+  const double* const error = body.constant_error.data();
+  if (reason == Reason::ok) reason = check_numbers(error, 3, kMaxConstantError_mm);
+  if (reason == Reason::ok) reason = check_numbers(error + 3, 3, kMaxConstantError_rad);
+  return reason == Reason::ok ? Status{} : refuse(reason, where);
 }
 
 // The work and tool body exist and the lower-body array is one tree.
@@ -85,10 +91,24 @@ Status check_description(const MachineDescription& d) {
   std::size_t axes = 0;
   if (const Status s = check_bodies(d); !s.ok()) return s;
   if (const Status s = check_joints(d, axes); !s.ok()) return s;
+  const Reason tool = check_numbers(d.tool_point.data(), d.tool_point.size(), kMaxOffset_mm);
+  if (tool != Reason::ok) {
+    Where where;
+    where.field = "tool_point";
+    return refuse(tool, where);
+  }
   return check_correcting(d, axes);
 }
 
 }  // namespace
+
+Reason check_numbers(const double* number, std::size_t count, double most) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(std::abs(number[i]) <= most))
+      return std::isfinite(number[i]) ? Reason::bound_exceeded : Reason::not_finite;
+  }
+  return Reason::ok;
+}
 
 ErrorSet zero_errors() {
   ErrorSet errors;

@@ -1,9 +1,8 @@
 // The reading half: what a node does with an image. Nothing is copied but the machine description.
 
-#include <cmath>
-
 #include "comp/core/crc32.hpp"
 #include "comp/core/little_endian.hpp"
+#include "comp/machine/machine_limits.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/image_layout.hpp"
 #include "comp/tables/thermal_check.hpp"
@@ -122,7 +121,8 @@ Status check_axis(Bytes image, std::size_t capacity, std::size_t axis, std::size
   if (const Status s = check_knots(grid, joint, capacity); !s.ok()) return s;
   Where where;
   where.axis = joint.letter;
-  if (!direction.allFinite()) return refuse(Reason::not_finite, where);
+  const Reason straight = check_numbers(direction.data(), 3, kMaxDirection_rad);
+  if (straight != Reason::ok) return refuse(straight, where);
   if (!usable(expansion, joint)) return refuse(Reason::bad_thermal, where);
   const std::size_t size =
       axis_bytes(grid.knots);  // its own CRC is covered by the one of the whole
@@ -151,9 +151,6 @@ Status read_machine(Span<const std::uint8_t> image, MachineDescription& out) {
   r.f64s(out.tool_point);
   for (std::size_t k = 0; k < bodies; ++k) {
     if (const Status s = read_body(r, static_cast<int>(k) + 1, out.body[k]); !s.ok()) return s;
-  }
-  for (const double value : out.tool_point) {
-    if (!std::isfinite(value)) return refuse_whole(Reason::not_finite);
   }
   return {};
 }

@@ -7,6 +7,7 @@
 
 #include "comp/core/units.hpp"
 #include "comp/machine/inverse.hpp"
+#include "comp/machine/machine_limits.hpp"
 
 namespace volcomp {
 namespace {
@@ -299,7 +300,8 @@ Status fold_axis(const TablesView& tables, std::size_t axis, const RuntimeChain&
   where.axis = joint.letter;
   if (const Status s = check_knots(table.grid(), joint, set.knots); !s.ok()) return s;
   if (const Status s = check_values(table, joint); !s.ok()) return s;
-  if (!tables.directions[axis].allFinite()) return refuse(Reason::not_finite, where);
+  const Reason straight = check_numbers(tables.directions[axis].data(), 3, kMaxDirection_rad);
+  if (straight != Reason::ok) return refuse(straight, where);
   set.lookup[axis] = make_lookup(table.grid(), runtime.kind[axis] == JointKind::rotary);
   if (runtime.folded) {
     fold_linear_axis(tables, axis, tool_point, set);
@@ -317,7 +319,12 @@ Status fold_tables(const TablesView& tables, const RuntimeChain& runtime, const 
   if (chain.axis_count() != runtime.axes || chain.axis_count() > set.axes)
     return refuse(Reason::axes_mismatch);
   if (!runs_on(runtime, chain.description())) return refuse(Reason::machine_mismatch);
-  if (!tool_point.allFinite()) return refuse(Reason::not_finite);
+  const Reason tool = check_numbers(tool_point.data(), 3, kMaxOffset_mm);
+  if (tool != Reason::ok) {
+    Where where;
+    where.field = "tool_point";
+    return refuse(tool, where);
+  }
 
   *set.tool_nm = to_float(kNmPerMm * tool_point);
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {

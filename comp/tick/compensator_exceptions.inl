@@ -126,6 +126,11 @@ template <class Machine, std::size_t Knots>
 [[gnu::noinline]] void Compensator<Machine, Knots>::put_out_unusual(AxisState& s, float excess,
                                                                     float ramp,
                                                                     std::uint32_t& status) {
+  // What is not a number corrects nothing: clamped to 0.
+  if (VOLCOMP_RARELY(__builtin_isnan(excess))) {
+    excess = 0.0F;
+    status |= kClamped;
+  }
   const bool off = (status & (kNotHomed | kDropped | kNoTables)) != 0;
   const bool held = !off && (status & (kStale | kNoAuthority)) != 0;
   bool hit = false;

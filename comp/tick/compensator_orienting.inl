@@ -58,9 +58,10 @@ template <class Machine, std::size_t Knots>
     for (std::size_t o = 0; o < machine_.chain.orienting_count; ++o) {
       const TurnRange& range = work.turns.range[o];
       const float wanted = excess[o] * kTurnsPerRad;
-      const float taken = wanted < range.low    ? range.low
-                          : wanted > range.high ? range.high
-                                                : wanted;
+      // NaN, too, turns no further than the range.
+      const float taken = wanted > range.high   ? range.high
+                          : wanted >= range.low ? wanted
+                                                : range.low;
       work.turns.excess[o] = wanted;
       t.turn_back(o, taken / kTurnsPerRad, error_nm);
     }

@@ -33,8 +33,8 @@ struct Limiter {
       hit = wanted > hi + kDeadZone;
       return hi;
     }
-    if (wanted < lo) {
-      hit = wanted < lo - kDeadZone;
+    if (!(wanted >= lo)) {  // NaN, too: what fails every comparison must not pass
+      hit = !(wanted >= lo - kDeadZone);
       return lo;
     }
     return wanted;

@@ -1,17 +1,19 @@
 // Any bytes as a table image: once as they are, once with length and checksum repaired so that the
-// checks behind them are reached. What is accepted must survive a round trip and must be safe to
-// stage and to run: no output beyond its limit, none faster than its rate.
+// checks behind them are reached. Numbers are mutated as numbers. What is accepted must survive a
+// round trip and must be safe to stage and to run: no output beyond its limit, none faster than its
+// rate.
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <random>
 #include <vector>
 
-#include "comp/core/crc32.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tick/instances.hpp"
+#include "tests/oracle/hostile_image.hpp"
 
 namespace volcomp {
 namespace {
@@ -22,16 +24,7 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-void write_u32(Bytes& bytes, std::size_t at, std::uint32_t value) {
-  for (unsigned i = 0; i < 4; ++i)
-    bytes[at + i] = static_cast<std::uint8_t>(value >> (8U * i));
-}
-
-void repair(Bytes& bytes) {
-  if (bytes.size() < 16) return;
-  write_u32(bytes, 8, static_cast<std::uint32_t>(bytes.size()));
-  write_u32(bytes, bytes.size() - 4, crc32({bytes.data(), bytes.size() - 4}));
-}
+void repair(Bytes& bytes) { test::HostileImage(bytes.data(), bytes.size()).repair(); }
 
 void round_trip(const MachineTables& tables) {
   Bytes once(image_size(tables));
@@ -106,4 +99,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   volcomp::repair(bytes);
   volcomp::decode_and_use(bytes);
   return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed);
+
+// Bytes as bytes every fourth time, else numbers as numbers with the checksums repaired.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+  if (seed % 4 == 0) return LLVMFuzzerMutate(data, size, most);
+  std::mt19937_64 bits(seed);
+  volcomp::test::HostileImage(data, size).mutate(bits);
+  return size;
 }

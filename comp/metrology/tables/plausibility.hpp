@@ -4,11 +4,9 @@
 #include <array>
 
 #include "comp/core/status.hpp"
+#include "comp/machine/machine_limits.hpp"
 
 namespace volcomp {
-
-inline constexpr double kMaxSquareness_rad = 5e-3;
-inline constexpr double kMaxOffset_mm = 5000.0;
 
 // Squareness parameters: finite and at most 5 mrad, else not_finite or unit_suspected (arc seconds)
 // with where.field = `field` and where.index.

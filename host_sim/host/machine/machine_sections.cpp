@@ -50,8 +50,8 @@ SquarenessFile read_squareness(const TomlSection& s) {
 
 ErrorMotion read_error(const TomlSection& s, const std::string& key) {
   // Beyond this it is a wrong unit.
-  constexpr double kMost_mm = 1.0;
-  constexpr double kMost_rad = 5e-3;
+  constexpr double kMost_mm = kMaxConstantError_mm;
+  constexpr double kMost_rad = kMaxConstantError_rad;
   const auto values = s.numbers<6>(key);
   ErrorMotion error;
   for (std::size_t c = 0; c < 6; ++c) {
