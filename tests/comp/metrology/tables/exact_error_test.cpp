@@ -146,6 +146,18 @@ TEST(ExactError, OrientationIsTheMatrixLogarithmOfTheRelativeRotation) {
   }
 }
 
+// A rotation vector, not the sine of its angle: at 6 mrad they are 4e-8 rad apart.
+TEST(ExactError, OrientationOfLargeErrorsIsARotationVectorToo) {
+  Random random;
+  for (int i = 0; i < 100; ++i) {
+    const Situation s = situation(random, 0.05, 6e-3);
+    for (const RotationModel model : {RotationModel::rxryrz, RotationModel::exponential}) {
+      const Truth want = truth(s.machine, s.q, s.errors, s.C, model);
+      ASSERT_LE((evaluate(s, model).orientation_work - logarithm(want.turn)).norm(), 1e-12);
+    }
+  }
+}
+
 // First order, any chain: halving all errors quarters the distance to the exact value.
 TEST(FirstOrder, DistanceToTheExactErrorIsOfSecondOrder) {
   Random random;
