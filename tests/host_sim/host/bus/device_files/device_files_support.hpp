@@ -37,6 +37,9 @@ struct EdsEntry {
   [[nodiscard]] std::string access() const { return keys.at("AccessType"); }
   [[nodiscard]] bool is_string() const { return number("DataType") == 0x0009; }
   [[nodiscard]] bool is_domain() const { return number("DataType") == 0x000F; }
+  [[nodiscard]] bool is_real() const {
+    return number("DataType") == 0x0008 || number("DataType") == 0x0011;
+  }
   // Bytes of a value of this type (CiA 301, table 44); 0: varies.
   [[nodiscard]] std::size_t bytes() const;
   // The default of a node with this id, as it goes over the bus.
