@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "host_sim/cli/commands.hpp"
@@ -35,6 +34,12 @@ void refuse_empty_values(CLI::App& app) {
         commands[i]->get_subcommands([](CLI::App*) { return true; });
     commands.insert(commands.end(), below.begin(), below.end());
   }
+}
+
+// Nothing may be thrown here, not even where standard error takes nothing.
+void complain(const std::string& what) {
+  const std::string line = "volcomp: " + what + standing_results() + '\n';
+  static_cast<void>(std::fputs(line.c_str(), stderr));
 }
 
 int run(int argc, char** argv) {
@@ -82,9 +87,9 @@ int main(int argc, char** argv) {
   } catch (const volcomp::host::Interrupted& interrupted) {
     static_cast<void>(std::raise(interrupted.signal));  // whoever waits for us shall see why
   } catch (const std::exception& e) {
-    fmt::print(stderr, "volcomp: {}\n", e.what());
+    volcomp::cli::complain(e.what());
   } catch (...) {
-    fmt::print(stderr, "volcomp: unknown error\n");
+    volcomp::cli::complain("unknown error");
   }
   return volcomp::cli::number(volcomp::cli::ExitCode::unusable);
 }

@@ -40,6 +40,11 @@ bool is_in_folder(const std::string& name, const std::string& folder) {
   return place_of(name).parent_path() == place_of(in_it).parent_path();
 }
 
+std::vector<std::string>& in_place() {
+  static std::vector<std::string> names;
+  return names;
+}
+
 }  // namespace
 
 std::string shown_output(const std::string& path) {
@@ -108,6 +113,12 @@ void Results::write() {
     finish_standard_output();
   }
   files_.put_in_place();
+  in_place().insert(in_place().end(), files_announced_.begin(), files_announced_.end());
+}
+
+std::string standing_results() {
+  if (in_place().empty()) return "";
+  return fmt::format("; the results stand: {}", fmt::join(in_place(), ", "));
 }
 
 void finish_standard_output() {

@@ -54,6 +54,9 @@ class Results {
   host::WholeFiles files_;
 };
 
+// For what goes wrong after it: that the results are in their places all the same, or nothing.
+[[nodiscard]] std::string standing_results();
+
 // Throws UserError when what was printed has not arrived, a full disk for instance.
 void finish_standard_output();
 

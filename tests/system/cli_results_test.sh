@@ -165,6 +165,32 @@ wait "$run"
 holds 'a run without a bus ends by the signal' test "$?" = 143
 holds 'an interrupted run leaves no temporary folder' rmdir tmp
 
+# --- nobody reads: a signal ends the command, and no draft is left
+"${build[@]}" --out t.vct --json - >words.txt 2>&1
+mkfifo unread
+exec 8<>unread
+dd if=/dev/zero of=unread bs=4096 oflag=nonblock status=none 2>/dev/null  # full
+/usr/bin/python3 -c 'import os, signal, sys
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell ignores it in the background
+os.execvp(sys.argv[1], sys.argv[1:])' "${build[@]}" --stamp other --out t.vct --json - >unread 2>/dev/null &
+blocked=$!
+while kill -0 "$blocked" 2>/dev/null && [ ! -s "t.vct.$blocked.tmp" ]; do
+  sleep 0.05
+done
+kill -INT "$blocked"
+wait "$blocked"
+holds 'a command that nobody reads ends by the signal' test "$?" = 130
+holds 'a command that nobody reads leaves no draft' test ! -e "t.vct.$blocked.tmp"
+exec 8<&-
+
+# --- what stands is said when only the words about it cannot be written
+no_words() { "$@" >&-; }
+nothing_heard() { "$@" 2>/dev/full; }
+rm t.vct
+expect 2 'standard output: cannot be written; the results stand: t.vct' no_words "${build[@]}" --out t.vct
+holds 'a result stands without words' test -s t.vct
+expect 2 '' nothing_heard "$volcomp" machine check missing
+
 # --- names that are not UTF-8
 odd=$'odd\xff'
 expect 0 'runs_X.csv' "${import[@]}" --out "$odd" x.comp --json odd.json

@@ -1,7 +1,10 @@
 #include "host_sim/host/io/file_draft.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <utility>
 
 #include <fmt/format.h>
@@ -36,6 +39,32 @@ bool may_be_taken(const fs::path& place, const fs::file_status& there) {
   throw UserError(fmt::format("{}: cannot be written", path.string()));
 }
 
+constexpr int kMostNames = 100;
+
+fs::path name_beside(const fs::path& place, int attempt) {
+  fs::path name = place;
+  name += attempt == 0 ? fmt::format(".{}.tmp", ::getpid())
+                       : fmt::format(".{}.{}.tmp", ::getpid(), attempt);
+  return name;
+}
+
+// A new file and no other: who may write into the folder, /tmp for instance, could have put a link
+// to something of ours there. Of an earlier run with the same process id the name is taken, too.
+int create_beside(const fs::path& place, mode_t mode, fs::path& name) {
+  for (int attempt = 0; attempt < kMostNames; ++attempt) {
+    name = name_beside(place, attempt);
+    const int file =
+        ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    if (file >= 0 || errno != EEXIST) return file;
+  }
+  return -1;
+}
+
+// Not every file system knows it.
+bool is_on_the_disk(int file) {
+  return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
 }  // namespace
 
 fs::path file_behind(const fs::path& path) {
@@ -64,7 +93,7 @@ void require_place(const fs::path& path) {
 
 FileDraft::FileDraft(const fs::path& path) : path_(path), place_(file_behind(path)) {
   if (is_written_directly(path)) {
-    stream_.open(path, std::ios::binary);
+    stream_.reset(std::fopen(path.c_str(), "wbe"));
   } else {
     open_beside();
   }
@@ -77,27 +106,33 @@ FileDraft::FileDraft(FileDraft&& other) noexcept
     : path_(std::move(other.path_)),
       place_(std::move(other.place_)),
       temporary_(std::exchange(other.temporary_, {})),
+      removal_(std::move(other.removal_)),
       stream_(std::move(other.stream_)) {}
 
 void FileDraft::open_beside() {
   std::error_code failed;
   const fs::file_status there = fs::status(place_, failed);
   if (!may_be_taken(place_, there)) refuse(path_);
-  temporary_ = place_;
-  temporary_ += fmt::format(".{}.tmp", ::getpid());
-  stream_.open(temporary_, std::ios::binary);
+  fs::path name;
+  const int file = create_beside(place_, fs::exists(there) ? 0600 : 0666, name);
+  if (file < 0) return;
+  temporary_ = name;
+  removal_ = std::make_unique<RemovedBySignal>(temporary_);
   // Before there is anything in it to be read.
-  if (stream_ && fs::exists(there)) fs::permissions(temporary_, there.permissions(), failed);
+  if (fs::exists(there))
+    static_cast<void>(::fchmod(file, static_cast<mode_t>(there.permissions())));
+  stream_.reset(::fdopen(file, "wb"));
+  if (!stream_) ::close(file);
 }
 
 void FileDraft::write(std::string_view text) {
-  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream_) refuse(path_);
+  if (std::fwrite(text.data(), 1, text.size(), stream_.get()) != text.size()) refuse(path_);
 }
 
 void FileDraft::complete() {
-  stream_.close();
-  if (!stream_) refuse(path_);
+  const bool flushed = std::fflush(stream_.get()) == 0 &&
+                       (temporary_.empty() || is_on_the_disk(::fileno(stream_.get())));
+  if (std::fclose(stream_.release()) != 0 || !flushed) refuse(path_);
 }
 
 void FileDraft::put_in_place() {
@@ -106,12 +141,15 @@ void FileDraft::put_in_place() {
   fs::rename(temporary_, place_, failed);
   if (failed) refuse(path_);
   temporary_.clear();
+  removal_.reset();
 }
 
-void FileDraft::discard() const {
-  if (temporary_.empty()) return;
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
+void FileDraft::discard() {
+  if (!temporary_.empty()) {
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+  }
+  removal_.reset();
 }
 
 }  // namespace volcomp::host

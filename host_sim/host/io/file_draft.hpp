@@ -1,9 +1,12 @@
 #pragma once
 // One file that takes its place when it is complete, and not before.
 
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <string_view>
+
+#include "host_sim/host/io/interruption.hpp"
 
 namespace volcomp::host {
 
@@ -20,7 +23,8 @@ namespace volcomp::host {
 void require_place(const std::filesystem::path& path);
 
 // Written beside its place with the mode of the file that is there; gone unless it was put in
-// place. All throw UserError naming the file, also where it may not be written.
+// place, also when a signal ends the program. All throw UserError naming the file, also where it
+// may not be written.
 class FileDraft {
  public:
   explicit FileDraft(const std::filesystem::path& path);
@@ -32,18 +36,24 @@ class FileDraft {
 
   [[nodiscard]] bool is_beside() const { return !temporary_.empty(); }
   void write(std::string_view text);
-  // Nothing is written after it.
+  // Nothing is written after it. What is put in place then is on the disk: a power failure leaves
+  // the earlier file or this one, not an empty one.
   void complete();
   void put_in_place();
 
  private:
+  struct Close {
+    void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
+  };
+
   void open_beside();
-  void discard() const;
+  void discard();
 
   std::filesystem::path path_;       // as the user says it
   std::filesystem::path place_;      // without links
   std::filesystem::path temporary_;  // empty: written directly, or put in place
-  std::ofstream stream_;
+  std::unique_ptr<RemovedBySignal> removal_;
+  std::unique_ptr<std::FILE, Close> stream_;
 };
 
 }  // namespace volcomp::host

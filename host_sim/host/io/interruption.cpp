@@ -1,6 +1,9 @@
 #include "host_sim/host/io/interruption.hpp"
 
+#include <unistd.h>
+
 #include <array>
+#include <atomic>
 
 namespace volcomp::host {
 namespace {
@@ -14,10 +17,39 @@ std::array<Noted, 3> noted_signals{{{SIGINT, SIG_DFL}, {SIGTERM, SIG_DFL}, {SIGH
 int living = 0;
 volatile std::sig_atomic_t noted = 0;
 
+constexpr std::size_t kMostRemoved = 64;
+std::array<std::atomic<const char*>, kMostRemoved> removed{};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+// As without a handler, but for the files. Calls what a handler may (POSIX.1-2017, 2.4.3).
+void end_program(int signal) {
+  for (const std::atomic<const char*>& path : removed) {
+    if (const char* const name = path.load(); name != nullptr) static_cast<void>(::unlink(name));
+  }
+  static_cast<void>(std::signal(signal, SIG_DFL));
+  static_cast<void>(std::raise(signal));
+}
+
 // The second one ends the program at once: whoever should look may be stuck.
 void note(int signal) {
   noted = signal;
-  static_cast<void>(std::signal(signal, SIG_DFL));
+  static_cast<void>(std::signal(signal, end_program));
+}
+
+// Only where the signal would end the program: not under nohup, nor while an Interruption lives.
+void end_program_by_signals() {
+  for (const Noted& each : noted_signals) {
+    const auto before = std::signal(each.signal, end_program);
+    if (before != SIG_DFL) static_cast<void>(std::signal(each.signal, before));
+  }
+}
+
+std::size_t take_slot(const char* path) {
+  for (std::size_t slot = 0; slot < removed.size(); ++slot) {
+    const char* none = nullptr;
+    if (removed.at(slot).compare_exchange_strong(none, path)) return slot;
+  }
+  return kMostRemoved;
 }
 
 }  // namespace
@@ -35,7 +67,7 @@ Interruption::Interruption() {
 Interruption::~Interruption() {
   if (--living > 0) return;
   for (const Noted& each : noted_signals)
-    static_cast<void>(std::signal(each.signal, each.before));
+    static_cast<void>(std::signal(each.signal, each.before == SIG_DFL ? end_program : each.before));
 }
 
 // Members, so that nobody asks without having asked for it.
@@ -46,5 +78,14 @@ void Interruption::check() const {
   if (noted != 0) throw Interrupted(noted);
 }
 // NOLINTEND(readability-convert-member-functions-to-static)
+
+RemovedBySignal::RemovedBySignal(const std::filesystem::path& path)
+    : path_(std::filesystem::absolute(path).string()), slot_(take_slot(path_.c_str())) {
+  end_program_by_signals();
+}
+
+RemovedBySignal::~RemovedBySignal() {
+  if (slot_ < kMostRemoved) removed.at(slot_) = nullptr;
+}
 
 }  // namespace volcomp::host

@@ -3,7 +3,10 @@
 // ended, and what was made be removed.
 
 #include <csignal>
+#include <cstddef>
+#include <filesystem>
 #include <stdexcept>
+#include <string>
 
 namespace volcomp::host {
 
@@ -27,6 +30,20 @@ class Interruption {
   [[nodiscard]] bool asked() const;
   // Throws Interrupted when there was.
   void check() const;
+};
+
+// While one lives, its file is removed when a signal ends the program at once: nobody looks while
+// the program waits for a slow reader of its output. For up to 64 files, of more the first.
+class RemovedBySignal {
+ public:
+  explicit RemovedBySignal(const std::filesystem::path& path);
+  RemovedBySignal(const RemovedBySignal&) = delete;
+  RemovedBySignal& operator=(const RemovedBySignal&) = delete;
+  ~RemovedBySignal();
+
+ private:
+  std::string path_;
+  std::size_t slot_;
 };
 
 }  // namespace volcomp::host

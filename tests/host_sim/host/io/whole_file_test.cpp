@@ -3,13 +3,16 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 
 #include <gmock/gmock.h>
 
 #include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/interruption.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/whole_file.hpp"
@@ -181,6 +184,74 @@ TEST_F(WholeFileTest, SeveralAppearTogether) {
   EXPECT_EQ(text("folder/first"), "1");
   EXPECT_EQ(text("second"), "2");
   EXPECT_TRUE(fs::exists(path("old folder")));
+}
+
+// --- the name of a draft is not that of anything else
+
+[[nodiscard]] std::string draft_name(const fs::path& path) {
+  return path.string() + "." + std::to_string(::getpid()) + ".tmp";
+}
+
+TEST_F(WholeFileTest, ALinkWithTheNameOfTheDraftIsNotFollowed) {
+  write_whole_file(path("victim"), "precious");
+  fs::create_symlink(path("victim"), draft_name(path("file")));
+  write_whole_file(path("file"), "new");
+  EXPECT_EQ(text("victim"), "precious");
+  EXPECT_EQ(text("file"), "new");
+  EXPECT_FALSE(fs::is_symlink(path("file")));
+  EXPECT_TRUE(fs::is_symlink(draft_name(path("file"))));
+}
+
+TEST_F(WholeFileTest, AFileWithTheNameOfTheDraftStays) {
+  write_whole_file(draft_name(path("file")), "of another");
+  write_whole_file(path("file"), "new");
+  EXPECT_EQ(read_whole_file(draft_name(path("file")), kEnough), "of another");
+  EXPECT_EQ(text("file"), "new");
+  EXPECT_EQ(entries(), 2);
+}
+
+// --- a signal ends the program, but leaves no draft
+
+class SignalTest : public WholeFileTest, public testing::WithParamInterface<int> {};
+
+TEST_P(SignalTest, LeavesNoDraft) {
+  write_whole_file(path("file"), "old");
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    static_cast<void>(std::signal(GetParam(), SIG_DFL));  // also under nohup
+    WholeFiles files;
+    files.add(path("file"), "new");
+    files.add(path("second"), "new");
+    static_cast<void>(std::raise(GetParam()));
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), GetParam());
+  EXPECT_EQ(text("file"), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, SignalTest, testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+// The second signal ends a program that was to end in order and is stuck.
+TEST_F(WholeFileTest, ASecondSignalLeavesNoDraft) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const Interruption interruption;
+    WholeFiles files;
+    files.add(path("file"), "new");
+    static_cast<void>(std::raise(SIGTERM));
+    static_cast<void>(std::raise(SIGTERM));
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(entries(), 0);
 }
 
 // --- reading
