@@ -37,7 +37,7 @@ write_orders() {
 guest_script() {
   local folder=$1 name
   shift
-  printf 'export PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/tmp LANG=C.UTF-8 TERM=dumb\n'
+  printf 'export PATH=%q HOME=/tmp LANG=C.UTF-8 TERM=dumb\n' "/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin:$PATH"
   for name in "${!VOLCOMP_@}"; do
     printf 'export %s=%q\n' "$name" "${!name}"
   done

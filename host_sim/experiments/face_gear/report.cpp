@@ -95,24 +95,24 @@ json machine_table(const FaceGearResult& run) {
   }
   const Vec3 off = kUmPerMm * (true_mounting().t - nominal_mounting().t);
   const Mat3 rotation = nominal_mounting().R.transpose() * true_mounting().R;
-  return {
-      {"type", "table"},
-      {"id", "machine"},
-      {"title", "The machine, as chosen here"},
-      {"columns",
-       {{{"title", "axis"}},
-        {{"title", "from"}, {"digits", 0}},
-        {{"title", "to"}, {"digits", 0}},
-        {{"title", "unit"}},
-        {{"title", "size of its six errors"}}}},
-      {"rows", rows},
-      {"note",
-       fmt::format("Neither chain nor strokes nor errors of the YK7280 are published: all of "
-                   "it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm out of place and {:.1f}' "
-                   "turned; steps of the table's scale {:.1f}\", swing arm within {:g} µm.",
-                   off.x(), off.y(), off.z(),
-                   60.0 * kDegreesPerRad * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
-                   3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)}};
+  return {{"type", "table"},
+          {"id", "machine"},
+          {"title", "The machine, as chosen here"},
+          {"columns",
+           {{{"title", "axis"}},
+            {{"title", "from"}, {"digits", 0}},
+            {{"title", "to"}, {"digits", 0}},
+            {{"title", "unit"}},
+            {{"title", "size of its six errors"}}}},
+          {"rows", rows},
+          {"note",
+           fmt::format("Neither chain nor strokes of the YK7280 are published, and of its errors "
+                       "only limits: all of it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm "
+                       "out of place and {:.1f}' "
+                       "turned; steps of the table's scale {:.1f}\", swing arm within {:g} µm.",
+                       off.x(), off.y(), off.z(),
+                       60.0 * kDegreesPerRad * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
+                       3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)}};
 }
 
 json before_after(const FaceGearResult& run) {
@@ -150,7 +150,8 @@ host::Origins origins(const FaceGearResult& run) {
       "touch probe of the machine: delays and radius of the machine file, corrected by the node",
       fmt::format("table: steps of its scale {:.1f}\"; swing arm repeats within {:g} µm",
                   3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)};
-  origins.chosen = {"chain, strokes and errors of the machine: none is published"};
+  origins.chosen = {
+      "chain, strokes and errors of the machine: of these only limits of the errors are published"};
   origins.untouched = {"maps, pitch and frame as measured"};
   return origins;
 }
