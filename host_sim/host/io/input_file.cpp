@@ -1,6 +1,10 @@
 #include "host_sim/host/io/input_file.hpp"
 
+#include <cerrno>
 #include <iostream>
+#include <system_error>
+
+#include <fmt/format.h>
 
 #include "host_sim/host/io/user_error.hpp"
 
@@ -26,8 +30,16 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(shown_name(path)
     stream_ = &std::cin;
     return;
   }
+  errno = 0;
   file_.open(path, std::ios::binary);
-  if (!file_ || std::filesystem::is_directory(path)) throw UserError(name_ + ": cannot be opened");
+  const int why = errno;
+  if (!file_ && why != 0)
+    throw UserError(
+        fmt::format("{}: cannot be opened: {}", name_, std::generic_category().message(why)));
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw UserError(name_ + ": cannot be opened: Is a directory");
+  if (!file_) throw UserError(name_ + ": cannot be opened");
 }
 
 std::string InputFile::beginning(std::size_t most) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/host/io/nearest_word.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -107,8 +108,10 @@ std::vector<TomlSection> TomlSection::tables(const std::string& key) const {
 void TomlSection::allow_only(const std::vector<std::string>& keys) const {
   for (const auto& [key, value] : value_->as_table()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    fail(value,
-         fmt::format("unknown field '{}' in {} (known: {})", key, name_, fmt::join(keys, ", ")));
+    const std::string near = nearest_word(key, keys);
+    fail(value, fmt::format("unknown field '{}' in {}{} (known: {})", key, name_,
+                            near.empty() ? "" : fmt::format(", did you mean '{}'?", near),
+                            fmt::join(keys, ", ")));
   }
 }
 

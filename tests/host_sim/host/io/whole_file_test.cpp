@@ -256,6 +256,15 @@ TEST_F(WholeFileTest, ASecondSignalLeavesNoDraft) {
 
 // --- reading
 
+TEST(ReadingFiles, WhyAFileCannotBeOpenedIsSaid) {
+  const TemporaryFolder folder;
+  const fs::path none = folder.path() / "none";
+  EXPECT_EQ(sim::complaint_of([&] { return read_whole_file(none, kEnough); }),
+            none.string() + ": cannot be opened: No such file or directory");
+  EXPECT_EQ(sim::complaint_of([&] { return read_whole_file(folder.path(), kEnough); }),
+            folder.path().string() + ": cannot be opened: Is a directory");
+}
+
 // The memory of a process has no first byte.
 TEST(ReadingFiles, WhatCannotBeReadIsNotTakenForItsEnd) {
   const fs::path unreadable = "/proc/self/mem";
