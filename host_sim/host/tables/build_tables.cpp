@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,9 @@ namespace volcomp::host {
 namespace {
 
 constexpr int kBoundSteps = 7;
+
+// Of a slope that was removed: less is the flatness of the reference.
+constexpr double kSlopeToSay_mm = 1e-3;
 
 // More between the ends of a turn is not drift: a lost count, a wrong file, a table that is loose.
 constexpr TurnGap kMostDrift{5e-3, 50e-6};
@@ -65,15 +69,67 @@ void check_targets(const RunsFile& runs, const AxisFile& axis, std::vector<std::
   if (covered < kAll) warnings.push_back(found + ": beyond them the value of the end is used");
 }
 
-void note_warnings(const RunsFile& runs, const BuiltTable& built, std::vector<std::string>& out) {
+// "EXX": the motion (X to C) and the axis that moves, as in the header of the file.
+std::string channel_name(int channel, char axis) {
+  return fmt::format("E{}{}", "XYZABC"[channel], axis);
+}
+
+std::string outlier_words(const AxisFile& axis, const BuiltTable& built) {
+  const Outlier& o = built.outlier[0];
+  const double q = built.positions.at(static_cast<std::size_t>(o.target));
+  const bool angle = o.channel >= 3;
+  const double scale = angle ? 1e6 : 1e3;
+  return fmt::format(
+      "{} of {} readings lie far from the median of their target and are kept in the mean; the "
+      "first is {} at {:g} {}, run {} {}: {:.3f} {} instead of {:.3f}",
+      built.outlier_count, axis.letter, channel_name(o.channel, axis.letter), q,
+      axis.rotary ? "rad" : "mm", o.run + 1, o.direction, scale * o.value, angle ? "urad" : "um",
+      scale * o.median);
+}
+
+std::string warning_words(Warning warning, const RunsFile& runs, const AxisFile& axis,
+                          const BuiltTable& built) {
+  switch (warning) {
+    case Warning::positions_reversed:
+      return fmt::format("the targets of {} are in descending order", axis.letter);
+    case Warning::one_direction:
+      return fmt::format("{} was measured in one direction only, its reversal is unknown",
+                         axis.letter);
+    case Warning::run_count_differs:
+      return fmt::format("{} has {} runs up but {} down", axis.letter, runs.up.size(),
+                         runs.down.size());
+    case Warning::outlier:
+      return outlier_words(axis, built);
+    case Warning::steep_slope:
+      return fmt::format("a straightness of {} has a steep slope", axis.letter);
+    case Warning::knot_jump:
+      return fmt::format("the errors of {} jump between neighbouring targets", axis.letter);
+  }
+  return code(warning);
+}
+
+void note_warnings(const RunsFile& runs, const AxisFile& axis, const BuiltTable& built,
+                   std::vector<std::string>& out) {
   for (std::size_t i = 0; i < built.warning_count; ++i) {
-    std::string text = fmt::format("{}: {}", runs.name, code(built.warning[i]));
-    if (built.warning[i] == Warning::outlier) {
-      const Outlier& o = built.outlier[0];
-      text += fmt::format(" ({} found, first: {} run {} target {} channel {}, kept in the mean)",
-                          built.outlier_count, o.direction, o.run + 1, o.target + 1, o.channel);
-    }
-    out.push_back(text);
+    const Warning warning = built.warning[i];
+    out.push_back(fmt::format("{}: {} [{}]", runs.name, warning_words(warning, runs, axis, built),
+                              code(warning)));
+  }
+}
+
+// The place of the travel farthest from the reference, and what the line is worth there.
+void note_slopes(const RunsFile& runs, const AxisFile& axis, const BuiltTable& built,
+                 std::vector<std::string>& out) {
+  const double end = axis.reference - axis.lo > axis.hi - axis.reference ? axis.lo : axis.hi;
+  for (std::size_t c = 0; c < built.removed_slope.size(); ++c) {
+    const double slope = built.removed_slope[c];
+    const double there_mm = slope * (end - axis.reference);
+    if (std::abs(there_mm) < kSlopeToSay_mm) continue;
+    out.push_back(fmt::format(
+        "{}: a slope of {:.1f} urad was removed from {}, which is {:.1f} um at {:g} mm: it is "
+        "corrected only as far as squareness stands in the machine file",
+        runs.name, 1e6 * slope, channel_name(static_cast<int>(c), axis.letter), 1e3 * there_mm,
+        end));
   }
 }
 
@@ -138,7 +194,8 @@ void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
   measured.slope = options.slope;
   measured.allow_resampling = options.allow_resampling;
   require(build_table(measured, *out.built[a]), runs.name);
-  note_warnings(runs, *out.built[a], out.warnings);
+  note_warnings(runs, axis, *out.built[a], out.warnings);
+  if (!machine.squareness) note_slopes(runs, axis, *out.built[a], out.warnings);
 
   const std::size_t most = (options.knots - 1) / (out.built[a]->table.knots - 1);
   const std::size_t wanted = options.refine == 0 ? machine.refine : options.refine;
@@ -173,6 +230,15 @@ void close_loop(const MachineFile& machine, Commissioned& out) {
   const std::vector<double> y = s.line(1);
   const std::vector<double> z = s.line(2);
   out.apparent = apparent_squareness(error_at, {s.at, x, y, z});
+}
+
+bool has_three_slides(const MachineFile& machine) {
+  const std::string_view letters = "XYZ";
+  return std::all_of(letters.begin(), letters.end(), [&](char letter) {
+    return std::any_of(machine.axes.begin(), machine.axes.end(), [letter](const AxisFile& axis) {
+      return axis.letter == letter && !axis.rotary;
+    });
+  });
 }
 
 void apply_squareness(const MachineFile& machine, const CommissionOptions& options,
@@ -248,6 +314,11 @@ std::unique_ptr<Commissioned> commission(const MachineFile& machine,
     out->model.table[a] = out->refined[a].get();
     require(quantise(*out->refined[a], out->chain.axis(a), options.knots, out->tables.axis[a]),
             machine.path);
+  }
+  if (!machine.squareness && has_three_slides(machine)) {
+    out->warnings.push_back(
+        fmt::format("{}: there is no [squareness]: X, Y and Z are taken as square to each other",
+                    machine.path));
   }
   apply_squareness(machine, options, *out);
   out->tables.machine = out->chain.description();

@@ -75,7 +75,24 @@ class RunsReader {
     return {Column::Kind::channel, channel, unit.factor};
   }
 
+  // Of the slots of read_header; "EY?" where no channel has named the axis.
+  [[nodiscard]] std::string column_name(std::size_t slot) const {
+    static constexpr std::array<const char*, 3> kOthers{"target", "run", "direction"};
+    if (slot < kOthers.size()) return kOthers.at(slot);
+    return fmt::format("E{}{}", "XYZABC"[slot - kOthers.size()], letter_ == '\0' ? '?' : letter_);
+  }
+
+  // As a spreadsheet saves it where the comma is the decimal point, and what is copied from one.
+  void refuse_other_separators(std::string_view line) const {
+    if (line.find(',') != std::string_view::npos) return;
+    if (line.find(';') != std::string_view::npos)
+      fail("the header is separated by semicolons; columns must be separated by commas");
+    if (line.find('\t') != std::string_view::npos)
+      fail("the header is separated by tabs; columns must be separated by commas");
+  }
+
   void read_header(std::string_view line) {
+    refuse_other_separators(line);
     std::array<int, 9> seen{};  // target, run, direction, six channels
     for (const std::string_view cell : cells_of(line)) {
       Column column;
@@ -93,12 +110,9 @@ class RunsReader {
       if (++seen.at(slot) > 1) fail(fmt::format("column {} occurs twice", quoted(cell)));
       columns_.push_back(column);
     }
-    static constexpr std::array<const char*, 9> kNames{"target [mm]", "run",       "direction",
-                                                       "EX. [mm]",    "EY. [mm]",  "EZ. [mm]",
-                                                       "EA. [rad]",   "EB. [rad]", "EC. [rad]"};
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (seen[i] == 0)
-        fail(fmt::format("the header lacks the column {} [missing_field]", kNames[i]));
+        fail(fmt::format("the header lacks the column {} [missing_field]", column_name(i)));
     }
     // ISO 841: X, Y, Z are linear, A, B, C turn; another letter may be either.
     const bool turns = std::string_view("ABC").find(letter_) != std::string_view::npos;

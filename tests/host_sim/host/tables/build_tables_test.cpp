@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,7 +82,54 @@ TEST_F(Commissioning, WarningsAreSaidWithTheFile) {
   runs[2].down.clear();
   const auto tables = commission(file, runs, {});
   EXPECT_THAT(tables->warnings,
-              testing::ElementsAre(testing::HasSubstr("runs_Z.csv: one_direction")));
+              testing::ElementsAre(testing::AllOf(
+                  testing::StartsWith("runs_Z.csv: Z was measured in one direction only"),
+                  testing::EndsWith("[one_direction]"))));
+}
+
+// As a person would look it up: which column of the header, at which position, in which run.
+TEST_F(Commissioning, AnOutlierIsSaidWithItsColumnPositionAndValue) {
+  auto runs = campaign.runs;
+  runs[0].up.assign(5, runs[0].up[0]);
+  for (std::size_t r = 0; r < 5; ++r) {
+    for (ErrorMotion& e : runs[0].up[r])
+      e(1) += 1e-6 * static_cast<double>(r);
+  }
+  runs[0].down.clear();
+  std::reverse(runs[0].positions.begin(), runs[0].positions.end());
+  for (RunValues& run : runs[0].up)
+    std::reverse(run.begin(), run.end());
+  runs[0].up[3][2](1) += 0.030;
+  const auto tables = commission(file, runs, tables_only(ModelKind::abbe_closed));
+  EXPECT_THAT(tables->warnings,
+              testing::Contains(testing::AllOf(
+                  testing::HasSubstr("EYX at " + fmt::format("{:g}", runs[0].positions[2]) +
+                                     " mm, run 4 up: "),
+                  testing::HasSubstr(" um instead of "), testing::EndsWith("[outlier]"))));
+}
+
+// 26 urad over 500 mm are 13 um; without the squareness of the machine nothing corrects them.
+TEST_F(Commissioning, WithoutSquarenessWhatIsNotCorrectedIsSaid) {
+  file.squareness.reset();
+  auto runs = campaign.runs;
+  for (auto* const direction : {&runs[0].up, &runs[0].down}) {
+    for (RunValues& run : *direction) {
+      for (std::size_t t = 0; t < run.size(); ++t)
+        run[t](1) = 26e-6 * runs[0].positions[t];
+    }
+  }
+  const auto tables = commission(file, runs, tables_only(ModelKind::abbe_closed));
+  EXPECT_THAT(tables->warnings,
+              testing::Contains(testing::HasSubstr(
+                  "there is no [squareness]: X, Y and Z are taken as square to each other")));
+  EXPECT_THAT(tables->warnings,
+              testing::Contains(testing::HasSubstr("a slope of 26.0 urad was removed from EYX, "
+                                                   "which is -13.0 um at -500 mm")));
+}
+
+TEST_F(Commissioning, WithSquarenessTheSlopesBelongToIt) {
+  EXPECT_THAT(commission(file, campaign.runs, tables_only(ModelKind::abbe_closed))->warnings,
+              testing::Not(testing::Contains(testing::HasSubstr("slope"))));
 }
 
 // Half the numbers of a wrong unit would pass as a short travel.

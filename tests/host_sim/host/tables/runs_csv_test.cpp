@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "comp/core/units.hpp"
@@ -86,6 +87,27 @@ TEST(RunsCsv, RefusalsNameTheLine) {
   EXPECT_THAT(refusal(std::string(kHeader)), HasSubstr("no reading"));
   EXPECT_THAT(refusal("# nothing\n\n"), HasSubstr("empty"));
   EXPECT_THAT(refusal(good + "0,2,up,1,2,3,4,5,6\n"), HasSubstr("[run_length]"));
+}
+
+TEST(RunsCsv, AMissingColumnIsNamedWithItsAxis) {
+  const std::string before = "target [mm],run,direction,EXX [um],";
+  const std::string after = "EZX [um],EAX [urad],EBX [urad],ECX [urad]\n";
+  EXPECT_EQ(refusal(before + after), "x.csv:1: the header lacks the column EYX [missing_field]");
+  EXPECT_EQ(refusal("target [mm],direction,EXX [um],EYX [um]," + after),
+            "x.csv:1: the header lacks the column run [missing_field]");
+}
+
+// RFC 4180 has commas.
+TEST(RunsCsv, AnotherSeparatorIsNamed) {
+  const auto separated = [](char separator) {
+    std::string header = kHeader;
+    std::replace(header.begin(), header.end(), ',', separator);
+    return header;
+  };
+  EXPECT_EQ(refusal(separated(';')),
+            "x.csv:1: the header is separated by semicolons; columns must be separated by commas");
+  EXPECT_EQ(refusal(separated('\t')),
+            "x.csv:1: the header is separated by tabs; columns must be separated by commas");
 }
 
 TEST(RunsCsv, TargetsHaveTheUnitOfTheirAxis) {
