@@ -184,7 +184,9 @@ holds 'a command that nobody reads leaves no draft' test ! -e "t.vct.$blocked.tm
 exec 8<&-
 
 # --- what stands is said when only the words about it cannot be written
+# shellcheck disable=SC2317  # through expect
 no_words() { "$@" >&-; }
+# shellcheck disable=SC2317  # through expect
 nothing_heard() { "$@" 2>/dev/full; }
 rm t.vct
 expect 2 'standard output: cannot be written; the results stand: t.vct' no_words "${build[@]}" --out t.vct
