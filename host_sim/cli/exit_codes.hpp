@@ -21,7 +21,8 @@ inline constexpr std::array<ExitCodeText, 3> kExitCodes{
       "refused."},
      {ExitCode::unusable,
       "Not done: options, a file or a bus that cannot be used, or a result that cannot be written. "
-      "One sentence on standard error says which and why, and which results stand all the same when "
+      "One sentence on standard error says which and why, and which results stand all the same "
+      "when "
       "only the words about them could not be written."}}};
 
 // For the end of main and of std::exit.
