@@ -142,7 +142,7 @@ class StrokeOffsets {
   [[nodiscard]] std::uint16_t status() const { return status_; }
 
  private:
-  enum class Request : std::uint32_t { none, activate, deactivate };
+  enum class Request : std::uint8_t { none, activate, deactivate };
 
   struct Tables {
     std::array<std::array<float, Nodes>, 2> stroke{};  // 2^-32 turn

@@ -101,7 +101,9 @@ class Compensator {
   void deactivate();
 
   // Does at once what the next tick would begin with. Only while no tick can come.
-  void settle() { static_cast<void>(take_request()); }
+  void settle() {
+    if (pending()) take_request();
+  }
 
   // Recomputes the checksum of the active tables; call it from time to time. A bit that changed in
   // memory means: crc_mismatch, corrections ramp to 0, every axis shows kTableDamaged until new
@@ -133,9 +135,7 @@ class Compensator {
   [[nodiscard]] const Float3& last_error_nm() const { return error_nm_; }
 
  private:
-  // A whole word: processors without exchange of a byte need no library for it. `taking`: the tick
-  // has claimed a request and reads next_.
-  enum class Request : std::uint32_t { none, activate, deactivate, taking };
+  enum class Request : std::uint8_t { none, activate, deactivate };
 
   // No two accepted positions of a linear axis are further apart.
   static constexpr std::int64_t kAnyStep = 2 * kMaxPosition;
@@ -236,7 +236,7 @@ class Compensator {
                EverydayBits& changed, Output& out);
 
   // compensator_exceptions.inl
-  bool take_request();
+  void take_request();
   void begin_change();
   void end_change();
   bool all_known(const Input& in);
@@ -255,7 +255,6 @@ class Compensator {
   // compensator_background.inl
   void take_machine();
   void apply_limits(std::size_t axis);
-  Request withdraw();
   Status open_spare(const Provenance& provenance);
   [[gnu::cold]] Status fold_into_spare(const RuntimeChain& chain, const TablesView& tables,
                                        const Vec3& tool_point, std::uint32_t image_crc);

@@ -186,25 +186,12 @@ Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec
   return status.ok() ? status : reject(status);
 }
 
-// Takes back what the tick has not claimed; next_ may then be written. Waits only for a tick on
-// another core that is just taking it, which is some twenty instructions.
-template <class Machine, std::size_t Knots>
-typename Compensator<Machine, Knots>::Request Compensator<Machine, Knots>::withdraw() {
-  Request before = request_.load(std::memory_order_acquire);
-  while (before == Request::taking ||
-         !request_.compare_exchange_strong(before, Request::none, std::memory_order_acq_rel,
-                                           std::memory_order_acquire)) {
-    before = request_.load(std::memory_order_acquire);
-  }
-  return before;
-}
-
 template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::activate() {
   if (!staged_) return refuse(Reason::not_staged);
   staged_ = false;
   damaged_.store(false, std::memory_order_relaxed);
-  static_cast<void>(withdraw());  // a deactivation is overtaken
+  request_.exchange(Request::none, std::memory_order_acquire);  // a deactivation is overtaken
   next_.active = next_.latest = &buffer_[static_cast<std::size_t>(spare_)];
   next_.activations = now_.activations + 1U;
   spare_ = static_cast<std::int8_t>(1 - spare_);
@@ -214,7 +201,8 @@ Status Compensator<Machine, Knots>::activate() {
 
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::deactivate() {
-  if (withdraw() == Request::activate)
+  const Request before = request_.exchange(Request::none, std::memory_order_acq_rel);
+  if (before == Request::activate)
     spare_ = static_cast<std::int8_t>(1 - spare_);  // the tick has not taken them
   next_.active = nullptr;
   next_.latest = now_.latest;

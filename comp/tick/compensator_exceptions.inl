@@ -5,19 +5,12 @@
 
 namespace volcomp {
 
-// False if there is none, or it was withdrawn on another core just now: the next tick sees what
-// takes its place.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE bool Compensator<Machine, Knots>::take_request() {
-  Request request = request_.load(std::memory_order_relaxed);
-  if (request == Request::none ||
-      !request_.compare_exchange_strong(request, Request::taking, std::memory_order_acquire,
-                                        std::memory_order_relaxed))
-    return false;
+VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
+  std::atomic_thread_fence(std::memory_order_acquire);
   begin_change();
   now_ = next_;
   request_.store(Request::none, std::memory_order_release);
-  return true;
 }
 
 // Whatever changes, the output goes from where it is to where it should be along the ramp. One that

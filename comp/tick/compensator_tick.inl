@@ -149,7 +149,8 @@ void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
   if (VOLCOMP_RARELY(++ticks_ == 0)) ticks_wrapped_ = true;
   std::uint32_t usual = kValid;
   float ramp = 1.0F;
-  if (VOLCOMP_RARELY(request_.load(std::memory_order_relaxed) != Request::none) && take_request()) {
+  if (VOLCOMP_RARELY(request_.load(std::memory_order_relaxed) != Request::none)) {
+    take_request();
     ramp = now_.ramp.begin();
     usual |= kRamping;
     if (!now_.ramp.running()) end_change();
