@@ -41,15 +41,6 @@ std::array<std::int64_t, 3> to_integers(const Vec3& v) {
 
 double square(double x) { return x * x; }
 
-// No coordinate is further away than axes are counted and machines reach, NaN included.
-bool reachable(const Vec3& v) {
-  constexpr double kFurthest = 0x1p62;
-  for (int k = 0; k < 3; ++k) {
-    if (!(v[k] <= kFurthest && v[k] >= -kFurthest)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 // What the point and its uncertainty depend on, in the workpiece frame unless said otherwise.
@@ -120,12 +111,13 @@ VOLCOMP_IN_ONE ProbePoint ProbeCorrector::correct(const Touch& touch, const Prob
   if (!error.within) verdict = TouchVerdict::uncertified;
   if (!error.known) verdict = TouchVerdict::uncorrected;
   if (c.directed && c.velocity.dot(c.normal) >= 0.0) verdict = TouchVerdict::retracting;
-  const Vec3 machine = added(centre, -c.radius, c.normal_base);
-  const Vec3 workpiece = added(centre_part, -c.radius, c.normal);
-  if (!reachable(machine) || !reachable(workpiece))
-    return {touch.sequence, feature.index, TouchVerdict::no_position, touch.axis, {}, {}, {}};
-  return {touch.sequence,       feature.index,          verdict,       touch.axis,
-          to_integers(machine), to_integers(workpiece), uncertainty(c)};
+  return {touch.sequence,
+          feature.index,
+          verdict,
+          touch.axis,
+          to_integers(added(centre, -c.radius, c.normal_base)),
+          to_integers(added(centre_part, -c.radius, c.normal)),
+          uncertainty(c)};
 }
 
 // First order (JCGM 100, 5.1.2 and 5.2.2). Radius and tool length act in opposite senses.

@@ -66,8 +66,7 @@ class ProbeCorrector {
   [[nodiscard]] LatchedPose contact_pose(const Touch& touch) const;
 
   // `touch` must have been accepted so far; `error` belongs to its latched positions. The verdict
-  // of the point may be another: retracting, centre, uncertified, uncorrected, or no_position where
-  // the point is no number or further away than 2^62 nm.
+  // of the point may be another: retracting, centre, uncertified, uncorrected.
   [[nodiscard]] ProbePoint correct(const Touch& touch, const ProbeFeature& feature,
                                    const PoseError& error) const;
 

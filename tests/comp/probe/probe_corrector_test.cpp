@@ -53,19 +53,6 @@ TEST(ProbeCorrector, CentreIsWithinANanometreOfTheModel) {
   EXPECT_GT(worst, 0.0);
 }
 
-// A point that no integer holds is none, whatever made it: here the frame of the workpiece.
-TEST(ProbeCorrector, APointBeyondAnyNumberIsRefused) {
-  for (const double far : {1e25, -1e300, std::nan(""), HUGE_VAL}) {
-    ProbeCorrector corrector = probing_corrector();
-    corrector.settings.workpiece.t.x() = far;
-    PoseError error;
-    error.known = true;
-    const ProbePoint point = corrector.correct(touch_at({}), {}, error);
-    EXPECT_EQ(point.verdict, TouchVerdict::no_position) << far;
-    EXPECT_EQ(point.workpiece, (std::array<std::int64_t, 3>{})) << far;
-  }
-}
-
 // A folded machine has the levers in its tables.
 TEST(ProbeCorrector, WorksOnLinearMachinesToo) {
   Random random(11);
