@@ -17,7 +17,8 @@ inline constexpr double kMaxOffset_mm = 5000.0;
 inline constexpr double kMaxSquareness_rad = 5e-3;
 // Component of the direction of an axis, rad: the pairs with both other axes.
 inline constexpr double kMaxDirection_rad = 2.0 * kMaxSquareness_rad;
-// Constant error of a body, mm and rad.
+// Constant error of a body in a machine file or an image, mm and rad. The exact model computes with
+// any.
 inline constexpr double kMaxConstantError_mm = 1.0;
 inline constexpr double kMaxConstantError_rad = 5e-3;
 

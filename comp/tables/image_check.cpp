@@ -90,15 +90,17 @@ Status read_body(LittleEndianReader& r, int number, Body& body) {
   body.joint.sign = static_cast<std::int8_t>(r.u8());
   body.joint.nc_axis = r.u8();
   body.joint.letter = letter_of(r.u8());
-  if (kind > 2 || axis > 2 || (body.joint.moves() && body.joint.letter == '\0')) {
-    Where where;
-    where.body = number;
+  Where where;
+  where.body = number;
+  if (kind > 2 || axis > 2 || (body.joint.moves() && body.joint.letter == '\0'))
     return refuse(Reason::bad_joint, where);
-  }
   r.f64s(body.joint.offset);
   r.f64s(body.joint.orientation);
   r.f64s(body.constant_error);
-  return {};
+  const double* const error = body.constant_error.data();
+  Reason reason = check_numbers(error, 3, kMaxConstantError_mm);
+  if (reason == Reason::ok) reason = check_numbers(error + 3, 3, kMaxConstantError_rad);
+  return reason == Reason::ok ? Status{} : refuse(reason, where);
 }
 
 // One axis from `at` on, which then stands behind it.

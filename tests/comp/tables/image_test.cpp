@@ -143,6 +143,20 @@ TEST(Image, RoundTripIsBitExact) {
   }
 }
 
+// What no machine has was damaged or given in another unit: a constant error of metres.
+TEST(Image, ConstantErrorsBeyondAnyMachineAreRefusedWithTheirBody) {
+  Random random(93);
+  MachineTables in = any_tables(random);
+  const auto out = std::make_unique<MachineTables>();
+  for (const double error : {1.5, -1e20, 1e300}) {
+    in.machine.body[5].constant_error = {0.0, error, 0.0, 0.0, 0.0, 0.0};
+    const Bytes bytes = image_of(in);
+    const Status status = decode_image({bytes.data(), bytes.size()}, kDefaultKnots, *out);
+    EXPECT_EQ(status.reason, Reason::bound_exceeded) << error;
+    EXPECT_EQ(status.where.body, 6) << error;
+  }
+}
+
 // The layout is a contract with other programs: magic, version, sizes and CRC at their places.
 TEST(Image, LayoutIsAsDocumented) {
   Random random(92);
