@@ -1,5 +1,5 @@
 #pragma once
-// What somebody may have meant.
+// Suggests the known word that is nearest to a misspelt one.
 
 #include <string>
 #include <string_view>
