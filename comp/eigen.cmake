@@ -1,4 +1,4 @@
-# Sets VOLCOMP_EIGEN_INCLUDE_DIR. Of the build and of the installed package.
+# Sets VOLCOMP_EIGEN_INCLUDE_DIR, for the build and for the installed package.
 find_path(VOLCOMP_EIGEN_INCLUDE_DIR Eigen/Core
   PATHS /usr/include /usr/local/include
   PATH_SUFFIXES eigen3

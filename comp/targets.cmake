@@ -5,7 +5,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/eigen.cmake")
 
 # volcomp_eigen: what every user of a comp header has to see in the same way. EIGEN_DONT_VECTORIZE
 # changes the alignment of Eigen's types, so it belongs to the binary interface of comp; with a fused
-# multiply-add that the source does not ask for, what is compiled elsewhere would compute other bits.
+# multiply-add that the source does not contain, what is compiled elsewhere would compute other bits.
 add_library(volcomp_eigen INTERFACE)
 get_filename_component(volcomp_root "${CMAKE_CURRENT_LIST_DIR}" DIRECTORY)
 target_include_directories(volcomp_eigen INTERFACE "$<BUILD_INTERFACE:${volcomp_root}>")
@@ -16,7 +16,7 @@ target_compile_options(volcomp_eigen INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-ffp-c
 target_compile_features(volcomp_eigen INTERFACE cxx_std_17)
 
 # volcomp_flags: the warnings, and the same arithmetic. Every target of the project links it PRIVATE. In the project
-# itself warnings are errors; the compiler of somebody who uses it may know more of them.
+# itself warnings are errors; the compiler of a user may know more of them.
 add_library(volcomp_flags INTERFACE)
 set(volcomp_cxx_flags
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wcast-align

@@ -21,7 +21,7 @@
 //   - What was cut short may read differently every time until the sector is erased again ("The
 //     unstable bits issue" in the documentation of UBIFS).
 //   - Both return when the data are on the medium. False: the device reported a failure, and what
-//     it was working on holds anything. Neither checks its work: who writes reads back.
+//     it was working on holds anything. Neither checks its work: the caller reads back.
 
 #include <algorithm>
 #include <cstddef>

@@ -34,6 +34,10 @@ constexpr bool operator==(const CanFrame& a, const CanFrame& b) {
 }
 constexpr bool operator!=(const CanFrame& a, const CanFrame& b) { return !(a == b); }
 
+// What error counting has made of a CAN controller (ISO 11898-1). Passive: more than 127 errors, it
+// disturbs no other station any more; off: more than 255 while sending, it takes no part.
+enum class CanBusState : std::uint8_t { stopped, active, warning, passive, off };
+
 template <class Port, class = void>
 struct IsCanPort : std::false_type {};
 

@@ -1,7 +1,7 @@
 #pragma once
 // CAN frames over a pair of byte pipes, turn by turn: how firmware on an emulated board is joined
-// to a simulated bus. Nobody's clock matters: the firmware waits for the host's turn, the host for
-// the firmware's, so that a run repeats itself bit for bit.
+// to a simulated bus. No clock matters: the firmware waits for the host's turn, the host for the
+// firmware's, so that a run repeats itself bit for bit.
 //
 // A pipe carries records of 16 bytes, all numbers little-endian:
 //
@@ -12,8 +12,8 @@
 //
 // One turn is one tick of the node: the host writes its frames and the end of its turn into
 // `to_node`, the node reads them, works, and writes its own frames and end into `from_node`. The
-// node's clock is what the host's end of turn says: a millisecond more than the last time, unless
-// the host knows better. The pipes are FIFOs in one folder. The host makes them; both ends open
+// node's clock is that of the host's end of turn: a millisecond more than the last time, unless the
+// host sets another time. The pipes are FIFOs in one folder. The host makes them; both ends open
 // `to_node` first.
 //
 // A whole number of records fits every pipe buffer and PIPE_BUF (POSIX), so none is ever torn.

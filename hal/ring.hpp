@@ -3,9 +3,10 @@
 // interrupts, without masking anything: one context only pushes, one only pops, neither ever waits.
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
+
+#include "comp/core/atomic_word.hpp"
 
 namespace volcomp::hal {
 
@@ -41,8 +42,8 @@ class Ring {
 
  private:
   std::array<T, Capacity> elements_{};
-  std::atomic<std::uint32_t> written_{0};
-  std::atomic<std::uint32_t> read_{0};
+  AtomicWord<> written_{0};
+  AtomicWord<> read_{0};
 };
 
 }  // namespace volcomp::hal

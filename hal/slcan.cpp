@@ -108,7 +108,7 @@ SlcanRequest SlcanDevice::take(char c) {
   return {};  // a host does not refuse; its line goes on
 }
 
-// Hosts send empty lines to end whatever was begun before; nobody waits for an answer.
+// Hosts send empty lines to end whatever was begun before; they wait for no answer.
 SlcanRequest SlcanDevice::take_line(Span<const char> line) {
   if (line.empty()) return {};
   const bool alone = line.size() == 1;
@@ -127,7 +127,7 @@ SlcanRequest SlcanDevice::take_line(Span<const char> line) {
       return alone ? tell_serial() : judged(false);
     case 'F':
       return alone ? tell_flags() : judged(false);
-    case 'Z':  // there are no time stamps; asked to be without, that is so
+    case 'Z':  // there are no time stamps: only Z0 is true
       return judged(line.size() == 2 && line[1] == '0');
     default:
       return judged(false);

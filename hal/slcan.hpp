@@ -88,11 +88,11 @@ struct SlcanRequest {
   CanFrame frame{};
 };
 
-// The adapter's side: is the channel open, what is answered. Frames heard may be written to the
+// The adapter's side: is the channel open, what is answered. Received frames may be written to the
 // host only while it is open.
 class SlcanDevice {
  public:
-  // Bits of the answer to F, kept until they are read (manual, command F).
+  // Bits of the answer to F, stored until they are read (manual, command F).
   enum Flag : std::uint8_t {
     receive_queue_full = 1U << 0U,
     transmit_queue_full = 1U << 1U,

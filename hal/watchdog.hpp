@@ -1,9 +1,9 @@
 #pragma once
-// Restarts the processor when nobody feeds it. Bound at compile time. A board writes one class:
+// Restarts the processor when it is not fed. Bound at compile time. A board writes one class:
 //
 //   struct MyWatchdog {
 //     void feed();                          // the full time again
-//     std::uint32_t remaining_us() const;   // until the bite if nobody feeds
+//     std::uint32_t remaining_us() const;   // until the bite if it is not fed
 //   };
 //
 // Once started it cannot be stopped by software. Both members are safe in an interrupt.

@@ -1,5 +1,5 @@
 #pragma once
-// What is said to a user whose input is refused.
+// The message to a user about refused input.
 
 #include <string>
 

@@ -5,7 +5,8 @@
     toolchain/arrows.py --self-test  proves that an include against the order and a circle are found
 
 A room is a folder of RULE together with the folders inside it that have no line of their own. It may include the rooms its
-line names, all rooms inside a named folder, and what those may include. Prints each include against the order and the first
+line names, all rooms inside a named folder, and what those may include. A test may also include what simulates its other
+end, but nothing that stands above it: OF_TESTS. Prints each include against the order and the first
 circle; exit code 1 if there is one, 2 if the rule itself is wrong. The check reads includes only: that a library links
 without the others is proven by linking it (tests/host_sim/host/alone).
 """
@@ -42,6 +43,14 @@ host_sim/experiments/any_machine host_sim/experiments/xyfz host_sim/experiments/
 host_sim/experiments/face_gear host_sim/experiments/internal_helical: host_sim/sim/campaign
 host_sim/cli:              host_sim/experiments host_sim/sim
 """
+# Folder of tests -> what its files must not include.
+OF_TESTS = {
+    "tests/comp": ("hal", "firmware/node", "firmware/boards", "host_sim"),
+    "tests/hal": ("firmware/node", "host_sim"),
+    "tests/firmware": ("host_sim",),
+    "tests/host_sim/host": ("host_sim/experiments", "host_sim/cli"),
+    "tests/host_sim/sim": ("host_sim/experiments", "host_sim/cli"),
+}
 WINGS = ("comp", "hal", "firmware", "host_sim")
 SUFFIXES = (".cpp", ".hpp", ".inl", ".h", ".c")
 INCLUDE = re.compile(r'\s*#\s*include\s*[<"]((?:comp|hal|firmware|host_sim|tests)/[^">]+)[">]')
@@ -116,6 +125,18 @@ def check(root, allowed):
     return offences, find_circle(uses), files
 
 
+def check_tests(root):
+    """Sentences about includes of tests."""
+    offences = []
+    for folder, above in OF_TESTS.items():
+        for file in sorted(file for file in (root / folder).rglob("*.*") if file.suffix in SUFFIXES):
+            for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), 1):
+                match = INCLUDE.match(line)
+                if match and match[1].startswith(tuple(f"{other}/" for other in above)):
+                    offences.append(f"{file.relative_to(root)}:{number}: {folder} must not include {match[1]}")
+    return offences
+
+
 def self_test():
     allowed = read_rule("comp/core:\ncomp/tick: comp/core\ncomp/metrology: comp/tick\n")
     tree = {"comp/core/units.hpp": "", "comp/tick/tick.cpp": '#include "comp/core/units.hpp"\n',
@@ -126,6 +147,8 @@ def self_test():
         ({"comp/tick/tick.hpp": '# include "tests/oracle/oracle.hpp"\n'}, True, False),
         ({"comp/attic/old.cpp": '#include "comp/core/units.hpp"\n'}, True, False),
         ({"comp/core/units.hpp": '#include "comp/tick/tick.cpp"\n'}, True, True),
+        ({"tests/host_sim/host/io/test.cpp": '#include "host_sim/experiments/xyfz/truth.hpp"\n'}, True, False),
+        ({"tests/host_sim/host/io/test.cpp": '#include "host_sim/sim/truth/noise.hpp"\n'}, False, False),
     ]
     for files, wants_offence, wants_circle in planted:
         with tempfile.TemporaryDirectory() as folder:
@@ -134,6 +157,7 @@ def self_test():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(text, encoding="utf-8")
             offences, circle, _ = check(root, allowed)
+            offences += check_tests(root)
             if bool(offences) != wants_offence or bool(circle) != wants_circle:
                 raise WrongRule(f"self-test: {files or 'a tree in order'} was judged wrongly: {offences}, {circle}.")
     for rule in ("comp/tick: comp/cellar", "comp/tick: comp/core\ncomp/core:"):
@@ -152,7 +176,9 @@ def main(arguments):
     if arguments:
         print(__doc__)
         return 0 if arguments in (["-h"], ["--help"]) else 2
-    offences, circle, files = check(pathlib.Path(__file__).resolve().parent.parent, read_rule(RULE))
+    root = pathlib.Path(__file__).resolve().parent.parent
+    offences, circle, files = check(root, read_rule(RULE))
+    offences += check_tests(root)
     for offence in offences:
         print(offence)
     if circle:

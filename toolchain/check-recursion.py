@@ -6,7 +6,8 @@
 
 Every source of comp, hal/linux, firmware/canopen and firmware/node is compiled twice into a temporary folder with the flags of BUILD_FOLDER's
 compile_commands.json: as it is built, and without optimization, where no call has been inlined and no tail
-recursion has become a loop. Both graphs must be free of cycles. The stack figures belong to the first.
+recursion has become a loop. Both graphs must be free of cycles. The stack figures belong to the first. Without
+optimization several sources are compiled at once, for most of the time goes into the headers of others.
 
 Calls through pointers and virtual functions have no target in the graph; they are counted and not followed.
 """
@@ -27,6 +28,7 @@ NODE = re.compile(r'^node: \{ title: "([^"]*)" label: "(.*)"( shape : ellipse)? 
 EDGE = re.compile(r'^edge: \{ sourcename: "([^"]*)" targetname: "([^"]*)"')
 STACK = re.compile(r"(\d+) bytes \(([^)]*)\)")
 INDIRECT = "__indirect_call"
+AT_A_TIME = 8
 LAUNCHERS = {"ccache", "sccache", "distcc"}
 LIBM = re.compile(
     r"^(a?(sin|cos|tan)h?|atan2|sincos|sqrt|cbrt|hypot|pow|exp|exp2|expm1|log|log2|log10|log1p|floor|ceil|trunc"
@@ -173,14 +175,36 @@ def call_graph_file(command, source, folder, base):
     return graph_file
 
 
-def build_graph(units, extra, jobs):
-    """One graph over all units; a unit is (command, source, working folder)."""
+def together(units):
+    """Lists of units that differ in nothing but their sources, AT_A_TIME at the most."""
+    alike = collections.defaultdict(list)
+    for unit in units:
+        alike[tuple(unit[0]), unit[2]].append(unit)
+    return [group[at:at + AT_A_TIME] for group in alike.values() for at in range(0, len(group), AT_A_TIME)]
+
+
+def call_graph_files(group, extra, base):
+    """Checks all sources at once, or one by one where they share names."""
+    command, source, folder = group[0]
+    if len(group) > 1:
+        source = pathlib.Path(f"{base}.cpp")
+        source.write_text("".join(f'#include "{unit[1]}"\n' for unit in group))
+    try:
+        return [call_graph_file(command + extra, source, folder, base)]
+    except Failure:
+        if len(group) == 1:
+            raise
+    return [path for number, unit in enumerate(group) for path in call_graph_files([unit], extra, f"{base}-{number}")]
+
+
+def build_graph(groups, extra, jobs):
+    """One graph over all groups of units; a unit is (command, source, working folder)."""
     graph = Graph()
     with tempfile.TemporaryDirectory() as temporary, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        tasks = [pool.submit(call_graph_file, command + extra, source, folder, f"{temporary}/{number}")
-                 for number, (command, source, folder) in enumerate(units)]
-        for number, task in enumerate(tasks):
-            graph.add_file(task.result(), number)
+        tasks = [pool.submit(call_graph_files, group, extra, f"{temporary}/{number}")
+                 for number, group in enumerate(groups)]
+        for number, path in enumerate(path for task in tasks for path in task.result()):
+            graph.add_file(path, number)
     graph.close()
     return graph
 
@@ -271,7 +295,8 @@ def self_test(jobs):
                 source = pathlib.Path(folder, f"s{number}.cpp")
                 source.write_text(text + "\n")
                 units.append((["g++", "-std=c++17", "-O2"], source, folder))
-            offences = judge(build_graph(units, [], jobs), build_graph(units, ["-O0"], jobs))
+            offences = judge(build_graph([[unit] for unit in units], [], jobs),
+                             build_graph(together(units), ["-O0"], jobs))
         right = any(o.startswith(expected) for o in offences) if expected else not offences
         if not right:
             raise Failure(f"self-test: expected \"{expected or 'no offence'}\", found {offences} in {texts}")
@@ -287,7 +312,8 @@ def main():
     if options.self_test:
         return self_test(jobs)
     units = target_units(options.build)
-    built, plain = build_graph(units, [], jobs), build_graph(units, ["-O0"], jobs)
+    built = build_graph([[unit] for unit in units], [], jobs)
+    plain = build_graph(together(units), ["-O0"], jobs)
     defined = sum(f.defined for f in built.functions.values())
     print(f"call graph of {len(units)} sources of the target: {defined} functions, "
           f"{sum(f.defined for f in plain.functions.values())} before inlining")

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Measures the images of the Cortex-M boards in QEMU, proves what they promise and compares both with the budgets.
 #
-#   toolchain/evidence.sh              builds, measures, judges; README must show the same figures
-#   toolchain/evidence.sh --write      the same, and renews the figures in README
+#   toolchain/evidence.sh              builds, measures, judges; docs/evidence.md must show the same figures
+#   toolchain/evidence.sh --write      the same, and renews the figures in docs/evidence.md
 #   toolchain/evidence.sh --self-test  proves on small programs that the checks measure right and find each offence
 #
 # Results: build/evidence/evidence.json, build/evidence/evidence.md.

@@ -8,16 +8,17 @@ make_root() {
   [ "$(id -u)" = 0 ] || die "making a fresh Debian needs root."
   root=$(mktemp -d /var/tmp/volcomp-root.XXXXXX)
   trap drop_root EXIT
-  chmod 755 "$root"  # not everybody in there is root
+  chmod 755 "$root"  # not every user in there is root
   log=$root.log
   debootstrap --variant=minbase bookworm "$root" "${VOLCOMP_MIRROR:-http://deb.debian.org/debian}" > "$log" 2>&1 ||
     { tail -n 5 "$log"; die "debootstrap could not make a fresh Debian."; }
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   mount -t proc proc "$root/proc"
+  mount -t devpts -o mode=620,gid=5 devpts "$root/dev/pts"  # terminals of its own
 }
 
 drop_root() {
-  umount "$root/proc" 2> /dev/null || true
+  umount "$root/proc" "$root/dev/pts" 2> /dev/null || true
   rm -rf --one-file-system "$root" "$root.log"
 }
 

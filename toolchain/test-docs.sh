@@ -19,7 +19,7 @@ build_preset host --target volcomp volcomp-node
 readonly in_path='PATH=$PWD/build/host/host_sim:$PWD/build/host/firmware:$PATH exec /usr/bin/python3 tests/system/run_docs.py "$@"'
 for page in "${pages[@]}"; do
   if /usr/bin/python3 tests/system/run_docs.py --list "$page" | grep -q ' vcan0'; then
-    bash toolchain/with-vcan bash -c "$in_path" run_docs --needs vcan0 "$page"
+    bash toolchain/with-vcan bash -c "$in_path" run_docs --needs vcan0 "$page" < /dev/null
   else
     bash -c "$in_path" run_docs "$page"
   fi

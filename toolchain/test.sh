@@ -4,6 +4,8 @@
 #   toolchain/test.sh               everything
 #   toolchain/test.sh --quick       format, build and tests of the host only
 #   toolchain/test.sh --step NAME   one step (may be repeated)
+#   toolchain/test.sh --only FOLDER what belongs to a folder, for instance comp/tables: its format, its unit tests, built
+#                                   by the preset "dev", where a change compiles only what includes it
 #
 # Steps, in this order:
 #   setup       install what is missing
@@ -13,12 +15,12 @@
 #   build       the optimized host build
 #   test        its tests
 #   proofs      no heap, exceptions, globals, recursion ... in the libraries of the target
-#   can         the tests that need a CAN interface of the kernel, below toolchain/with-vcan; beside the next step
+#   can         the tests that need a CAN interface of the kernel, below toolchain/with-vcan, and its shell; beside the next step
 #   asan        built with clang, tests with the address and undefined-behaviour sanitizers
 #   coverage    what of the target code those tests have run, at least 95 % of the branches; table in
 #               build/host-asan/coverage.txt
 #   boards      the firmware and its tests, executed in QEMU
-#   evidence    sizes, stack and instructions of the images, measured, proven, compared with README; beside the next step
+#   evidence    sizes, stack and instructions of the images, measured, proven, compared with docs/evidence.md; beside the next step
 #   tidy        clang-tidy
 #   loop        the firmware in QEMU in the loop with the simulated machine; beside the next step
 #   cppcheck    cppcheck over comp, hal and firmware
@@ -91,7 +93,9 @@ step_can() {
   build_preset a53 --target volcomp-node
   way=$(bash toolchain/with-vcan --how)
   printf 'way to vcan0: %s\n' "$way"
-  VOLCOMP_VM_TIMEOUT=1500 VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/run_all.sh vcan 2>&1 | tee "$logs/ctest-can.txt"
+  VOLCOMP_VM_TIMEOUT=1500 VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/run_all.sh vcan < /dev/null 2>&1 | tee "$logs/ctest-can.txt"
+  bash toolchain/with-vcan --vm --how > /dev/null
+  bash tests/system/run_all.sh vm 2>&1 | tee "$logs/ctest-vm.txt"
 }
 
 step_proofs() {
@@ -170,6 +174,33 @@ step_bench() {
   build_preset host --target volcomp_bench
 }
 
+# tests_of FOLDER: the folders of tests that lie as it does, or, where it has none, as the nearest folder above it.
+tests_of() {
+  local folder=${1#tests/} found
+  while :; do
+    mapfile -t found < <(cd tests && find "$folder" -name CMakeLists.txt -printf '%h\n' 2> /dev/null | sort)
+    [ ${#found[@]} -eq 0 ] || break
+    [[ $folder == */* ]] || die "there are no tests of $1."
+    folder=${folder%/*}
+  done
+  printf 'tests/%s\n' "${found[@]}"
+}
+
+# only FOLDER: it and its tests, for the inner loop; no check of the whole is replaced by it.
+only() {
+  local folder=${1%/} tests files
+  [ -d "$folder" ] || die "there is no folder \"$1\"."
+  need clang-format ctest
+  tests_of "$folder" > "$logs/only.txt"
+  mapfile -t tests < "$logs/only.txt"
+  mapfile -t files < <(for pattern in '*.[ch]pp' '*.inl'; do sources "$pattern" "$folder" "${tests[@]}"; done | sort -u)
+  [ ${#files[@]} -eq 0 ] || clang-format --dry-run -Werror "${files[@]}"
+  build_preset dev --target "${tests[@]/%//all}"
+  for folder in "${tests[@]}"; do
+    ctest --test-dir "build/dev/$folder" -j "$(jobs_allowed)" --no-tests=error --output-on-failure --progress
+  done
+}
+
 # Adds the ctest summary of each log; a skipped test is neither passed nor failed.
 count_tests() {
   local log
@@ -206,6 +237,12 @@ while [ $# -gt 0 ]; do
       shift
       [[ " ${all_steps[*]} " == *" $1 "* ]] || die "there is no step \"$1\"; the steps are: ${all_steps[*]}."
       steps+=("$1")
+      ;;
+    --only)
+      [ $# -ge 2 ] || die "--only needs a folder (try --help)."
+      mkdir -p "$logs"
+      only "$2"
+      exit
       ;;
     -h | --help) usage; exit 0 ;;
     *) die "unknown argument \"$1\" (try --help)." ;;

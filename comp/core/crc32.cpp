@@ -38,6 +38,14 @@ std::uint32_t crc32(Span<const std::uint8_t> bytes, std::uint32_t before) {
   return checksum(kEthernet, bytes, before);
 }
 
+bool PiecewiseCrc::read_on(Span<const std::uint8_t> all, std::size_t most) {
+  const std::size_t left = all.size() - done;
+  const std::size_t now = left < most ? left : most;
+  crc = crc32({all.data() + done, now}, done == 0 ? 0 : crc);
+  done = now < left ? done + static_cast<std::uint32_t>(now) : 0;
+  return now == left;
+}
+
 std::uint32_t crc32c(Span<const std::uint8_t> bytes, std::uint32_t before) {
   return checksum(kCastagnoli, bytes, before);
 }

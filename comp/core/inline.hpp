@@ -1,6 +1,6 @@
 #pragma once
-// The tick is one straight run of instructions: its small functions are inlined whatever the
-// optimiser thinks, its bounded loops unrolled, but for those of VOLCOMP_LOOP.
+// The tick is one straight run of instructions: its small functions are inlined regardless of the
+// optimiser, its bounded loops unrolled, but for those of VOLCOMP_LOOP.
 
 #define VOLCOMP_INLINE [[gnu::always_inline]] inline
 #define VOLCOMP_INLINE_LAMBDA __attribute__((always_inline))
@@ -14,4 +14,4 @@
 #endif
 
 // The condition of an exception: its branch is moved out of the straight run.
-#define VOLCOMP_RARELY(condition) __builtin_expect(static_cast<bool>(condition), false)
+#define VOLCOMP_UNLIKELY(condition) __builtin_expect(static_cast<bool>(condition), false)

@@ -55,7 +55,7 @@ class LittleEndianWriter {
   std::size_t at_ = 0;
 };
 
-// Reads zeros beyond the end and remembers that it did.
+// Reads zeros beyond the end and records it.
 class LittleEndianReader {
  public:
   explicit LittleEndianReader(Span<const std::uint8_t> bytes) : bytes_(bytes) {}

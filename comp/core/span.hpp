@@ -1,5 +1,5 @@
 #pragma once
-// A view of contiguous elements owned by somebody else (std::span arrives only with C++20).
+// A view of contiguous elements owned elsewhere (std::span arrives only with C++20).
 
 #include <cstddef>
 

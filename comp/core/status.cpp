@@ -1,8 +1,12 @@
 #include "comp/core/status.hpp"
 
-// By itself: an image that asks for nothing else carries no other text (reason_text.cpp).
+// In a file of its own: an image that uses nothing else links no other text (reason_text.cpp).
 
 namespace volcomp {
+
+Status refuse(Reason reason) { return {reason, {}}; }
+
+Status refuse(Reason reason, const Where& where) { return {reason, where}; }
 
 Status refuse_value(Reason reason, const char* field, double value) {
   Where where;

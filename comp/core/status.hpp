@@ -118,7 +118,9 @@ struct [[nodiscard]] Status {
   [[nodiscard]] constexpr bool ok() const { return reason == Reason::ok; }
 };
 
-constexpr Status refuse(Reason reason, Where where = {}) { return {reason, where}; }
+// Functions of their own: a place is larger than the calls that fill it in, and boards have many.
+Status refuse(Reason reason);
+Status refuse(Reason reason, const Where& where);
 
 // With the offending value of a field.
 Status refuse_value(Reason reason, const char* field, double value);

@@ -8,15 +8,15 @@
 
 #include "comp/machine/error_motion.hpp"
 
-// Where doubles are in hardware, VOLCOMP_IN_ONE makes one function of all that is called, for most
+// Where doubles are in hardware, VOLCOMP_FLATTEN makes one function of all that is called, for most
 // of what the calls cost is saving registers, and loops of 16 are unrolled. Elsewhere
 // VOLCOMP_SHARED keeps what it marks out of line.
 #if defined(__arm__) && (__ARM_FP & 8) == 0
-#define VOLCOMP_IN_ONE
+#define VOLCOMP_FLATTEN
 #define VOLCOMP_SHARED [[gnu::noinline]]
 #define VOLCOMP_UNROLL_16
 #else
-#define VOLCOMP_IN_ONE [[gnu::flatten]]
+#define VOLCOMP_FLATTEN [[gnu::flatten]]
 #define VOLCOMP_SHARED
 #if defined(__clang__)
 #define VOLCOMP_UNROLL_16 _Pragma("unroll")
@@ -32,7 +32,7 @@ VOLCOMP_SHARED inline double sum_of_products(double a, double b, double c, doubl
   return a * b + c * d;
 }
 
-// Of three numbers from `a` on, `step` apart, with v.
+// Dot product of three numbers from `a` on, `step` apart, with v.
 VOLCOMP_SHARED inline double dot_of(const double* a, std::ptrdiff_t step, const Vec3& v) {
   return a[0] * v[0] + a[step] * v[1] + a[2 * step] * v[2];
 }

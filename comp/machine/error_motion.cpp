@@ -33,7 +33,7 @@ Mat3 rxryrz_minus_identity(const Vec3& angles) {
   return d;
 }
 
-// [e]x + N of seed 000 section 1 (a, b, c = EA, EB, EC).
+// Rx(a) Ry(b) Rz(c) − I up to second order: [e]x + N (a, b, c = EA, EB, EC).
 Mat3 second_order_minus_identity(const Vec3& angles) {
   const double a = angles.x();
   const double b = angles.y();

@@ -35,8 +35,8 @@ enum class RotationModel : std::uint8_t {
 [[nodiscard]] Mat3 inverse_minus_identity(RotationModel model, const Vec3& angles);
 
 enum class Convention : std::uint8_t {
-  relative,  // tool with respect to workpiece (ISO 230-1; seed 001)
-  body,      // motion of the body itself (seeds 000 and 003)
+  relative,  // tool with respect to workpiece (ISO 230-1; docs/papers/xyfz.md)
+  body,      // motion of the body itself (docs/papers/l300g.md and internal-helical.md)
 };
 
 enum class Side : std::uint8_t {

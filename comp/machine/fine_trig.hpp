@@ -64,7 +64,7 @@ inline double units_within_a_turn(double angle) {
   return (turns - static_cast<double>(whole)) * static_cast<double>(kUnitsPerTurn);
 }
 
-// Of an angle in radians, |angle| < 1e9.
+// Sine and cosine of an angle in radians, |angle| < 1e9.
 inline FineSineCosine fine_sine_cosine_rad(double angle) {
   return fine_sine_cosine(units_within_a_turn(angle));
 }
@@ -72,8 +72,8 @@ inline FineSineCosine fine_sine_cosine_rad(double angle) {
 namespace detail {
 
 // √x for x in 1e-30…1e30. The root of the float is right to 2^-24; its square is exact in double,
-// and so is what is missing from x. Of that, d = x/s² − 1, the series of √(1 + d) needs two terms:
-// the third is below 2^-70.
+// and so is what is missing from x. With d = x/s² − 1, the series of √(1 + d) needs two terms: the
+// third is below 2^-70.
 inline double root_of_usual(double x) {
   const auto s = static_cast<double>(std::sqrt(static_cast<float>(x)));
   const double square = s * s;

@@ -20,7 +20,7 @@ namespace detail {
 inline constexpr unsigned kCircleBits = 7;
 using Circle = std::array<SineCosine, 1U << kCircleBits>;
 
-// Of 0…π/2 by its series: the first term left out is < 2e-16.
+// Sine on 0…π/2 by its series: the first term left out is < 2e-16.
 constexpr double sine_by_series(double x) {
   double sum = x;
   double term = x;

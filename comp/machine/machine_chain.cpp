@@ -15,7 +15,7 @@ Status check_joint(const Body& body, const Where& where) {
   if (static_cast<int>(joint.axis) > 2 || (joint.sign != 1 && joint.sign != -1)) {
     return refuse(Reason::bad_joint, where);
   }
-  // An entry of a rotation is a cosine; what is not one is told from a number that is none.
+  // Entries of a rotation are cosines; a finite entry that is none is refused as not_a_rotation.
   constexpr double kAnyNumber = std::numeric_limits<double>::max();
   Reason reason = check_numbers(joint.offset.data(), joint.offset.size(), kMaxOffset_mm);
   if (reason == Reason::ok)

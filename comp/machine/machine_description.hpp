@@ -14,8 +14,8 @@ inline constexpr std::size_t kMaxBodies = 16;
 inline constexpr std::size_t kMaxCorrecting = 3;
 inline constexpr std::size_t kMaxOrienting = 2;
 
-// Body K hangs on body `lower` < K by its joint; the root hangs on 0 (Huston's lower-body array,
-// seed 003 section 2).
+// Body K hangs on body `lower` < K by its joint; the root hangs on 0 (Huston's lower-body array, as
+// in the paper of docs/papers/internal-helical.md).
 struct Body {
   std::uint8_t lower = 0;
   Joint joint{};

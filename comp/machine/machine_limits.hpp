@@ -12,8 +12,7 @@ namespace volcomp {
 
 // Component of a joint offset or a tool point, mm: arms and stands of machines are below 5 m.
 inline constexpr double kMaxOffset_mm = 5000.0;
-// Squareness of one pair of axes, rad: beyond it an angle was given in arc seconds (seed 001,
-// bad-input table).
+// Squareness of one pair of axes, rad: beyond it an angle was given in arc seconds.
 inline constexpr double kMaxSquareness_rad = 5e-3;
 // Component of the direction of an axis, rad: the pairs with both other axes.
 inline constexpr double kMaxDirection_rad = 2.0 * kMaxSquareness_rad;

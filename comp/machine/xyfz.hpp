@@ -1,7 +1,6 @@
 #pragma once
-// The XYFZ machine of Zhao et al. (Optics and Precision Engineering 28(4) 885, 2020; seed 001): X
-// on Y on the bed, both carrying the workpiece; Z on the column carries the tool. NC axes 0 = X, 1
-// = Y, 2 = Z.
+// The XYFZ machine of Zhao et al. (docs/papers/xyfz.md): X on Y on the bed, both carrying the
+// workpiece; Z on the column carries the tool. NC axes 0 = X, 1 = Y, 2 = Z.
 
 #include "comp/machine/machine_chain.hpp"
 

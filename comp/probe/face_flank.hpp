@@ -1,7 +1,7 @@
 #pragma once
 // Flanks of a face gear by their parameters: roll angle θ ≥ 0 and pressure angle β > 0. Points,
 // normals and derivatives of the generated flank, and of the flank with tip relief. No libm: the
-// same bits on every target. Seed 002 sections 2 and 3.
+// same bits on every target. See docs/papers/face-gear.md.
 
 #include "comp/machine/error_motion.hpp"
 #include "comp/probe/face_gear.hpp"
@@ -44,7 +44,7 @@ class FaceTriad {
   double turn_cosine_ = 1.0;
 };
 
-// Of the generated flank.
+// Point of the generated flank.
 [[nodiscard]] FacePoint face_point(const FaceGear& gear, const FaceFlank& flank,
                                    const FaceParameters& at);
 
@@ -57,8 +57,8 @@ struct FacePartials {
 [[nodiscard]] FacePartials face_partials(const FaceGear& gear, const FaceFlank& flank,
                                          const FaceParameters& at);
 
-// Of the flank with its relief: `at` is the generated point that it is set back from. The normal
-// is that of the relieved surface.
+// Point of the flank with its relief: `at` is the generated point that it is set back from. The
+// normal is that of the relieved surface.
 [[nodiscard]] FacePoint relieved_face_point(const FaceGear& gear, const FaceFlank& flank,
                                             const FaceParameters& at);
 

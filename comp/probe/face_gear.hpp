@@ -3,8 +3,8 @@
 //
 // Gear frame: origin where the two axes meet, +Z along the gear axis from the shaper axis into the
 // blank (tips at small z, roots at large z), +X along the centre line of tooth slot 0,
-// right-handed. Slot k stands at the polar angle 2πk/teeth. Lengths mm, angles rad. Seed 002
-// sections 1 to 3.
+// right-handed. Slot k stands at the polar angle 2πk/teeth. Lengths mm, angles rad. See
+// docs/papers/face-gear.md.
 
 #include "comp/core/status.hpp"
 
@@ -51,11 +51,11 @@ inline constexpr int kMaxFaceGearTeeth = 256;
 Status derive(FaceGear& gear);
 
 // Roll angle from which on the surface folds back at pressure angle `beta` (0 < beta < π/2): the
-// flank is regular below. Seed 002 section 2.
+// flank is regular below.
 [[nodiscard]] double undercut_roll(const FaceGear& gear, double beta);
 
 // Polar angle of the flank y > 0 of slot 0 at the distance `rho` from the axis and the depth `z`:
-// half the width of the slot there. NaN where there is no regular flank. Seed 002 section 4.
+// half the width of the slot there. NaN where there is no regular flank.
 [[nodiscard]] double half_slot_angle(const FaceGear& gear, double rho, double z);
 
 // Arc of a tooth there, mm.

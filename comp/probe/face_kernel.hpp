@@ -4,7 +4,7 @@
 // The normals of a generated flank all have the same moment arm C about the gear axis, so a surface
 // parallel to the flank is the flank turned about that axis, and the distance is C times an angle
 // that needs one scalar equation: exact at any distance. No libm: the same bits on every target.
-// Interrupt-safe. Seed 002 sections 0 and 4.
+// Interrupt-safe. See docs/papers/face-gear.md, "What we do".
 
 #include <limits>
 
@@ -76,9 +76,9 @@ struct FaceFoot {
          reason == Reason::in_fillet || reason == Reason::above_tip;
 }
 
-// Of a point `q` (gear frame) from the generated flank, without relief. The first that applies of:
-// not_finite, inside_gear_base, no_regular_flank (NaN distance), and by the foot: below_involute,
-// undercut, in_fillet, above_tip. Error ≤ 2e-13 mm on the two gears of the paper.
+// Distance of a point `q` (gear frame) from the generated flank, without relief. The first that
+// applies of: not_finite, inside_gear_base, no_regular_flank (NaN distance), and by the foot:
+// below_involute, undercut, in_fillet, above_tip. Error ≤ 2e-13 mm on the two gears of the paper.
 [[nodiscard]] FaceFoot distance_from_face(const FaceGear& gear, const FaceFlank& flank,
                                           const Vec3& q);
 

@@ -32,8 +32,8 @@ bool small(double v) { return v < 1e-9 && v > -1e-9; }
 double relieved_distance(const FaceGear& gear, const FaceFoot& foot) {
   const ReliefAt cut = relief_at(gear.relief, foot.point[2]);
   const double square = 1.0 - foot.normal[2] * foot.normal[2];  // cos² β
-  // Above the place the relief is taken at. Seed 002 has the distance to the generated flank here:
-  // that is 60 nm less exact.
+  // Above the place the relief is taken at. The distance to the generated flank would be 60 nm less
+  // exact here.
   const double height = foot.distance + cut.depth;
   const double tilt = cut.slope * cut.slope * square;
   return height - 0.5 * height * tilt / (1.0 + height * cut.change * square);

@@ -1,6 +1,6 @@
 #pragma once
 // Distance from a flank with tip relief: in closed form for the trigger, exactly for frames and
-// maps. No libm, interrupt-safe. Seed 002 sections 3 and 4.
+// maps. No libm, interrupt-safe. See docs/papers/face-gear.md.
 
 #include "comp/probe/face_kernel.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 // What became of a touch that was meant for a flank of a face gear. Fixed work, no libm,
-// interrupt-safe. Seed 002 sections 4 and 11 and its addendum.
+// interrupt-safe. See docs/papers/face-gear.md, "What we do".
 
 #include "comp/probe/face_kernel.hpp"
 
@@ -13,7 +13,7 @@ struct FaceProbing {
 
 struct FaceTouch {
   // The first that applies of:
-  // bad_point        there is no distance (`foot.reason` says why), or radius or gate are unusable
+  // bad_point        there is no distance (reason in `foot.reason`), or radius or gate are unusable
   // two_flanks       both flanks of the slot are touched
   // ok               the commanded flank is touched where it is one
   // opposite_flank   the other one is touched

@@ -4,8 +4,8 @@
 // ball is thick, by a different amount in each direction ("lobing").
 //
 // r(d) = Σ c_k Y_k(d), spherical harmonics up to third order as polynomials in the direction
-// cosines. The first coefficient is the constant radius r_c of seed 000 section 3; the next three
-// cannot be told from a shift of the ball centre.
+// cosines. The first coefficient is the constant radius r_c of docs/papers/l300g.md; the next three
+// are indistinguishable from a shift of the ball centre.
 
 #include <array>
 #include <cstddef>

@@ -137,8 +137,8 @@ void NominalChain::walk_to_work(const LatchedPose& q, NominalPoint& nominal) con
   }
 }
 
-VOLCOMP_IN_ONE void NominalChain::at(const LatchedPose& q, const Vec3& tool_point,
-                                     const Frame& part, NominalPoint& nominal) const {
+VOLCOMP_FLATTEN void NominalChain::at(const LatchedPose& q, const Vec3& tool_point,
+                                      const Frame& part, NominalPoint& nominal) const {
   nominal.base = tool_point;
   nominal.tool_to_base.setIdentity();
   walk_to_base(q, nominal);

@@ -4,6 +4,8 @@
 
 #include "comp/core/units.hpp"
 #include "comp/machine/double3.hpp"
+#include "comp/machine/machine_limits.hpp"
+#include "comp/tables/table_set.hpp"
 
 namespace volcomp {
 namespace {
@@ -26,6 +28,15 @@ double within_a_turn(std::int64_t position) {
   return to_double(static_cast<std::int64_t>(phase) >> kRest);
 }
 
+// Every coordinate of a point: all axes along one line, links of 5 m from corner to corner, the
+// tables and 16 terms of the radius, each below 2. Positions of the axes are nearly all of it.
+constexpr double kMaxLink_nm = 2.0 * kMaxOffset_mm * kNmPerMm;
+constexpr double kMaxCoordinate_nm = static_cast<double>(kMaxAxes) * kMaxContact_nm +
+                                     static_cast<double>(kMaxBodies + 1) * kMaxLink_nm +
+                                     2.0 * kMaxBound_nm + 32.0 * kMaxBallRadius_nm +
+                                     2.0 * kMaxPart_nm;
+static_assert(kMaxCoordinate_nm < 0x1p63);
+
 // Half away from zero. |value| < 2^63
 std::int64_t to_integer(double value) {
   const double magnitude = (value < 0.0 ? -value : value) + 0.5;
@@ -43,7 +54,7 @@ double square(double x) { return x * x; }
 
 }  // namespace
 
-// What the point and its uncertainty depend on, in the workpiece frame unless said otherwise.
+// What the point and its uncertainty depend on, in the workpiece frame unless stated otherwise.
 struct ProbeCorrector::Contact {
   Vec3 normal;            // unit or 0
   bool directed = false;  // it is not 0
@@ -97,8 +108,8 @@ void ProbeCorrector::set_contact(const Touch& touch, const ProbeFeature& feature
   c.axes_variance = axes_variance;
 }
 
-VOLCOMP_IN_ONE ProbePoint ProbeCorrector::correct(const Touch& touch, const ProbeFeature& feature,
-                                                  const PoseError& error) const {
+VOLCOMP_FLATTEN ProbePoint ProbeCorrector::correct(const Touch& touch, const ProbeFeature& feature,
+                                                   const PoseError& error) const {
   NominalPoint nominal;  // NOLINT(cppcoreguidelines-pro-type-member-init) both are set by the calls
   Contact c;             // NOLINT(cppcoreguidelines-pro-type-member-init)
   chain_.at(contact_pose(touch), tool_point_, settings.workpiece, nominal);

@@ -15,6 +15,12 @@
 
 namespace volcomp {
 
+// Largest values in settings and touches, so that 64 bits hold every point. The interfaces check
+// them where they take settings and touches in: correct() has no time for that.
+inline constexpr double kMaxBallRadius_nm = 2e7;  // r_c below 20 mm; each term
+inline constexpr double kMaxPart_nm = 1e13;       // origin of the part, and every uncertainty
+inline constexpr double kMaxContact_nm = 1e18;    // of one axis: latch and what it moved since
+
 // Standard uncertainties of what goes into a point.
 struct ProbeUncertainty {
   double radius = 0.0;         // of the effective radius, nm

@@ -85,7 +85,7 @@ TouchVerdict TouchCollector::judge_axis(std::size_t axis) const {
   return a.homed ? TouchVerdict::point : TouchVerdict::not_homed;
 }
 
-// Of the first axis with which something is wrong; then what takes two edges to tell.
+// Judges each axis first and returns the first fault; then checks what takes two edges.
 TouchVerdict TouchCollector::judge(std::uint8_t& axis) const {
   std::int64_t first_ns = INT64_MAX;
   std::int64_t last_ns = INT64_MIN;

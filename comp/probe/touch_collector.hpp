@@ -54,7 +54,7 @@ class TouchCollector {
     bool homed = false;
     bool moving = false;
     // Cycles in which a latch makes an edge of the first report of the counter; without one it only
-    // says where the counter stands.
+    // reports where the counter stands.
     std::uint8_t doubtful = 0;
   };
   void count(AxisEdges& a, std::uint32_t bit, std::uint16_t edge_count);

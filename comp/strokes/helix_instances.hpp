@@ -5,8 +5,8 @@
 
 namespace volcomp {
 
-// 65 mm of stroke in steps of 0.25 mm, as seed 003 section 9 needs them, and gears of up to 128
-// teeth: 33 KB and 5 KB.
+// 65 mm of stroke in steps of 0.25 mm, a tenth of Z's ripple of 2.5 mm
+// (docs/papers/internal-helical.md), and gears of up to 128 teeth: 33 KB and 5 KB.
 inline constexpr std::size_t kStrokeNodes = 261;
 inline constexpr std::size_t kGearSlots = 128;
 

@@ -1,13 +1,13 @@
 #pragma once
 // Watches a machine grind helical slots: what tracking errors of Z, C and X leave on the flank,
-// by stroke direction, node of the stroke and slot. O(1) per tick and signal. Seed 003 section 8.
+// by stroke direction, node of the stroke and slot. O(1) per tick and signal. See
+// docs/papers/internal-helical.md.
 //
 // The interrupt calls tick() only. A pass ends when the wheel leaves the face; it then waits in the
 // spare half of a double buffer until the background collects it. A pass that ends while another
 // still waits is lost and counted.
 
-#include <atomic>
-
+#include "comp/core/atomic_word.hpp"
 #include "comp/machine/fixed_trig.hpp"
 #include "comp/strokes/stroke_pass.hpp"
 #include "comp/strokes/stroke_totals.hpp"
@@ -52,7 +52,7 @@ class HelixMonitor {
     lost_ = outside_ = 0;
     filling_ = 0;
     in_pass_ = false;
-    waiting_.store(false, std::memory_order_relaxed);
+    waiting_.store(0, std::memory_order_relaxed);
     return {};
   }
 
@@ -68,19 +68,19 @@ class HelixMonitor {
     return use;
   }
 
-  // Of the last frame that was used.
+  // Signals of the last frame that was used.
   [[nodiscard]] const HelixSignals& signals() const { return signals_; }
 
   // --- background
 
-  [[nodiscard]] bool pass_waits() const { return waiting_.load(std::memory_order_acquire); }
+  [[nodiscard]] bool pass_waits() const { return waiting_.load(std::memory_order_acquire) != 0; }
 
   // Takes the pass that waits into the totals, or discards it with the reason: see
   // StrokeTotals::add(). Without one: too_few_points.
   Status collect() {
     if (!pass_waits()) return refuse(Reason::too_few_points);
     const Status status = totals_.add(pass_[1U - filling_]);
-    waiting_.store(false, std::memory_order_release);
+    waiting_.store(0, std::memory_order_release);
     return status;
   }
 
@@ -146,9 +146,9 @@ class HelixMonitor {
 
   void end_pass() {
     in_pass_ = false;
-    if (waiting_.load(std::memory_order_acquire)) return count(lost_);
+    if (waiting_.load(std::memory_order_acquire) != 0) return count(lost_);
     filling_ = 1U - filling_;
-    waiting_.store(true, std::memory_order_release);
+    waiting_.store(1, std::memory_order_release);
   }
 
   void record(const HelixFrame& frame, bool usable) {
@@ -199,7 +199,7 @@ class HelixMonitor {
   std::uint32_t outside_ = 0;
   std::size_t filling_ = 0;
   bool in_pass_ = false;
-  std::atomic<bool> waiting_{false};
+  AtomicWord<> waiting_{0};
   Totals totals_{};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// One instant of a helical stroke: integers in, synchronisation error and X error out. Seed 003
-// sections 7 and 8.
+// One instant of a helical stroke: integers in, synchronisation error and X error out
+// (docs/papers/internal-helical.md, "What we do").
 
 #include <cstdint>
 

@@ -83,7 +83,7 @@ class Update {
     return &nodes_[j + k - half];
   }
 
-  // Of no weight where the node itself is not valid.
+  // Without weight where the node itself is not valid.
   [[nodiscard]] Kernel at(std::size_t j) const {
     Kernel kernel;
     if (!valid(nodes_[j])) return kernel;

@@ -1,8 +1,7 @@
 #pragma once
 // One iterative learning step for a table of offsets: t ← t − w · smoothed mean error, with every
-// limit that keeps a bad pass out of the table. The paper calls it "reverse weighted compensation"
-// and gives no formula; this one converges for 0 < w < 2. Seed 003 section 9 and its addendum,
-// whose order of operations this is.
+// limit that keeps a bad pass out of the table. The paper (docs/papers/internal-helical.md) calls
+// it "reverse weighted compensation" and gives no formula; this one converges for 0 < w < 2.
 //
 // Units are those of the table: mm or rad; positions mm, rad or slots. Background, no heap.
 
@@ -14,7 +13,7 @@
 
 namespace volcomp {
 
-// Of the samples of one node: e = actual − original command.
+// Sums over the samples of one node: e = actual − original command.
 struct NodeSums {
   std::uint32_t n = 0;
   double sum = 0.0;

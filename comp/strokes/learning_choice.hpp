@@ -1,6 +1,6 @@
 #pragma once
-// Which signal is worth a table, and which must not get one alone. Seed 003 sections 7 and 8:
-// signals are judged by what they do to the flank, not in mm against degrees.
+// Decides which signal is worth a table, and which must not get one alone: signals are judged by
+// their effect on the flank, not in mm against degrees (docs/papers/internal-helical.md).
 
 #include "comp/strokes/learning.hpp"
 
@@ -23,7 +23,7 @@ enum class LearningVerdict : std::uint8_t {
 };
 
 // `flank_per_unit`: |µm| on the flank per unit of the signal; `tolerance_um` of the parameter it
-// feeds (seed 003 section 11); `share` of it that is tolerated uncompensated, 0.1…0.3.
+// feeds (ISO 1328-1); `share` of it that is tolerated uncompensated, 0.1…0.3.
 [[nodiscard]] LearningVerdict judge_signal(const Repeatability& signal, double flank_per_unit,
                                            double tolerance_um, double share);
 
@@ -41,7 +41,7 @@ struct HelixEffect {
   double together_um = 0.0;
 };
 
-// Whether these lags (e_z mm, e_c rad) may be learned from. `prediction` says what the flank shows
+// Whether these lags (e_z mm, e_c rad) may be learned from. `prediction` holds what the flank shows
 // when the other one is left alone, whatever is decided. Refused: breaks_helix (value = µm left on
 // the flank) for Z or C alone while both follow the helix, unless `forced`; not_finite.
 // `flank_per_rad`: r_b cos β_b in mm/rad, `turn_per_mm`: 1/p.

@@ -1,6 +1,5 @@
 #pragma once
 // Stops a learning table that gets worse: J is what the flank shows, RMS in µm, before each update.
-// Seed 003, addendum "Guard".
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +11,7 @@ namespace volcomp {
 
 enum class GuardAction : std::uint8_t {
   keep,       // go on learning
-  hold,       // J rose by more than 5 % once: the best table is kept in reserve
+  hold,       // J rose by more than 5 % once: the best table stays in reserve
   roll_back,  // twice in a row, or J is not finite: back to the best table
 };
 
@@ -51,8 +50,8 @@ struct LearnerStep {
 };
 
 // A table under its guard: what it holds, the best it has held, and the weight, halved by every
-// roll-back that J asked for. Learning goes on after the first rise: a table that stands still
-// cannot rise a second time, so a weight that diverges would never be told from a bad pass.
+// roll-back that J caused. Learning goes on after the first rise: a table that stands still cannot
+// rise a second time, so a diverging weight would never be distinguished from a bad pass.
 // Background only.
 template <std::size_t Nodes>
 class OffsetLearner {

@@ -1,6 +1,6 @@
 #pragma once
 // Statistics of a signal that is never stored: O(1) per sample. Sums are doubles, for the mean of a
-// lag is 500 times its spread; no call into the C library in any add(). Seed 003 section 8.
+// lag is 500 times its spread; no call into the C library in any add().
 
 #include <cmath>
 #include <cstdint>
@@ -44,7 +44,7 @@ class RunningStatistics {
   [[nodiscard]] std::uint32_t bad() const { return bad_; }
   [[nodiscard]] double mean() const { return mean_; }
   [[nodiscard]] double peak() const { return peak_; }
-  // Of the population: divided by n. 0 without samples.
+  // Variance of the population: divided by n. 0 without samples.
   [[nodiscard]] double variance() const {
     return n_ == 0 ? 0.0 : squares_ / static_cast<double>(n_);
   }

@@ -1,6 +1,5 @@
 #pragma once
-// Amplitude and phase of what the monitor summed up (comp/strokes/running_statistics.hpp). Seed
-// 003 section 8.
+// Amplitude and phase of what the monitor summed up (comp/strokes/running_statistics.hpp).
 
 #include "comp/core/span.hpp"
 #include "comp/strokes/learning.hpp"

@@ -1,14 +1,14 @@
 #pragma once
-// The offset of C while a helical slot is ground: T1(z, direction) + T2(slot), through a slew
-// limit. Seed 003 section 9 and the table of bad input.
+// The offset of C while a helical slot is ground: T1(z, direction) + T2(slot), through a slew limit
+// (docs/papers/internal-helical.md, "What we do").
 //
 // Tables are staged in the background and taken over at the end of a stroke, outside the face: a
 // change in the middle of a slot would be a step on the flank.
 
 #include <array>
-#include <atomic>
 #include <cmath>
 
+#include "comp/core/atomic_word.hpp"
 #include "comp/core/span.hpp"
 #include "comp/core/units.hpp"
 #include "comp/tables/direction.hpp"
@@ -42,7 +42,7 @@ struct StrokeState {
   Direction stroke = Direction::unknown;
   bool in_face = false;
   bool stroke_end = false;  // the wheel turns round
-  bool fresh = false;       // false: the frame is missing; the rest is not looked at
+  bool fresh = false;       // false: the frame is missing; the rest is ignored
   bool homed = false;       // Z and C are referenced
 };
 
@@ -138,11 +138,11 @@ class StrokeOffsets {
     return output_;
   }
 
-  // Of the last tick: bits of StatusBit and kOtherFeed.
+  // Status of the last tick: bits of StatusBit and kOtherFeed.
   [[nodiscard]] std::uint16_t status() const { return status_; }
 
  private:
-  enum class Request : std::uint8_t { none, activate, deactivate };
+  enum class Request : std::uint32_t { none, activate, deactivate };
 
   struct Tables {
     std::array<std::array<float, Nodes>, 2> stroke{};  // 2^-32 turn
@@ -193,7 +193,7 @@ class StrokeOffsets {
   }
 
   void take_request(const StrokeState& state) {
-    const Request request = request_.load(std::memory_order_acquire);
+    Request request = request_.load(std::memory_order_acquire);
     if (request == Request::none) return;
     if (request == Request::deactivate) {
       active_ = false;
@@ -202,7 +202,8 @@ class StrokeOffsets {
       spare_ = 1U - spare_;
       active_ = true;
     }
-    request_.store(Request::none, std::memory_order_release);
+    // One that has come meanwhile, on another core, waits for the next tick.
+    request_.compare_exchange_strong(request, Request::none, std::memory_order_acq_rel);
   }
 
   void flag(std::uint16_t bit) { status_ = static_cast<std::uint16_t>(status_ | bit); }
@@ -225,7 +226,10 @@ class StrokeOffsets {
     if (!state.homed) flag(kNotHomed);
     if (active_ && other_feed(state.feed_nm_per_s)) flag(kOtherFeed);
     if (status_ != 0) return 0;
-    return round_half_even(clamp_offset(offset(state)));
+    bool hit = false;
+    const float sum = Limiter<float>{kMaxRounded, 0.0F}.clamp(offset(state), hit);
+    if (hit) flag(kClamped);
+    return round_half_even(sum);
   }
 
   // More than 2 % off.
@@ -260,12 +264,6 @@ class StrokeOffsets {
     return values[j] + part * (values[j + 1U] - values[j]);
   }
 
-  static float clamp_offset(float value) {
-    if (value > kMaxRounded) return kMaxRounded;
-    if (value < -kMaxRounded) return -kMaxRounded;
-    return value;
-  }
-
   StrokeOffsetSettings settings_{};
   std::array<Tables, 2> buffer_{};
   std::uint32_t spare_ = 0;  // written by the tick, read by the background while nothing is pending
@@ -276,7 +274,7 @@ class StrokeOffsets {
   std::uint32_t stale_for_ = 0;
   std::uint32_t stale_count_ = 0;
   std::uint32_t out_of_table_ = 0;
-  std::atomic<Request> request_{Request::none};
+  AtomicWord<Request> request_{Request::none};
 };
 
 }  // namespace volcomp

@@ -1,5 +1,5 @@
 #pragma once
-// One pass of the wheel through the face: everything the monitor keeps of it. Seed 003 section 8.
+// One pass of the wheel through the face: everything the monitor stores about it.
 
 #include <array>
 

@@ -1,6 +1,6 @@
 #pragma once
-// The sums over all passes that counted, and how they are shared out to the two tables of C. Seed
-// 003 sections 8 and 9. Background only.
+// The sums over all passes that counted, and how they are shared out to the two tables of C
+// (docs/papers/internal-helical.md). Background only.
 
 #include <cmath>
 

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kMaxLookupKnots = 1U << (31 - kFractionBits);
 
 struct AxisLookup {
   std::int64_t q0 = 0;
-  std::uint32_t usual_travel = 0;  // travel, or 0 for a table that is too long for usual ticks
+  std::uint32_t usual_travel = 0;  // travel, or 0 for a table that is too long for the fast path
   std::uint32_t scale = 0;         // 2^(32 + fraction) / (pitch << shift)
   std::uint32_t shift = 0;
   std::uint32_t counted = ~0U;  // upper half of a distance that must be 0: none of it if periodic
@@ -29,9 +29,9 @@ struct AxisLookup {
   std::uint32_t margin = 0;     // half a pitch: further out is an alarm
 };
 
-// A usual tick compares the low 32 bits of a linear position with the last one. Within a table they
-// tell how far the axis has moved as long as table, step and the largest offset on both ends do not
-// fill 2^32 nm together.
+// The fast path compares the low 32 bits of a linear position with the last one. Within a table
+// they determine how far the axis has moved as long as table, step and the largest offset on both
+// ends do not fill 2^32 nm together.
 inline constexpr std::uint32_t kMaxUsualStep = 1U << 28U;  // 0.27 m per tick
 inline constexpr std::uint32_t kMaxUsualTravel = UINT32_MAX - kMaxUsualStep - (1U << 23U);
 
@@ -61,7 +61,7 @@ VOLCOMP_INLINE std::int64_t distance(const AxisLookup& axis, std::int64_t positi
 VOLCOMP_INLINE bool outside(const AxisLookup& axis, std::int64_t distance, bool rotary,
                             std::uint32_t travel) {
   const auto upper = static_cast<std::uint32_t>(distance >> 32);
-  if (VOLCOMP_RARELY((rotary ? upper & axis.counted : upper) != 0)) return true;
+  if (VOLCOMP_UNLIKELY((rotary ? upper & axis.counted : upper) != 0)) return true;
   return static_cast<std::uint32_t>(distance) > travel;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-// Direction of travel with hysteresis, so that encoder noise does not flip the table (seed 001
-// section 5.3).
+// Direction of travel with hysteresis, so that encoder noise does not flip the table.
 
 #include <cstdint>
 
@@ -8,7 +7,7 @@
 
 namespace volcomp {
 
-// A word: a usual tick writes it together with the edge.
+// A word: the fast path writes it together with the edge.
 enum class Direction : std::uint32_t { forward = 0, backward = 1, unknown = 2 };
 
 class DirectionTracker {
@@ -25,6 +24,9 @@ class DirectionTracker {
     lower_edge_ = position - static_cast<std::uint32_t>(hysteresis / 2);
     return direction_;
   }
+
+  // As if every position so far had been further by this much: more counts as position from now on.
+  void shift(std::uint32_t by) { lower_edge_ += by; }
 
   // The same once it has been started. Selections, not branches: a flip costs nothing.
   VOLCOMP_INLINE Direction follow(std::uint32_t position, std::int32_t hysteresis) {

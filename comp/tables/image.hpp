@@ -33,11 +33,10 @@ Status encode_image(const MachineTables& tables, Span<std::uint8_t> out, std::si
 
 // Validates, and gives a view of the tables where they lie: nothing is copied but the machine
 // description. Order: bad_magic, version_unknown, image_truncated, crc_mismatch (where.axis if it
-// can be told), bad_thermal (header), then the machine (as MachineChain::build), then per axis
+// is known), bad_thermal (header), then the machine (as MachineChain::build), then per axis
 // too_few_knots, too_many_knots (> capacity), pitch_not_positive, travel_too_long, not_finite,
-// bad_thermal; image_truncated
-// also where the tables do not end with the image. The view is valid as long as the bytes stay;
-// after a refusal it must not be used.
+// bad_thermal; image_truncated also where the tables do not end with the image. The view is valid
+// as long as the bytes stay; after a refusal it must not be used.
 Status check_image(Span<const std::uint8_t> image, std::size_t capacity, TablesView& out);
 
 // The machine of an image that check_image accepts, as it was written.

@@ -13,7 +13,7 @@ namespace {
 using namespace image_layout;
 using Bytes = Span<const std::uint8_t>;
 
-// Of no place in particular. Own function: each refusal written out takes 100 bytes of flash.
+// Refuses without a place. Own function: each refusal written out takes 100 bytes of flash.
 [[gnu::noinline]] Status refuse_whole(Reason reason) { return refuse(reason); }
 
 Bytes from(Bytes bytes, std::size_t at) {
@@ -25,8 +25,8 @@ char letter_of(std::uint8_t byte) {
   return byte >= 'A' && byte <= 'Z' ? static_cast<char>(byte) : '\0';
 }
 
-// Which axis a damaged image was damaged in, as far as its intact parts still tell; '\0' when they
-// do not.
+// Axis in which a damaged image is damaged, as far as its intact parts show it; '\0' when they do
+// not.
 char damaged_axis(Bytes image, std::size_t axes, std::size_t bodies) {
   std::size_t at = first_axis(bodies);
   if (bodies > kMaxBodies || axes > kMaxAxes || at > image.size()) return '\0';
@@ -103,7 +103,7 @@ Status read_body(LittleEndianReader& r, int number, Body& body) {
   return reason == Reason::ok ? Status{} : refuse(reason, where);
 }
 
-// One axis from `at` on, which then stands behind it.
+// Checks one axis at `at` and advances `at` past it.
 Status check_axis(Bytes image, std::size_t capacity, std::size_t axis, std::size_t& at,
                   TablesView& out) {
   const Joint& joint = out.chain.axis(axis);
@@ -145,8 +145,9 @@ Status read_machine(Span<const std::uint8_t> image, MachineDescription& out) {
   out.work_body = r.u8();
   out.tool_body = r.u8();
   out.correcting_count = r.u8();
-  for (std::uint8_t& axis : out.correcting)
-    axis = r.u8();
+  // By index: of two loops alike GCC 12 makes one at -O3 and warns that it leaves the first array.
+  for (std::size_t i = 0; i < kMaxCorrecting; ++i)
+    out.correcting[i] = r.u8();
   out.orienting_count = r.u8();
   for (std::uint8_t& axis : out.orienting)
     axis = r.u8();

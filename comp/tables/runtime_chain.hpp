@@ -95,6 +95,14 @@ struct RuntimeChain {
   }
 };
 
+// Whether the directions of the correcting axes are those of their positions with the offset: on
+// machines of linear axes. What reversals do to an offset has a useful bound there, and a
+// hysteresis above it keeps a direction from chasing itself. Elsewhere a direction is that of the
+// position alone.
+[[nodiscard]] constexpr bool directions_follow_offsets(const RuntimeChain& chain) {
+  return chain.folded && chain.orienting_count == 0;
+}
+
 namespace detail {
 
 constexpr Motion motion_of(const Joint& joint) {
@@ -252,7 +260,7 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
   return chain;
 }
 
-// True when tables made for `b` may run on `a`: same walk, same geometry. Asked when tables are
+// True when tables made for `b` may run on `a`: same walk, same geometry. Called when tables are
 // taken over, not by the tick; a copy of it in every caller costs flash.
 [[gnu::noinline]] constexpr bool same_chain(const RuntimeChain& a, const RuntimeChain& b) {
   const auto differ = [](float x, float y) { return x < y || x > y; };

@@ -8,6 +8,7 @@
 #include "comp/core/units.hpp"
 #include "comp/machine/inverse.hpp"
 #include "comp/machine/machine_limits.hpp"
+#include "comp/tables/reversal.hpp"
 
 namespace volcomp {
 namespace {
@@ -80,8 +81,8 @@ ErrorMotion at_tool_point(const AxisPlace& place, const Vec3& lever, const Error
   return moved;
 }
 
-// Of one knot in nm and rad. Folded (form A of seed 001, embedded, section 1, for any linear
-// chain): a = σ(R δ + R ε × c) + direction·q, w = σ R ε.
+// The rows of one knot in nm and rad. Folded, for any linear chain (docs/papers/xyfz.md, "What we
+// do"): a = σ(R δ + R ε × c) + direction·q, w = σ R ε.
 class RowSource {
  public:
   // Own function, for the flash of small boards.
@@ -345,6 +346,7 @@ Status fold_tables(const TablesView& tables, const RuntimeChain& runtime, const 
   where.value = bounds.contraction();
   if (!(bounds.contraction() <= kMaxContraction))
     return refuse(Reason::contraction_exceeded, where);
+  measure_reversals(tables, runtime, set, report);
   return {};
 }
 

@@ -61,15 +61,17 @@ struct FoldReport {
   double bound_nm =
       0.0;  // S = Σ|δ| + Σ|ε||r| of one component: the tick's arithmetic error is ≤ 8·2^-24·S
   double contraction = 0.0;  // max |Δa/h| + max |ε| =: ‖J‖; above 1e-2 the tables are garbage
-  bool within_1nm = false;   // S ≤ 1 mm, so arithmetic plus rounding stays below 1 nm (seed 001,
-                             // embedded, section 4)
+  bool within_1nm = false;  // S ≤ 1 mm: arithmetic (8·2⁻²⁴·S) plus rounding (0.5 nm) below 1 nm
+  // By NC axis, nm: how far reversals move its offset, its own where that is against the motion,
+  // and those of other axes. 0 where directions_follow_offsets() does not hold.
+  std::array<std::int32_t, kMaxAxes> reversal_nm{};
 };
 
-inline constexpr double kMaxBound_nm = 1.0e7;    // 10 mm: beyond it the tables cannot be meant
+inline constexpr double kMaxBound_nm = 1.0e7;    // 10 mm: larger is implausible
 inline constexpr double kClaimBound_nm = 1.0e6;  // 1 mm
 inline constexpr double kMaxContraction = 1e-2;
 
-// Folds the tables for `tool_point` (mm, tool frame), axes as grown as `tables` says, in double and
+// Folds the tables for `tool_point` (mm, tool frame), axes as grown as in `tables`, in double and
 // writes them in float. Background only. Refuses axes_mismatch (other number of axes),
 // machine_mismatch (another chain), not_finite, what check_knots refuses, bound_exceeded,
 // contraction_exceeded, no_authority; the set is then partly written and must not be activated.

@@ -1,5 +1,5 @@
 #pragma once
-// The tables of a machine as checking and folding read them, wherever the values are kept: as
+// The tables of a machine as checking and folding read them, wherever the values are stored: as
 // numbers in MachineTables, or still as the bytes of an image (check_image), so that a node needs
 // no second copy. A view owns no value; it lives as long as what it was taken of, unchanged.
 
@@ -33,12 +33,12 @@ struct TablesView {
   MachineChain chain{};
   DirectionErrors directions = zero_directions();
   Expansions expansion{};
-  Strains strain{};  // of the axes as warm as they are; whoever checks an image sets them to 0
+  Strains strain{};  // of the axes as warm as they are; check_image() sets them to 0
   std::array<AxisTableView, kMaxAxes> axis{};
 };
 
 // Refuses what MachineChain::build, check_validity and check_expansion refuse; the tables
-// themselves are not looked at.
+// themselves are not checked.
 Status view_tables(const MachineTables& tables, TablesView& out);
 
 // Refuses not_finite (where.index = knot, where.channel).

@@ -1,6 +1,6 @@
 #pragma once
-// Which expansions, reference temperatures and expiries can be used: what an image is asked, which
-// names no field (flash of small boards), and what check_expansion and check_validity name.
+// Checks which expansions, reference temperatures and expiries can be used: for images, whose check
+// names no field (flash of small boards), and for check_expansion and check_validity, which do.
 
 #include <cmath>
 

@@ -10,13 +10,18 @@
 // including a change of tables in the middle of a ramp, no output moves by more than `rate` in one
 // tick.
 //
-// Two contexts use it. The interrupt calls tick() only. The background calls everything else; it
-// writes into the spare half of a double buffer and hands it over by one atomic flag, which tick()
-// honours at its start. No locks, no heap, every loop bounded; on anything wrong the last good
-// tables stay active.
+// Two contexts use it, on one core or on two. The interrupt calls tick() only. The background calls
+// everything else; it writes into the spare half of a double buffer, then a pointer to the tables
+// that are to be in force, then a flag, which tick() honours at its start: it clears the flag
+// before it reads the pointer, so that of several requests the last one counts and none is lost. No
+// locks, no heap, every loop bounded; on anything wrong the last good tables stay active.
 
 #include <atomic>
 
+#include "comp/core/atomic_word.hpp"
+#include "comp/core/crc32.hpp"
+#include "comp/core/published.hpp"
+#include "comp/core/span.hpp"
 #include "comp/tables/direction.hpp"
 #include "comp/tick/everyday_tally.hpp"
 #include "comp/tick/limiter.hpp"
@@ -32,9 +37,8 @@ inline constexpr std::size_t kDefaultKnots = 128;
 
 namespace detail {
 
-// Compensator::tick_unusual in the place of tick(). With internal linkage: GCC calls what the
-// linker may replace, and instances of templates are such, but jumps to this one; nothing of the
-// usual tick is then left on the stack.
+// Slow path. Internal linkage lets the compiler tail-jump, which frees the fast path's frame: GCC
+// tail-jumps to nothing the linker may replace, such as instances of templates.
 template <class Unit>
 static void tick_unusual(Unit& unit, const typename Unit::Input& in, float ramp,
                          typename Unit::Output& out);
@@ -54,15 +58,18 @@ class Compensator {
   Compensator() : Compensator(Machine{}) {}
   // A machine with more axes than fit is treated as none: every stage() is then refused, as is one
   // whose axes orient the tool where Machine has no room for that.
-  explicit Compensator(const Machine& machine)
+  [[gnu::cold]] explicit Compensator(const Machine& machine)
       : machine_(machine.chain.axes <= kAxes ? machine : Machine{}) {
-    next_.ramp.restart(settings_.ramp_ticks);
+    next_ramp_.restart(settings_.ramp_ticks);
     take_machine();
   }
 
   // --- background; cold: for size where the tick is compiled for speed
 
-  // Before the first tick or while stopped. Refuses bad_setting with the field named.
+  // Before the first tick or between two. Refuses bad_setting with the field named. An offset
+  // beyond a smaller limit goes back to it by `rate` a tick, whatever ramp is under way or held;
+  // the axis shows kClamped and kRateLimited until it is there. A new ramp_ticks counts for the
+  // next change.
   [[gnu::cold]] Status configure(const Settings& settings);
 
   // As if constructed anew for this machine; the settings stay, tables and diagnostics go. Only
@@ -70,10 +77,11 @@ class Compensator {
   [[gnu::cold]] void restart(const Machine& machine);
 
   // Offsets the drives hold at start-up (read back): the first tick continues from them instead of
-  // jumping to 0. Refuses bad_setting beyond ±2^30 units (1.07 m): no drive stands there.
+  // jumping to 0. One beyond the limit goes back to it like after configure(). Refuses bad_setting
+  // beyond ±2^30 units (1.07 m): no drive stands there.
   [[gnu::cold]] Status start_from(const std::array<std::int32_t, kAxes>& offsets);
 
-  // Folds tables for a functional point and axes as grown as the view says into the spare buffer.
+  // Folds tables for a functional point and axes as grown as in the view into the spare buffer.
   // Used for new tables, for a change of the tool and for axes that have become warmer alike. On
   // refusal the active tables go on. `image_crc` is what diagnostics will report. Not while a
   // hand-over is pending. A node stages the view of an image (check_image); tables in memory are
@@ -92,7 +100,7 @@ class Compensator {
   [[gnu::cold]] void adopt(const Machine& machine);
 
   // No change is being ramped in: time for the next one.
-  [[nodiscard]] bool at_rest() const { return (ramps_ & 1U) == 0 && !pending(); }
+  [[nodiscard]] bool at_rest() const { return (ramps_.get() & 1U) == 0 && !pending(); }
 
   // Hands the staged set over: active from the next tick, ramped in. Refuses not_staged.
   Status activate();
@@ -105,15 +113,23 @@ class Compensator {
     if (pending()) take_request();
   }
 
-  // Recomputes the checksum of the active tables; call it from time to time. A bit that changed in
-  // memory means: crc_mismatch, corrections ramp to 0, every axis shows kTableDamaged until new
-  // tables are activated.
+  // Looks for bits that have changed in what a tick works with: active tables, chain of the
+  // machine, settings and what was derived from them. Reads up to `bytes` of them and goes on there
+  // next time; kScrubBytes are one pass, of which `bytes` may leave two pieces incomplete. A pass
+  // begins anew with other tables. A changed bit means: crc_mismatch (`where.field` names what is
+  // not a table), corrections ramp to 0, every axis shows kTableDamaged until new tables are
+  // activated; settings need configure() before, a chain restart().
+  [[gnu::cold]] Status scrub(std::size_t bytes);
+  static constexpr std::size_t kScrubBytes = sizeof(Machine) + sizeof(Tables);
+
+  // One whole pass at once.
   [[gnu::cold]] Status scrub();
 
-  [[nodiscard]] bool pending() const {
-    return request_.load(std::memory_order_acquire) != Request::none;
+  [[nodiscard, gnu::noinline]] bool pending() const {
+    return requested_.load(std::memory_order_relaxed) != 0 ||
+           now_.active.acquire() != wanted_.load(std::memory_order_relaxed);
   }
-  [[nodiscard]] bool active() const { return now_.active != nullptr; }
+  [[nodiscard]] bool active() const { return now_.active.get() != nullptr; }
   [[nodiscard]] const FoldReport& fold_report() const { return report_; }
   [[nodiscard, gnu::cold]] Diagnostics<kAxes> diagnostics() const;
   [[nodiscard]] const Machine& machine() const { return machine_; }
@@ -124,7 +140,11 @@ class Compensator {
 
   // --- interrupt
 
-  // The direction in which an axis arrived where it is.
+  // The direction in which an axis arrived where it is. With targets as positions
+  // (PositionSource::target) a correcting axis is where target and offset take it, if
+  // directions_follow_offsets(): a standing axis that the correction of another has moved back has
+  // turned, too. Its hysteresis is then at least FoldReport::reversal_nm of the tables in either
+  // buffer, so that no reversal leads to another.
   [[nodiscard]] Direction direction(std::size_t axis) const {
     return axis_[axis].direction.direction();
   }
@@ -135,7 +155,12 @@ class Compensator {
   [[nodiscard]] const Float3& last_error_nm() const { return error_nm_; }
 
  private:
-  enum class Request : std::uint8_t { none, activate, deactivate };
+  // The thread sanitizer does not know fences.
+#if defined(__SANITIZE_THREAD__)
+  static constexpr std::memory_order kAfterFence = std::memory_order_acquire;
+#else
+  static constexpr std::memory_order kAfterFence = std::memory_order_relaxed;
+#endif
 
   // No two accepted positions of a linear axis are further apart.
   static constexpr std::int64_t kAnyStep = 2 * kMaxPosition;
@@ -143,37 +168,35 @@ class Compensator {
   static constexpr std::uint16_t kNoStatusYet = 1U << 15U;
 
   struct AxisState {
-    // what a usual tick reads and writes, in its order
+    // what the fast path reads and writes, in its order
     std::int64_t seen = 0;    // position given last, good or implausible
-    std::uint64_t reach = 0;  // usual_step while a usual sample may come, else 0: none can
-    std::int32_t hysteresis = 0;
+    std::uint64_t reach = 0;  // usual_step while a sample may take the fast path, else 0
+    Published<std::int32_t> hysteresis = 0;  // may become wider between two ticks
     DirectionTracker direction;
     Magnitude limit;
     float ramp_from = 0.0F;  // 0 unless a ramp is under way
     std::int32_t output = 0;
     std::int32_t rate = 1;
-    std::int32_t largest = 0;
+    Published<std::int32_t> largest = 0;
 
     // what only the exceptions need
-    std::uint64_t usual_step = 0;        // usual samples are closer to the last one
+    std::uint64_t usual_step = 0;        // samples of the fast path are closer to the last one
     std::uint64_t most_step = kAnyStep;  // largest plausible |Δposition|
     std::int64_t position = 0;           // last good one, unless steady: then it is the one seen
     std::int32_t soft_rate = 1;
     std::uint16_t stale_ticks = 0;
-    std::uint16_t status = kNoStatusYet;  // of the last tick, 0 if it was an everyday one
-    std::uint16_t exception = 0;          // what was unusual about the sample of this tick
+    std::uint16_t status = kNoStatusYet;  // of the last tick, 0 if it had tallied bits only
+    std::uint16_t exception = 0;          // status bits that the sample of this tick raised
     bool known = false;                   // has ever had a valid position
     bool steady = false;                  // known, and the last sample was good
     bool soft = false;  // dropped, not homed or coming back: soft_rate instead of rate
     Knot mean{};        // row in use until a direction is known
   };
 
-  // What a change brings. The background prepares it, the tick takes it over in one piece.
+  // What the last change brought. The tick writes it.
   struct Change {
-    const Tables* active = nullptr;
-    Ramp ramp{};                     // of the last change
-    const Tables* latest = nullptr;  // ever active
-    std::uint32_t activations = 0;
+    Published<const Tables*> active = nullptr;
+    Ramp ramp{};
   };
 
   // What an orienting axis may turn in this tick, 2^-32 turn.
@@ -188,7 +211,7 @@ class Compensator {
   struct NotOrienting {};
 
   using Places = std::array<Located, kAxes>;
-  // What a tick works on. A compiled-in machine keeps it in registers as long as all is as usual.
+  // What a tick works on. A compiled-in machine keeps it in registers on the fast path.
   struct Work {
     Places at;
     kernel::Columns column;
@@ -206,6 +229,7 @@ class Compensator {
   }
 
   // compensator_tick.inl
+  [[nodiscard]] std::int32_t followed_offset(const AxisState& s) const;
   template <class Visit>
   void for_each_axis(const Visit& visit) const;
   template <class Visit>
@@ -253,22 +277,46 @@ class Compensator {
   bool count_changes(std::size_t axis, std::uint32_t status);
 
   // compensator_background.inl
+  void request(const Tables* tables);
   void take_machine();
   void apply_limits(std::size_t axis);
+  void apply_directions();
+  void apply_hysteresis();
+  // The hysteresis of the settings, or wider: no offset of the tables in either buffer then turns a
+  // direction.
+  [[nodiscard]] std::int32_t needed_hysteresis(std::size_t axis) const;
+  [[nodiscard, gnu::cold]] std::uint32_t settings_checksum() const;
+  [[nodiscard, gnu::cold]] bool settings_intact() const;
   Status open_spare(const Provenance& provenance);
   [[gnu::cold]] Status fold_into_spare(const RuntimeChain& chain, const TablesView& tables,
                                        const Vec3& tool_point, std::uint32_t image_crc);
   Status reject(const Status& status);
+  template <class Value>
+  static Span<const std::uint8_t> bytes_of(const Value& value) {
+    return {reinterpret_cast<const std::uint8_t*>(&value),
+            std::is_empty_v<Value> ? 0 : sizeof value};
+  }
   static std::uint32_t checksum(const Tables& set);
+  [[nodiscard]] bool activation_waits() const {
+    return wanted_.load(std::memory_order_relaxed) != nullptr && pending();
+  }
+  // Where the axis is, or where its ramp began; a smaller limit or the start may have left it
+  // there.
+  static bool beyond_limit(const AxisState& s) {
+    return exceeds(static_cast<float>(s.output), s.limit) || exceeds(s.ramp_from, s.limit);
+  }
   [[nodiscard]] bool rotary(std::size_t axis) const {
     return machine_.chain.kind[axis] == JointKind::rotary;
   }
 
-  // what a usual tick needs comes first: short offsets are short instructions
-  std::atomic<Request> request_{Request::none};
-  std::int32_t target_mask_ = -1;   // all ones where the offset is to be added to the position
-  std::uint32_t guarded_axes_ = 0;  // bit per axis: its next output takes the long way
-  std::uint32_t ticks_ = 0;
+  // what the fast path needs comes first: short offsets are short instructions
+  std::atomic<std::uint32_t> requested_{0};  // 1: wanted_ is to be read
+  struct {
+    std::int32_t target = -1;  // all ones where the offset is to be added to the position
+    std::int32_t follow = 0;   // all ones where the direction is that of both
+  } masks_;
+  std::uint32_t guarded_axes_ = 0;  // slow path pending, bit per axis
+  Published<std::uint32_t> ticks_ = 0;
   Change now_{};
   Float3 error_nm_{};
   std::array<AxisState*, kMaxCorrecting> corrected_{};
@@ -276,17 +324,35 @@ class Compensator {
   std::array<AxisState, kAxes> axis_{};
   EverydayTally tally_{};
 
-  Change next_{};                   // handed over with a request; its ramp has not begun
-  std::uint32_t unknown_axes_ = 0;  // that have never had a valid position
-  std::uint32_t ramps_ = 0;         // begun and come to rest: odd while one is under way
-  bool ticks_wrapped_ = false;
-  std::int8_t spare_ = 0;  // index of the buffer that may be written
+  std::atomic<const Tables*> wanted_{nullptr};  // to be in force
+  const Tables* latest_ = nullptr;              // ever handed over
+  std::uint32_t activations_ = 0;
+  std::array<std::uint32_t, 2> activation_of_{};  // what a buffer was handed over as
+  Ramp next_ramp_{};                              // of the next change
+  std::uint32_t unknown_axes_ = 0;                // that have never had a valid position
+  Published<std::uint32_t> ramps_ = 0;  // begun and come to rest: odd while one is under way
+  Published<bool> ticks_wrapped_ = false;
+  std::size_t spare_ = 0;  // index of the buffer that may be written
   bool staged_ = false;
-  std::atomic<bool> damaged_{false};
+  AtomicWord<> damaged_{0};
   FoldReport report_{};
-  Diagnostics<kAxes> diagnostics_{};
+  std::array<std::array<std::int32_t, kMaxAxes>, 2> reversal_nm_{};  // of both buffers
+  std::array<std::array<Published<std::uint16_t>, kStatusBits>, kAxes> began_{};
+  std::uint32_t rejections_ = 0;
+  Status last_rejection_{};
   Settings settings_{};
   Machine machine_{};
+
+  // How far the scrub is: in the chain or, after that, in the tables.
+  struct Scrub {
+    const Tables* set = nullptr;
+    std::uint32_t activations = 0;
+    PiecewiseCrc read;
+    bool tables = false;
+  };
+  Scrub scrub_{};
+  std::uint32_t settings_crc_ = 0;
+  std::uint32_t machine_crc_ = 0;
   std::array<Tables, 2> buffer_{};
 };
 

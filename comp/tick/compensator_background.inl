@@ -1,6 +1,8 @@
 // Background half of Compensator: settings, staging, hand-over.
 
+#include <algorithm>
 #include <cstddef>
+#include <cstring>
 #include <type_traits>
 
 #include "comp/core/crc32.hpp"
@@ -30,10 +32,10 @@ Status Compensator<Machine, Knots>::configure(const Settings& settings) {
     return refuse(Reason::bad_setting, where);
   }
   settings_ = settings;
-  next_.ramp.restart(settings.ramp_ticks);
-  target_mask_ = settings.source == PositionSource::target ? -1 : 0;
+  next_ramp_.restart(settings.ramp_ticks);
   for (std::size_t a = 0; a < kAxes; ++a)
     apply_limits(a);
+  apply_directions();
   return {};
 }
 
@@ -49,7 +51,33 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
   s.limit = Magnitude(static_cast<float>(l.limit));
   s.rate = l.rate;
   s.soft_rate = l.soft_rate;
-  s.hysteresis = l.hysteresis;
+  guarded_axes_ |= 1U << axis;  // the offset may be beyond the new limit
+}
+
+// Which offsets count for positions and directions; last of what is derived from settings and
+// machine.
+template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::apply_directions() {
+  masks_.target = settings_.source == PositionSource::target ? -1 : 0;
+  masks_.follow = directions_follow_offsets(machine_.chain) ? masks_.target : 0;
+  apply_hysteresis();
+  settings_crc_ = settings_checksum();
+}
+
+// Also while ticks come: a hysteresis that becomes wider turns no direction, and one that becomes
+// narrower fits the tables that are left.
+template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::apply_hysteresis() {
+  for (std::size_t a = 0; a < kAxes; ++a)
+    axis_[a].hysteresis.set(needed_hysteresis(a));
+}
+
+template <class Machine, std::size_t Knots>
+std::int32_t Compensator<Machine, Knots>::needed_hysteresis(std::size_t axis) const {
+  std::int32_t needed = settings_.axis[axis].hysteresis;
+  for (const auto& reversal_nm : reversal_nm_)
+    needed = std::max(needed, reversal_nm[axis] & masks_.follow);
+  return needed;
 }
 
 // What depends on the machine alone. Where fewer than three axes correct, the others stand for the
@@ -57,10 +85,12 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::take_machine() {
   unknown_axes_ = machine_.chain.axes;
+  machine_crc_ = crc32(bytes_of(machine_));
   for (std::size_t c = 0; c < kMaxCorrecting; ++c)
     corrected_[c] = &axis_[machine_.chain.correcting[c]];
   for (std::size_t a = 0; a < kAxes; ++a)
     apply_limits(a);
+  apply_directions();
 }
 
 template <class Machine, std::size_t Knots>
@@ -70,11 +100,16 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   } else {
     machine_ = Machine{};
   }
-  request_.store(Request::none, std::memory_order_relaxed);
-  damaged_.store(false, std::memory_order_relaxed);
+  requested_.store(0, std::memory_order_relaxed);
+  wanted_.store(nullptr, std::memory_order_relaxed);
+  damaged_.store(0, std::memory_order_relaxed);
   now_ = {};
+  latest_ = nullptr;
+  activations_ = 0;
   staged_ = false;
-  diagnostics_ = {};
+  began_ = {};
+  rejections_ = 0;
+  last_rejection_ = {};
   report_ = {};
   error_nm_ = {};
   tally_ = {};
@@ -82,6 +117,7 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   ticks_wrapped_ = false;
   ramps_ = 0;
   guarded_axes_ = 0;
+  reversal_nm_[1U - spare_] = {};  // the spare buffer keeps what is staged
   axis_ = {};
   take_machine();
 }
@@ -98,16 +134,17 @@ Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kA
     return refuse(Reason::bad_setting, where);
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
-    const std::int32_t largest = axis_[a].largest;
+    const Published<std::int32_t> largest = axis_[a].largest;
     axis_[a] = {};
     axis_[a].largest = largest;
     apply_limits(a);
     axis_[a].output = offsets[a];
   }
+  apply_directions();
   unknown_axes_ = machine_.chain.axes;
-  if (!now_.ramp.at_rest()) ++ramps_;  // a new beginning
+  if (!now_.ramp.at_rest()) ramps_.set(ramps_.own() + 1U);  // a new beginning
   begin_change();
-  now_.ramp = next_.ramp;
+  now_.ramp = next_ramp_;
   return {};
 }
 
@@ -119,8 +156,8 @@ std::uint32_t Compensator<Machine, Knots>::checksum(const Tables& set) {
 
 template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::reject(const Status& status) {
-  if (diagnostics_.rejections < UINT32_MAX) ++diagnostics_.rejections;
-  diagnostics_.last_rejection = status;
+  if (rejections_ < UINT32_MAX) ++rejections_;
+  last_rejection_ = status;
   return status;
 }
 
@@ -139,12 +176,14 @@ Status Compensator<Machine, Knots>::fold_into_spare(const RuntimeChain& chain,
                                                     const Vec3& tool_point,
                                                     std::uint32_t image_crc) {
   FoldReport report;
-  Tables& spare = buffer_[static_cast<std::size_t>(spare_)];
+  Tables& spare = buffer_[spare_];
   const Status status = fold_tables(tables, chain, tool_point, TableSetView(spare), report);
   if (!status.ok()) return status;
   spare.image_crc = image_crc;
   spare.checksum = checksum(spare);
   report_ = report;
+  reversal_nm_[spare_] = report.reversal_nm;
+  apply_hysteresis();
   staged_ = true;
   return {};
 }
@@ -186,38 +225,92 @@ Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec
   return status.ok() ? status : reject(status);
 }
 
+// Overtakes one that no tick has taken yet. What is then the spare buffer is not read by any tick
+// after the one that takes this request: after an activation the other one is in force, after a
+// deactivation none.
+template <class Machine, std::size_t Knots>
+void Compensator<Machine, Knots>::request(const Tables* tables) {
+  wanted_.store(tables, std::memory_order_release);
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  requested_.store(1, std::memory_order_release);
+}
+
 template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::activate() {
   if (!staged_) return refuse(Reason::not_staged);
   staged_ = false;
-  damaged_.store(false, std::memory_order_relaxed);
-  request_.exchange(Request::none, std::memory_order_acquire);  // a deactivation is overtaken
-  next_.active = next_.latest = &buffer_[static_cast<std::size_t>(spare_)];
-  next_.activations = now_.activations + 1U;
-  spare_ = static_cast<std::int8_t>(1 - spare_);
-  request_.store(Request::activate, std::memory_order_release);
+  damaged_.store(0, std::memory_order_relaxed);
+  latest_ = &buffer_[spare_];
+  activation_of_[spare_] = ++activations_;
+  spare_ = 1U - spare_;
+  request(latest_);
   return {};
 }
 
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::deactivate() {
-  const Request before = request_.exchange(Request::none, std::memory_order_acq_rel);
-  if (before == Request::activate)
-    spare_ = static_cast<std::int8_t>(1 - spare_);  // the tick has not taken them
-  next_.active = nullptr;
-  next_.latest = now_.latest;
-  next_.activations = now_.activations;
-  request_.store(Request::deactivate, std::memory_order_release);
+  if (activation_waits()) --activations_;
+  request(nullptr);
+}
+
+// Settings and what the tick takes from them alone.
+template <class Machine, std::size_t Knots>
+std::uint32_t Compensator<Machine, Knots>::settings_checksum() const {
+  std::uint32_t crc = crc32(bytes_of(masks_), crc32(bytes_of(settings_)));
+  for (const AxisState& s : axis_) {
+    const struct {
+      Magnitude limit;
+      std::int32_t rate, soft_rate, filler;  // no padding, whose bytes are anything
+      std::uint64_t plausible;
+    } derived{s.limit, s.rate, s.soft_rate, 0, s.usual_step ^ ~s.most_step};
+    crc = crc32(bytes_of(derived), crc);
+  }
+  return crc;
+}
+
+// The hysteresis changes with the tables: it is computed anew, so that staging hides no damage.
+template <class Machine, std::size_t Knots>
+bool Compensator<Machine, Knots>::settings_intact() const {
+  for (std::size_t a = 0; a < kAxes; ++a)
+    if (axis_[a].hysteresis.own() != needed_hysteresis(a)) return false;
+  return settings_checksum() == settings_crc_;
+}
+
+template <class Machine, std::size_t Knots>
+Status Compensator<Machine, Knots>::scrub(std::size_t bytes) {
+  const Tables* const set = now_.active.get();
+  if (pending()) return {};
+  if (scrub_.set != set || scrub_.activations != activations_)
+    scrub_ = {set, activations_, {}, false};
+  Where where;
+  where.field = "machine";
+  Span<const std::uint8_t> part = bytes_of(machine_);
+  std::uint32_t wanted = machine_crc_;
+  if (scrub_.tables) {
+    where.field = nullptr;
+    part = {bytes_of(*set).data(), offsetof(Tables, checksum)};
+    wanted = set->checksum;
+  }
+  if (!scrub_.read.read_on(part, bytes)) return {};
+  bool whole = scrub_.read.crc == wanted;
+  scrub_.tables = !scrub_.tables && set != nullptr;
+  if (whole && !settings_intact()) {
+    where.field = "settings";
+    whole = false;
+  }
+  if (whole) return {};
+  const Status status = refuse(Reason::crc_mismatch, where);
+  if (set == nullptr) return status;
+  damaged_.store(1, std::memory_order_relaxed);
+  deactivate();
+  return reject(status);
 }
 
 template <class Machine, std::size_t Knots>
 Status Compensator<Machine, Knots>::scrub() {
-  const Tables* const set = now_.active;
-  if (set == nullptr || pending()) return {};
-  if (checksum(*set) == set->checksum) return {};
-  damaged_.store(true, std::memory_order_relaxed);
-  deactivate();
-  return reject(refuse(Reason::crc_mismatch));
+  scrub_ = {};
+  const Status status = scrub(sizeof(Machine));
+  return status.ok() && scrub_.tables ? scrub(sizeof(Tables)) : status;
 }
 
 template <class Machine, std::size_t Knots>
@@ -225,13 +318,21 @@ Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::dia
   const auto saturated = [](std::uint32_t n) {
     return static_cast<std::uint16_t>(n < UINT16_MAX ? n : UINT16_MAX);
   };
-  Diagnostics<kAxes> d = diagnostics_;
-  d.ticks = ticks_wrapped_ ? UINT32_MAX : ticks_;
-  d.activations = now_.activations;
-  if (now_.latest != nullptr) d.active_crc = now_.latest->image_crc;
+  Diagnostics<kAxes> d;
+  d.rejections = rejections_;
+  d.last_rejection = last_rejection_;
+  d.ticks = ticks_wrapped_.get() ? UINT32_MAX : ticks_.get();
+  const Tables* const active = now_.active.get();
+  d.activations = active != nullptr ? activation_of_[active == buffer_.data() ? 0 : 1]
+                                    : activations_ - (activation_waits() ? 1U : 0U);
+  const std::uint32_t ramps = ramps_.get();
+  if (const Tables* const latest = active != nullptr ? active : latest_; latest != nullptr)
+    d.active_crc = latest->image_crc;
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
-    d.largest[a] = axis_[a].largest;
-    d.began[a][bit_of(kRamping)] = saturated((ramps_ >> 1U) + (ramps_ & 1U));
+    d.largest[a] = axis_[a].largest.get();
+    for (std::size_t bit = 0; bit < kStatusBits; ++bit)
+      d.began[a][bit] = began_[a][bit].get();
+    d.began[a][bit_of(kRamping)] = saturated((ramps >> 1U) + (ramps & 1U));
   }
   for (std::size_t c = 0; c < machine_.chain.correcting_count; ++c) {
     auto& began = d.began[machine_.chain.correcting[c]];

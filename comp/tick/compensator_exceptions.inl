@@ -1,21 +1,26 @@
-// What happens in a tick besides the usual: changes of tables, ramps, samples that are late, lost
-// or implausible, axes that are not referenced, positions beyond a table. Functions of their own,
-// so that the usual tick stays one straight run; only what belongs to an exchange of tables is
-// inlined, because that tick counts, too.
+// The slow path of a tick: changes of tables, ramps, samples that are late, lost or implausible,
+// axes that are not referenced, positions beyond a table. Functions of their own, so that the fast
+// path stays one straight run; only what belongs to an exchange of tables is inlined, because that
+// tick counts, too.
 
 namespace volcomp {
 
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
-  std::atomic_thread_fence(std::memory_order_acquire);
+  requested_.store(0, std::memory_order_relaxed);
+  // Either this tick reads the latest pointer, or the flag is set again after it: request(). Since
+  // nothing is staged while a request waits, the release of the flag that tick() saw covers the
+  // tables of any pointer that is read here, and the fence acquires it.
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+  const Tables* const wanted = wanted_.load(kAfterFence);
   begin_change();
-  now_ = next_;
-  request_.store(Request::none, std::memory_order_release);
+  now_.ramp = next_ramp_;
+  now_.active.release(wanted);  // the background may then write into those that were active
 }
 
 // Whatever changes, the output goes from where it is to where it should be along the ramp. One that
 // is under way goes over into the next. Where fewer axes correct, the first axis has its turn more
-// than once: that is sooner done than asked.
+// than once: storing is cheaper than branching.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::begin_change() {
   VOLCOMP_UNROLL
@@ -23,7 +28,7 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::begin_change() {
     corrected(c).ramp_from = static_cast<float>(corrected(c).output);
   for_each_orienting([](AxisState& s, std::size_t)
                          VOLCOMP_INLINE_LAMBDA { s.ramp_from = static_cast<float>(s.output); });
-  ramps_ |= 1U;
+  ramps_.set(ramps_.own() | 1U);
 }
 
 // At the end of the ramp nothing of its start is left: from + 1 · (x − from) is exactly x where
@@ -54,8 +59,8 @@ bool Compensator<Machine, Knots>::all_known(const Input& in) {
   return unknown_axes_ == 0;
 }
 
-// A first, lost, implausible, returning, unreferenced or absurdly large sample, or a usual one.
-// Returns the status bits it raises.
+// Takes a first, lost, implausible, returning, unreferenced or absurdly large sample, or a good
+// one. Returns the status bits it raises.
 template <class Machine, std::size_t Knots>
 [[gnu::noinline]] std::uint32_t Compensator<Machine, Knots>::take_sample(std::size_t axis,
                                                                          const AxisSample& sample) {
@@ -75,8 +80,20 @@ template <class Machine, std::size_t Knots>
   if (s.steady) {
     s.stale_ticks = 0;
     s.position = position;
-    const std::int64_t low = turns ? position >> 8 : position;
-    s.direction.update(static_cast<std::uint32_t>(low), s.hysteresis);
+    // Until it is known, the position alone shows it, by the hysteresis of the settings: what ramps
+    // an offset in would show another one than before a restart, and nothing can chase itself yet.
+    const auto low = static_cast<std::uint32_t>(turns ? position >> 8 : position);
+    const auto offset = [&] { return turns ? 0U : static_cast<std::uint32_t>(followed_offset(s)); };
+    const std::int32_t hysteresis = s.hysteresis.get();
+    if (s.direction.direction() != Direction::unknown) {
+      s.direction.follow(low + offset(), hysteresis);
+    } else {
+      const std::int32_t least = settings_.axis[axis].hysteresis;
+      const Direction now = s.direction.update(low, least);
+      const std::int32_t wider = now == Direction::forward ? hysteresis - least : 0;
+      if (now != Direction::unknown)
+        s.direction.shift(offset() - static_cast<std::uint32_t>(wider));
+    }
     return status;
   }
   status |= kStale;
@@ -92,7 +109,7 @@ template <class Machine, std::size_t Knots>
                                                           Located& at, std::uint32_t& status) {
   AxisState& s = axis_[axis];
   const bool turns = rotary(axis);
-  std::int64_t r = distance(set.lookup[axis], s.position, s.output & target_mask_, turns);
+  std::int64_t r = distance(set.lookup[axis], s.position, s.output & masks_.target, turns);
   const RangeState range = hold_inside(set.lookup[axis], turns, r);
   if (range != RangeState::inside) status |= kOutOfRange;
   if (range == RangeState::far_outside) status |= kFarOutOfRange;
@@ -106,7 +123,7 @@ template <class Machine, std::size_t Knots>
 template <class Machine, std::size_t Knots>
 [[gnu::noinline]] bool Compensator<Machine, Knots>::follow_unusual(const Input& in) {
   if (unknown_axes_ != 0 && !all_known(in)) return false;
-  const Tables& set = *now_.active;
+  const Tables& set = *now_.active.own();
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     AxisState& s = axis_[a];
     if (follow_one(a, in.axis[a], set, work_.at[a])) continue;
@@ -126,32 +143,33 @@ template <class Machine, std::size_t Knots>
 [[gnu::noinline]] void Compensator<Machine, Knots>::put_out_unusual(AxisState& s, float excess,
                                                                     float ramp,
                                                                     std::uint32_t& status) {
-  // What is not a number corrects nothing: clamped to 0.
-  if (VOLCOMP_RARELY(__builtin_isnan(excess))) {
-    excess = 0.0F;
-    status |= kClamped;
-  }
-  const bool off = (status & (kNotHomed | kDropped | kNoTables)) != 0;
+  // Accepted tables do not lead to what is not finite: they, or the machine, have changed in
+  // memory.
+  if (VOLCOMP_UNLIKELY(!Magnitude::finite(excess))) status |= kClamped | kTableDamaged;
+  const bool off = (status & (kNotHomed | kDropped | kNoTables | kTableDamaged)) != 0;
   const bool held = !off && (status & (kStale | kNoAuthority)) != 0;
-  bool hit = false;
-  float x = Limiter<float>{s.limit.value(), 0.0F}.clamp(off ? 0.0F : -excess, hit);
-  if (hit) status |= kClamped;
-  x = s.ramp_from + ramp * (x - s.ramp_from);
-  // A drive may have started with more than the limit; what remains of it is beyond the rounding.
-  const float representable = Limiter<float>{kMaxRounded, 0.0F}.clamp(x, hit);
-  const std::int32_t rounded = held ? s.output : round_half_even(representable);
+  // A drive may have started with more than the limit, and the limit may have become smaller.
+  s.ramp_from = s.limit.within(s.ramp_from);
+  const float wanted = off ? 0.0F : -excess;
+  if (exceeds(wanted, s.limit)) status |= kClamped;
+  float x = s.ramp_from + ramp * (s.limit.within(wanted) - s.ramp_from);
+  if (held) x = s.limit.within(static_cast<float>(s.output));
+  const std::int32_t rounded = round_half_even(x);
 
   s.soft = s.soft || (off && (status & kNoTables) == 0);
   const std::int32_t rate = s.soft ? s.soft_rate : s.rate;
-  s.output = Limiter<std::int32_t>{0, rate}.slew(rounded, s.output, hit);
+  const bool hit = further(rounded, s.output, rate);
+  const std::int32_t step = rounded < s.output ? -rate : rate;
+  s.output = hit ? s.output + step : rounded;
   if (hit && !s.soft) status |= kRateLimited;
+  if (exceeds(static_cast<float>(s.output), s.limit)) status |= kClamped | kRateLimited;
   if (!hit && !off) s.soft = false;
   const std::int32_t size = s.output < 0 ? -s.output : s.output;
-  if (size > s.largest) s.largest = size;
+  if (size > s.largest.own()) s.largest.set(size);
 }
 
-// Counts what began and remembers the status word. False if the next output of this axis has to
-// take the long way, too.
+// Counts what began and stores the status word. Returns false if the next output of this axis has
+// to take the slow path, too.
 template <class Machine, std::size_t Knots>
 bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t status) {
   AxisState& s = axis_[axis];
@@ -162,8 +180,8 @@ bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t 
   std::uint32_t began = status & ~before;
   while (began != 0) {  // at most kStatusBits times
     const auto bit = static_cast<std::size_t>(__builtin_ctz(began));
-    std::uint16_t& count = diagnostics_.began[axis][bit];
-    if (count < UINT16_MAX) ++count;
+    Published<std::uint16_t>& count = began_[axis][bit];
+    if (count.own() < UINT16_MAX) count.set(static_cast<std::uint16_t>(count.own() + 1U));
     began &= began - 1U;
   }
   const EverydayBits bits = everyday_bits(status);
@@ -171,18 +189,16 @@ bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t 
   if constexpr (kOrients) everyday = everyday && (corrects || status == kValid);  // no tally
   if (corrects) tally_.resume(c, bits);
   s.status = static_cast<std::uint16_t>(everyday ? 0U : status);
-  const bool far =
-      further(s.output, 0, kMostRounded) || exceeds(s.ramp_from, Magnitude(kMaxRounded));
-  return everyday && !s.soft && !far;
+  return everyday && !s.soft && !beyond_limit(s);
 }
 
-// Outputs and reports of all axes in a tick in which something was unusual. `gate`: what applies to
-// every correcting axis.
+// Outputs and reports of all axes in a tick on the slow path. `gate`: what applies to every
+// correcting axis.
 template <class Machine, std::size_t Knots>
 [[gnu::noinline]] void Compensator<Machine, Knots>::finish_unusual(std::uint32_t gate, float ramp,
                                                                    Output& out) {
   const RuntimeChain& chain = machine_.chain;
-  const bool damaged = damaged_.load(std::memory_order_relaxed);
+  const bool damaged = damaged_.load(std::memory_order_relaxed) != 0;
   const std::uint32_t ramping = now_.ramp.at_rest() ? 0U : std::uint32_t{kRamping};
   guarded_axes_ = 0;
   for (std::size_t a = 0; a < chain.axes; ++a) {
@@ -208,7 +224,7 @@ template <class Machine, std::size_t Knots>
     axis_[a].exception = static_cast<std::uint16_t>(take_sample(a, in.axis[a]));
   work_.excess = {};
   if constexpr (kOrients) work_.turns.excess = {};
-  return active() ? kStale : kNoTables;
+  return now_.active.own() != nullptr ? kStale : kNoTables;
 }
 
 // A tick from its beginning on, for whatever can happen.
@@ -216,11 +232,11 @@ template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::tick_unusual(const Input& in, float ramp,
                                                               Output& out) {
   std::uint32_t gate = 0;
-  if (!active() || !follow_unusual(in)) {
+  if (now_.active.own() == nullptr || !follow_unusual(in)) {
     gate = idle(in);
   } else {
     allow_turns(work_);
-    if (!find_kept_excess(*now_.active, work_, error_nm_)) gate = kNoAuthority;
+    if (!find_kept_excess(*now_.active.own(), work_, error_nm_)) gate = kNoAuthority;
   }
   finish_unusual(gate, ramp, out);
 }

@@ -7,7 +7,7 @@ template <class Machine, std::size_t Knots>
 PoseError Compensator<Machine, Knots>::error_at(
     const std::array<LatchedAxis, kMaxAxes>& latched) const {
   PoseError error;
-  const Tables* const set = now_.active;
+  const Tables* const set = now_.active.get();
   if (set == nullptr) return error;
   error.known = true;
   // Filled step by step, and all of it before it is read.

@@ -58,17 +58,15 @@ template <class Machine, std::size_t Knots>
     for (std::size_t o = 0; o < machine_.chain.orienting_count; ++o) {
       const TurnRange& range = work.turns.range[o];
       const float wanted = excess[o] * kTurnsPerRad;
-      // NaN, too, turns no further than the range.
-      const float taken = wanted > range.high   ? range.high
-                          : wanted >= range.low ? wanted
-                                                : range.low;
+      float taken = wanted > range.high ? range.high : wanted >= range.low ? wanted : range.low;
+      if (!Magnitude::finite(wanted)) taken = 0.0F;  // put_out_unusual() lets the axis go
       work.turns.excess[o] = wanted;
       t.turn_back(o, taken / kTurnsPerRad, error_nm);
     }
   }
 }
 
-// Of an axis that takes offsets, else nullptr.
+// The excess of an axis that takes offsets, else nullptr.
 template <class Machine, std::size_t Knots>
 float* Compensator<Machine, Knots>::excess_of(std::size_t axis) {
   const std::size_t c = machine_.chain.correcting_index[axis];
@@ -80,8 +78,8 @@ float* Compensator<Machine, Knots>::excess_of(std::size_t axis) {
   return nullptr;
 }
 
-// After a usual tick. The general way to an output, as for everything that is not usual: the budget
-// of the usual tick is that of machines that do not orient.
+// After the fast path. Takes the way of the slow path to an output: the budget of the fast path is
+// that of machines that do not orient.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out_turns([[maybe_unused]] const Work& work,
                                                                [[maybe_unused]] float ramp,

@@ -1,4 +1,4 @@
-// The usual tick: every sample is good, every axis inside its table. One straight run of
+// The fast path: every sample is good, every axis inside its table. One straight run of
 // instructions, nearly the same number each time.
 
 namespace volcomp {
@@ -30,9 +30,16 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::within_reach(const AxisState& s
   return static_cast<std::uint32_t>(moved) + reach < 2 * reach;
 }
 
-// The usual sample is valid, referenced, no further from the last one than the axis can have moved,
-// and inside the table: `place` is the distance from its first knot. Target mode adds the offset
-// the drive will have applied.
+// The part of the offset that counts for the direction of a linear axis.
+template <class Machine, std::size_t Knots>
+VOLCOMP_INLINE std::int32_t Compensator<Machine, Knots>::followed_offset(const AxisState& s) const {
+  if (Machine::kCompiledIn && !directions_follow_offsets(machine_.chain)) return 0;
+  return s.output & (Machine::kCompiledIn ? masks_.target : masks_.follow);
+}
+
+// A sample of the fast path is valid, referenced, no further from the last one than the axis can
+// have moved, and inside the table: `place` is the distance from its first knot. Target mode adds
+// the offset the drive will have applied.
 template <class Machine, std::size_t Knots>
 template <bool Turns>
 VOLCOMP_INLINE bool Compensator<Machine, Knots>::is_usual(std::size_t axis,
@@ -41,11 +48,11 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::is_usual(std::size_t axis,
                                                           std::uint32_t& place) const {
   const AxisState& s = axis_[axis];
   const AxisLookup& lookup = set.lookup[axis];
-  if (VOLCOMP_RARELY(!sample.good())) return false;
-  if (VOLCOMP_RARELY(!within_reach<Turns>(s, sample.position))) return false;
-  const std::int64_t r = distance(lookup, sample.position, s.output & target_mask_, Turns);
+  if (VOLCOMP_UNLIKELY(!sample.good())) return false;
+  if (VOLCOMP_UNLIKELY(!within_reach<Turns>(s, sample.position))) return false;
+  const std::int64_t r = distance(lookup, sample.position, s.output & masks_.target, Turns);
   place = static_cast<std::uint32_t>(r);
-  return !VOLCOMP_RARELY(outside(lookup, r, Turns, lookup.usual_travel));
+  return !VOLCOMP_UNLIKELY(outside(lookup, r, Turns, lookup.usual_travel));
 }
 
 template <class Machine, std::size_t Knots>
@@ -53,11 +60,13 @@ template <bool Turns>
 VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow(std::size_t axis, const AxisSample& sample,
                                                         const Tables& set, Located& at) {
   std::uint32_t place = 0;
-  if (VOLCOMP_RARELY(!is_usual<Turns>(axis, sample, set, place))) return false;
+  if (VOLCOMP_UNLIKELY(!is_usual<Turns>(axis, sample, set, place))) return false;
   AxisState& s = axis_[axis];
   s.seen = sample.position;
-  const auto low = static_cast<std::uint32_t>(Turns ? sample.position >> 8 : sample.position);
-  const Direction d = s.direction.follow(low, s.hysteresis);
+  const auto low = Turns ? static_cast<std::uint32_t>(sample.position >> 8)
+                         : static_cast<std::uint32_t>(sample.position) +
+                               static_cast<std::uint32_t>(followed_offset(s));
+  const Direction d = s.direction.follow(low, s.hysteresis.get());
   locate(set.lookup[axis], place, Turns, set.rows[axis].data(), d, at);
   return true;
 }
@@ -69,9 +78,9 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_one(std::size_t axis,
   return rotary(axis) ? follow<true>(axis, sample, set, at) : follow<false>(axis, sample, set, at);
 }
 
-// False at the first axis that is not as usual. All are then followed once more by
-// follow_unusual(): for those that came before it nothing changes, they stand where they stood.
-// Reports on the way what holds unless a correction changes it.
+// Returns false at the first axis that needs the slow path. follow_unusual() then follows all once
+// more: for those that came before it nothing changes, they stand where they stood. Reports on the
+// way what holds unless a correction changes it.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_usual(const Input& in, const Tables& set,
                                                               std::uint32_t status, Places& at,
@@ -81,7 +90,7 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_usual(const Input& in, c
     usual = usual && follow_one(a, in.axis[a], set, at[a]);
     const bool corrects = machine_.chain.correcting_index[a] != kNotCorrecting;
     if (Machine::kCompiledIn && corrects)
-      return;  // a loaded machine overwrites sooner than it asks
+      return;  // on a loaded machine storing is cheaper than branching
     out.status[a] = static_cast<std::uint16_t>(status);
     out.offset[a] = axis_[a].output;
   });
@@ -111,14 +120,14 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::find_excess(const Tables& set, 
 }
 
 // The same as one function in memory: for a loaded machine, whose indices are not known beforehand,
-// for a tick that is not as usual, and for touches.
+// for the slow path, and for touches.
 template <class Machine, std::size_t Knots>
 [[gnu::noinline]] bool Compensator<Machine, Knots>::find_kept_excess(const Tables& set, Work& work,
                                                                      Float3& error_nm) const {
   return find_excess(set, work, error_nm);
 }
 
-// Clamp, ramp, round, slew: the offset that takes `excess` away. `changed`: everyday bits that are
+// Clamp, ramp, round, slew: the offset that takes `excess` away. `changed`: status bits that are
 // not as in kAllValid.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out(std::size_t correcting, float excess,
@@ -139,41 +148,46 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out(std::size_t correcting,
     changed |= everyday_of(correcting, everyday_bits(kValid | kRateLimited));
   }
   s.output = output;
-  if (VOLCOMP_RARELY(further(output, 0, s.largest))) s.largest = output < 0 ? -output : output;
+  if (VOLCOMP_UNLIKELY(further(output, 0, s.largest.own())))
+    s.largest.set(output < 0 ? -output : output);
   out.offset[a] = output;
   out.status[a] = static_cast<std::uint16_t>(status);
 }
 
 template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
-  if (VOLCOMP_RARELY(++ticks_ == 0)) ticks_wrapped_ = true;
+  ticks_.set(ticks_.own() + 1U);
+  if (VOLCOMP_UNLIKELY(ticks_.own() == 0)) ticks_wrapped_.set(true);
   std::uint32_t usual = kValid;
   float ramp = 1.0F;
-  if (VOLCOMP_RARELY(request_.load(std::memory_order_relaxed) != Request::none)) {
+  if (VOLCOMP_UNLIKELY(requested_.load(std::memory_order_relaxed) != 0)) {
     take_request();
     ramp = now_.ramp.begin();
     usual |= kRamping;
     if (!now_.ramp.running()) end_change();
-  } else if (VOLCOMP_RARELY(!now_.ramp.at_rest())) {
+  } else if (VOLCOMP_UNLIKELY(!now_.ramp.at_rest())) {
     ramp = now_.ramp.advance();
     if (!now_.ramp.running()) end_change();
     if (now_.ramp.at_rest()) {
-      ++ramps_;
+      ramps_.set(ramps_.own() + 1U);
     } else {
       usual |= kRamping;
     }
   }
-  const Tables* const set = now_.active;
+  const Tables* const set = now_.active.own();
   // Filled step by step, and all of it before it is read.
   Work local;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   Work& w = Machine::kCompiledIn ? local : work_;
-  if (VOLCOMP_RARELY(set == nullptr || guarded_axes_ != 0) ||
+  if (VOLCOMP_UNLIKELY(set == nullptr || guarded_axes_ != 0) ||
       !follow_usual(in, *set, usual, w.at, out))
     return detail::tick_unusual(*this, in, ramp, out);
   allow_turns(w);
   const bool possible = Machine::kCompiledIn ? find_excess(*set, w, error_nm_)
                                              : find_kept_excess(*set, work_, error_nm_);
-  if (VOLCOMP_RARELY(!possible)) return detail::tick_unusual(*this, in, ramp, out);
+  // A sum is finite only if all in it is (IEEE 754-2019, 6.1 and 6.2); where fewer axes correct,
+  // the rest is 0.
+  if (VOLCOMP_UNLIKELY(!possible || !Magnitude::finite(w.excess[0] + w.excess[1] + w.excess[2])))
+    return detail::tick_unusual(*this, in, ramp, out);
   EverydayBits changed = 0;
   for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
     put_out(c, w.excess[c], ramp, usual, changed, out);

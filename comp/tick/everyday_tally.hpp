@@ -1,5 +1,5 @@
 #pragma once
-// Counts how often the everyday bits of the status words began: valid, clamped, rate-limited. They
+// Counts how often the status bits of ordinary operation began: valid, clamped, rate-limited. They
 // come and go in ordinary operation, on several axes in one tick. Every pattern of beginnings has a
 // counter of its own, "nothing began" included: one increment per tick, whatever happens.
 
@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "comp/core/inline.hpp"
+#include "comp/core/published.hpp"
 #include "comp/machine/machine_description.hpp"
 #include "comp/tick/tick_types.hpp"
 
@@ -33,7 +34,7 @@ constexpr EverydayBits everyday_of(std::size_t c, EverydayBits bits) {
   return bits << (kEverydayWidth * c);
 }
 
-// Of axes a machine does not have, too: nobody asks for their counts.
+// Valid bits of all axes. Counts of absent axes are never read.
 inline constexpr EverydayBits kAllValid = everyday_of(0, everyday_bits(kValid)) |
                                           everyday_of(1, everyday_bits(kValid)) |
                                           everyday_of(2, everyday_bits(kValid));
@@ -43,13 +44,13 @@ class EverydayTally {
  public:
   // All correcting axes in this tick. Interrupt-safe.
   VOLCOMP_INLINE void enter(EverydayBits now) {
-    std::uint16_t& count = count_[now & ~last_];
-    const std::uint32_t n = count + 1U;
-    count = static_cast<std::uint16_t>(n - (n >> 16U));  // saturates
+    Published<std::uint16_t>& count = count_[now & ~last_];
+    const std::uint32_t n = count.own() + 1U;
+    count.set(static_cast<std::uint16_t>(n - (n >> 16U)));  // saturates
     last_ = now;
   }
 
-  // One axis, its changes counted by somebody else.
+  // One axis, its changes counted elsewhere.
   void resume(std::size_t c, EverydayBits bits) {
     last_ = (last_ & ~everyday_of(c, kAxisBits)) | everyday_of(c, bits);
   }
@@ -61,7 +62,7 @@ class EverydayTally {
   void add_to(std::array<std::uint32_t, kEverydayWidth>& began, std::size_t c) const {
     for (std::size_t pattern = 1; pattern < count_.size(); ++pattern) {
       for (std::size_t bit = 0; bit < kEverydayWidth; ++bit) {
-        if ((pattern >> (kEverydayWidth * c + bit) & 1U) != 0) began[bit] += count_[pattern];
+        if ((pattern >> (kEverydayWidth * c + bit) & 1U) != 0) began[bit] += count_[pattern].get();
       }
     }
   }
@@ -70,7 +71,7 @@ class EverydayTally {
   static constexpr EverydayBits kAxisBits = (1U << kEverydayWidth) - 1U;
 
   EverydayBits last_ = 0;
-  std::array<std::uint16_t, 1U << (kEverydayWidth * kMaxCorrecting)> count_{};
+  std::array<Published<std::uint16_t>, 1U << (kEverydayWidth * kMaxCorrecting)> count_{};
 };
 
 }  // namespace volcomp

@@ -9,7 +9,7 @@ namespace volcomp::kernel {
 
 // E = Σ a + Σ Ω × (travel of each axis), one pass around the loop work tip → base → tool tip. Ω
 // collects the angles whose lever contains the travel: a work axis counts its own, a tool axis only
-// those before it (seed 001 section 2.1, "Generic count").
+// those before it.
 template <class Machine, class Set, class Places>
 VOLCOMP_INLINE Float3 folded_error(const Machine& machine, const Set& set, const Places& at) {
   Float3 e{};

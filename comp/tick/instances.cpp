@@ -1,6 +1,6 @@
 // The ready-made forms of the compensator, compiled once into the library: loaded machines of up
-// to five axes and the XYFZ machine of seed 001 compiled in. Also what the build inspects to prove
-// that the tick needs no library.
+// to five axes and the XYFZ machine of docs/papers/xyfz.md compiled in. Also what the build
+// inspects to prove that the tick needs no library.
 
 #include "comp/tick/instances.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
-// The volumetric error of a machine of linear and rotary axes, in float nm and rad: the
-// second-order deviation recursion (seed 000 section 1). No libm, no allocation, no division.
+// The volumetric error of a machine of linear and rotary axes, in float nm and rad: a second-order
+// recursion of deviations. No libm, no allocation, no division.
 //
-// A loaded machine goes round a loop of steps. What every step needs is straight; what it does is
-// one jump by its motion; what few machines have is behind one question (RuntimeStep::plain).
+// A loaded machine goes round a loop of steps. What every step needs is straight code; its motion
+// selects one jump; what few machines have is behind one test (RuntimeStep::plain).
 
 #include "comp/tables/table_set.hpp"
 #include "comp/tables/walk.hpp"
@@ -42,7 +42,7 @@ VOLCOMP_INLINE Float3 unrotate_minus_identity(const float* angle, const Float3& 
 }
 
 // Jacobian columns that change with the pose, base frame, nm per nm or nm per rad; at the end of
-// the recursion they are where InversePlan says.
+// the recursion they are where InversePlan places them.
 using Columns = std::array<Float3, kMaxCorrecting>;
 
 // State of the recursion.
@@ -108,7 +108,7 @@ VOLCOMP_INLINE void set_motion_column(const RuntimeStep& step, const Float3& p, 
   }
 }
 
-// Calls visit(column) for `count` carried columns from `first` on. Of a loaded machine, which does
+// Calls visit(column) for `count` carried columns from `first` on. On a loaded machine, which does
 // not know them before, the columns share one piece of code.
 template <class Visit>
 VOLCOMP_INLINE void for_columns(Columns& column, std::size_t first, std::size_t count,
@@ -162,7 +162,7 @@ VOLCOMP_INLINE void err_to_work(const ChannelValues& v, Recursion& r) {
 template <class Visit>
 VOLCOMP_INLINE void with_error(const RuntimeStep& step, const Located& at, const Visit& visit) {
   ChannelValues v;
-  if (VOLCOMP_RARELY(step.kind == JointKind::fixed)) {
+  if (VOLCOMP_UNLIKELY(step.kind == JointKind::fixed)) {
     if (!step.has_error) return;
     v = step.error;
   } else {
@@ -171,7 +171,7 @@ VOLCOMP_INLINE void with_error(const RuntimeStep& step, const Located& at, const
   visit(v);
 }
 
-// A loaded machine adds 0 sooner than it asks.
+// On a loaded machine adding 0 is cheaper than branching.
 template <class Machine>
 VOLCOMP_INLINE bool has_offset(const RuntimeStep& step) {
   return !Machine::kCompiledIn || step.has_offset;

@@ -35,13 +35,14 @@ enum StatusBit : std::uint16_t {
   kImplausible = 1U << 4U,       // position jumped faster than the axis can move: treated as stale
   kOutOfRange = 1U << 5U,        // beyond its table: stands at the end
   kFarOutOfRange = 1U << 6U,     // by more than half a pitch
-  kClamped = 1U << 7U,           // limited to ±limit
+  kClamped = 1U << 7U,           // limited to ±limit; with kRateLimited perhaps still beyond it
   kRateLimited = 1U << 8U,       // limited to ±rate per tick
   kDirectionUnknown = 1U << 9U,  // not moved yet: mean of both directions
   kRamping = 1U << 10U,          // a change is being ramped in
   kNoAuthority = 1U << 11U,      // the correcting axes cannot act here: last correction held
   kNoTables = 1U << 12U,         // nothing active: correction 0
-  kTableDamaged = 1U << 13U,     // the active tables changed in memory: correction ramped to 0
+  kTableDamaged = 1U << 13U,     // the active tables changed in memory: correction ramped to 0;
+                                 // with kClamped: what they lead to is not finite
 };
 inline constexpr int kStatusBits = 14;
 
@@ -65,7 +66,7 @@ enum class PositionSource : std::uint8_t {
   actual,  // 6064h or a latch: already contains the offset, nothing is added
 };
 
-// Units: nm (linear) or 2^-32 turn (rotary), per tick where it says so.
+// Units: nm (linear) or 2^-32 turn (rotary), per tick where stated.
 struct AxisLimits {
   std::int32_t limit = 200'000;  // largest |offset|, 1…4 194 303 (4.19 mm, 6.1 mrad)
   std::int32_t rate = 10'000;    // largest change per tick, 1…1e9

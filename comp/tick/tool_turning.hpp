@@ -13,8 +13,8 @@ struct ToolTurning {
   Float3 error{};  // orientation of the tool against the work, rad, base
   Float3 axis{};   // of the tool, Z of its frame, base
   Float3 tip{};    // tool point of the ideal machine, nm, base
-  // Of the orienting axes: direction in which each turns the tool against the work, and a point on
-  // it, base.
+  // The orienting axes: direction in which each turns the tool against the work, and a point on it,
+  // base.
   std::array<Float3, kMaxOrienting> turn{};
   std::array<Float3, kMaxOrienting> pivot{};
 

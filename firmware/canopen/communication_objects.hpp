@@ -79,7 +79,7 @@ inline constexpr std::array<NamedEntry, 23> kCommunicationEntries{{
     {0x1015, 0, 0, DataType::unsigned16, Access::read_write, kStored,
      VOLCOMP_AT(emergency_inhibit_100us), 0, "Inhibit time EMCY"},
     {0x1016, 1, kHeartbeatConsumers, DataType::unsigned32, Access::read_write, kStored,
-     VOLCOMP_AT(consumer_heartbeat), 0, "Consumer heartbeat time", 0, 0x7FFFFF},
+     VOLCOMP_AT(consumer_heartbeat), 0, "Consumer heartbeat time", 0, 0xFFFFFF},
     {0x1017, 0, 0, DataType::unsigned16, Access::read_write, kStored,
      VOLCOMP_AT(producer_heartbeat_ms), 0, "Producer heartbeat time"},
     {0x1018, 1, 1, DataType::unsigned32, Access::constant, kPlain, VOLCOMP_AT(identity.vendor), 0,

@@ -1,35 +1,25 @@
-// What SDO clients see of a Device.
+// The objects of a DeviceBase as SDO clients see them, and the rules of the communication objects.
 
 #include <algorithm>
 
 #include "firmware/canopen/bytes.hpp"
-#include "firmware/canopen/device.hpp"
+#include "firmware/canopen/device_base.hpp"
 
 namespace volcomp::canopen {
 
-AbortCode Device::begin_upload(ObjectId object, Span<const std::uint8_t>& source) {
-  if (PdoTable::owns(object.index)) {
-    PdoTable::Value value;
-    const AbortCode why = pdos_.read(object, value);
-    if (why != AbortCode::none) return why;
-    store_le(scratch_.data(), value.bytes, value.value);
-    source = {scratch_.data(), value.bytes};
-    return AbortCode::none;
-  }
-  const ObjectDictionary::Found found = objects_.find(object);
-  if (found.why != AbortCode::none) return found.why;
-  if (found.entry == nullptr) {
-    scratch_[0] = found.highest_sub;
-    source = {scratch_.data(), 1};
-    return AbortCode::none;
-  }
-  if (!found.entry->readable()) return AbortCode::write_only;
-  // CiA 301, 7.5.2.4: beyond the errors that have happened there is nothing to read.
-  if (object.index == 0x1003 && object.sub > values_.error_count) return AbortCode::no_data;
-  if (found.entry->type == DataType::domain) return application_.read_domain(object, source);
-  application_.before_read(object);
+AbortCode DeviceBase::read_pdo(ObjectId object, Span<const std::uint8_t>& source) {
+  PdoTable::Value value;
+  const AbortCode why = pdos_.read(object, value);
+  if (why != AbortCode::none) return why;
+  store_le(scratch_.data(), value.bytes, value.value);
+  source = {scratch_.data(), value.bytes};
+  return AbortCode::none;
+}
+
+// A copy, so that a segmented upload does not see a value change half-way.
+AbortCode DeviceBase::copy_value(const ObjectDictionary::Found& found,
+                                 Span<const std::uint8_t>& source) {
   source = {found.value, ObjectDictionary::size(*found.entry, found.value)};
-  // A copy, so that a segmented upload does not see a value change half-way.
   if (source.size() > scratch_.size()) return AbortCode::none;
   for (std::size_t i = 0; i < source.size(); ++i)
     scratch_[i] = source[i];
@@ -37,7 +27,8 @@ AbortCode Device::begin_upload(ObjectId object, Span<const std::uint8_t>& source
   return AbortCode::none;
 }
 
-AbortCode Device::begin_download(ObjectId object, std::size_t announced, Span<std::uint8_t>& sink) {
+AbortCode DeviceBase::room_for(ObjectId object, const ObjectDictionary::Found& found,
+                               std::size_t announced, Span<std::uint8_t>& sink) {
   std::size_t most = 0;
   if (PdoTable::owns(object.index)) {
     std::uint8_t bytes = 0;
@@ -45,11 +36,6 @@ AbortCode Device::begin_download(ObjectId object, std::size_t announced, Span<st
     if (why != AbortCode::none) return why;
     most = bytes;
   } else {
-    const ObjectDictionary::Found found = objects_.find(object);
-    if (found.why != AbortCode::none) return found.why;
-    if (found.entry == nullptr || !found.entry->writable()) return AbortCode::read_only;
-    if (found.entry->type == DataType::domain)
-      return application_.begin_domain(object, announced, sink);
     most = found.entry->type == DataType::visible_string ? found.entry->extra
                                                          : size_of(found.entry->type);
   }
@@ -57,53 +43,22 @@ AbortCode Device::begin_download(ObjectId object, std::size_t announced, Span<st
   return announced > sink.size() ? AbortCode::too_long : AbortCode::none;
 }
 
-AbortCode Device::finish_download(ObjectId object, std::size_t size) {
-  const ObjectDictionary::Found found = objects_.find(object);
-  if (!PdoTable::owns(object.index) && found.entry != nullptr &&
-      found.entry->type == DataType::domain)
-    return application_.finish_domain(object, size);
-  return write(object, {scratch_.data(), size});
-}
-
-void Device::abandon_download(ObjectId object) {
-  const ObjectDictionary::Found found = objects_.find(object);
-  if (PdoTable::owns(object.index) || found.entry == nullptr) return;
-  if (found.entry->type == DataType::domain) application_.abandon_domain(object);
-}
-
-AbortCode Device::write(ObjectId object, Span<const std::uint8_t> bytes) {
-  if (!PdoTable::owns(object.index)) return store(object, bytes);
-  std::uint8_t wanted = 0;
-  const AbortCode why = pdos_.writable(object, wanted);
-  if (why != AbortCode::none) return why;
-  if (bytes.size() != wanted) return AbortCode::wrong_length;
-  const auto value = static_cast<std::uint32_t>(load_le(bytes.data(), wanted));
-  const AbortCode result = pdos_.write(object, value);
-  forget_invalid_pdos();
-  return result;
-}
-
-AbortCode Device::store(ObjectId object, Span<const std::uint8_t> bytes) {
-  const ObjectDictionary::Found found = objects_.find(object);
-  if (found.why != AbortCode::none) return found.why;
-  if (found.entry == nullptr) return AbortCode::read_only;
-  AbortCode why = objects_.check(*found.entry, bytes);
-  if (why == AbortCode::none) why = check_communication(object, bytes);
-  if (why == AbortCode::none) why = application_.before_write(object, *found.entry, bytes);
-  if (why != AbortCode::none) return why;
-  if (found.value != nullptr) ObjectDictionary::assign(*found.entry, found.value, bytes);
-  communication_written(object);
-  application_.written(object, now_us_);
-  return AbortCode::none;
+bool DeviceBase::is_domain(ObjectId object) const {
+  const Entry* const entry = objects_.find(object).entry;  // there is none for a PDO
+  return entry != nullptr && entry->type == DataType::domain;
 }
 
 // Rules of single communication objects that a range cannot express.
-AbortCode Device::check_communication(ObjectId object, Span<const std::uint8_t> bytes) const {
-  const std::uint64_t value = load_le(bytes.data(), bytes.size() <= 8 ? bytes.size() : 8);
+AbortCode DeviceBase::check_communication(ObjectId object, Span<const std::uint8_t> bytes) const {
+  const auto value =
+      static_cast<std::uint32_t>(load_le(bytes.data(), std::min<std::size_t>(bytes.size(), 4)));
   if (object.index == 0x1003 && value != 0) return AbortCode::invalid_value;
   if (object.index == 0x1005) {
-    const std::uint64_t id = value & ~std::uint64_t{Sync::kProduce};
-    if (id > hal::kMaxCanId || (id != kSync && restricted(static_cast<std::uint16_t>(id))))
+    const std::uint32_t id = value & ~Sync::kProduce;
+    // CiA 301, table 40, restricts nothing of what SYNC and EMCY share; on its own EMCY a device
+    // sends something else.
+    const bool shared = id >= kSync && id < kTime && id != kEmergency + std::uint32_t{node_id_};
+    if (id > hal::kMaxCanId || (!shared && restricted(static_cast<std::uint16_t>(id))))
       return AbortCode::invalid_value;
     // CiA 301, 7.5.2.5: the identifier may not change while SYNC is being produced.
     if (sync_.producing() && id != sync_.id()) return AbortCode::invalid_value;
@@ -114,8 +69,8 @@ AbortCode Device::check_communication(ObjectId object, Span<const std::uint8_t> 
     if (values_.cycle_period_us != 0 && state_ != NmtState::boot_up) return AbortCode::device_state;
   }
   if (object.index == 0x1016 && (value & 0xFFFFU) != 0) {
-    const std::uint64_t node = value >> 16U;
-    if (node == 0) return AbortCode::none;  // CiA 301, 7.5.2.17: not used
+    const std::uint32_t node = value >> 16U;
+    if (node == 0 || node > kMaxNodeId) return AbortCode::none;  // CiA 301, 7.5.2.17: not used
     if (node == node_id_) return AbortCode::invalid_value;
     for (std::size_t i = 0; i < kHeartbeatConsumers; ++i) {
       const std::uint32_t other = values_.consumer_heartbeat[i];
@@ -126,7 +81,7 @@ AbortCode Device::check_communication(ObjectId object, Span<const std::uint8_t> 
   return AbortCode::none;
 }
 
-void Device::communication_written(ObjectId object) {
+void DeviceBase::communication_written(ObjectId object) {
   std::uint8_t lost_node = 0;
   switch (object.index) {
     case 0x1003:

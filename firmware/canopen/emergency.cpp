@@ -20,6 +20,10 @@ const char* sentence(ErrorCode code) {
       return "No error.";
     case ErrorCode::temperature_held:
       return "A temperature is missing or not plausible; the last good one is used.";
+    case ErrorCode::memory_damaged:
+      return "Settings changed in memory; corrections were taken back to zero.";
+    case ErrorCode::program_damaged:
+      return "The program changed in memory; corrections were ramped to zero.";
     case ErrorCode::store_failed:
       return "Parameters and tables could not be saved or forgotten; what was stored stays.";
     case ErrorCode::unexpected_reset:
@@ -30,8 +34,12 @@ const char* sentence(ErrorCode code) {
       return "The stored parameters and tables were damaged.";
     case ErrorCode::can_overrun:
       return "Messages were lost before they could be read.";
+    case ErrorCode::can_passive:
+      return "The CAN controller counted so many errors that it is error passive.";
     case ErrorCode::heartbeat:
       return "A node that is watched fell silent.";
+    case ErrorCode::bus_off_recovered:
+      return "The CAN controller was bus-off, heard and sent nothing meanwhile, and is back.";
     case ErrorCode::sync_length:
       return "SYNC came with a counter where none is expected, or without one.";
     case ErrorCode::rpdo_length:
@@ -55,6 +63,8 @@ const char* sentence(ErrorCode code) {
     case ErrorCode::tables_expired:
       return "The active tables are past their expiry; they stay active, measure the machine "
              "again.";
+    case ErrorCode::time_doubted:
+      return "TIME jumped; the device keeps its own date.";
     case ErrorCode::foreign_sync:
       return "A second device produces SYNC.";
     case ErrorCode::offset_not_confirmed:

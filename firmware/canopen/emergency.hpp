@@ -13,13 +13,17 @@ namespace volcomp::canopen {
 // Error codes of CiA 301 table 26 and of this device.
 enum class ErrorCode : std::uint16_t {
   none = 0x0000,
-  temperature_held = 0x4100,      // CiA 301: ambient temperature; source: input, 2701h says why
-  store_failed = 0x5530,          // 1010h or 1011h: non-volatile memory; 2600h:0C says why
+  temperature_held = 0x4100,      // CiA 301: ambient temperature; source: input, reason in 2701h
+  memory_damaged = 0x5510,        // CiA 402: working memory; source: axis, 0: several
+  program_damaged = 0x5520,       // CiA 402: program memory changed
+  store_failed = 0x5530,          // 1010h or 1011h: non-volatile memory; reason in 2600h:0C
   unexpected_reset = 0x6010,      // CiA 402: software reset (watchdog); first byte: ResetCause
   background_overdue = 0x6100,    // internal software: the background hangs
   parameters_lost = 0x6310,       // 1010h: stored parameters damaged
   can_overrun = 0x8110,           // frames were lost before they could be read
+  can_passive = 0x8120,           // CAN controller in error passive mode
   heartbeat = 0x8130,             // a monitored node fell silent
+  bus_off_recovered = 0x8140,     // the CAN controller is back from bus-off
   sync_length = 0x8240,           // SYNC with or without counter against 1019h
   rpdo_length = 0x8210,           // PDO shorter than its mapping
   rpdo_timeout = 0x8250,          // process data of an axis missing
@@ -28,13 +32,14 @@ enum class ErrorCode : std::uint16_t {
   axis_clamped = 0xFF03,          // correction limited
   axis_out_of_range = 0xFF04,     // more than half a pitch beyond its table
   no_authority = 0xFF05,          // the correcting axes cannot act here
-  table_refused = 0xFF10,         // 2112h says why
+  table_refused = 0xFF10,         // reason in 2112h
   table_damaged = 0xFF11,         // active tables changed in memory
   tables_expired = 0xFF12,        // active tables are past their expiry: 2704h
+  time_doubted = 0xFF13,          // TIME jumped
   foreign_sync = 0xFF20,          // a second SYNC producer
   offset_not_confirmed = 0xFF21,  // a drive does not report the offset it was sent
   touch_rejected = 0xFF30,        // first byte: TouchVerdict; then the number of the touch
-  point_lost = 0xFF31,            // nobody reads 2410h: it is full
+  point_lost = 0xFF31,            // 2410h is full because no client reads it
 };
 
 // One plain sentence; also for codes another device made up.
@@ -55,10 +60,10 @@ class Emergency {
   // `objects` holds 1001h, 1003h, 1014h and 1015h.
   explicit Emergency(CommunicationObjects& objects) : objects_(objects) {}
 
-  // An error appeared or is still there. `source` tells apart errors with the same code (axis, node
-  // id); it is the first byte of the manufacturer-specific field. Reported once until cleared.
+  // An error appeared or is still there. `source` distinguishes errors with the same code (axis,
+  // node id); it is the first byte of the manufacturer-specific field. Reported once until cleared.
   void raise(ErrorCode code, std::uint8_t source, const std::array<std::uint8_t, 4>& detail = {});
-  // The error has gone; nothing happens when it was not there.
+  // The error has gone; does nothing when it was not active.
   void clear(ErrorCode code, std::uint8_t source);
   [[nodiscard]] bool active(ErrorCode code, std::uint8_t source) const;
 

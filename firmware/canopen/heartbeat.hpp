@@ -27,7 +27,7 @@ class HeartbeatConsumer {
   [[nodiscard]] bool alive(std::uint8_t node) const;
 
   // Sub-index 1…kHeartbeatConsumers of 1016h changed: its watching starts anew. True when the node
-  // watched until now was lost; nobody will hear of it again.
+  // watched until now was lost; no later call reports it again.
   bool restart(std::uint8_t sub, std::uint8_t& lost_node);
   // Communication was reset.
   void reset() { watch_ = {}; }

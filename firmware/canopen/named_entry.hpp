@@ -1,6 +1,6 @@
 #pragma once
-// Rows of an object dictionary as they are written down, with what only people and tools are told.
-// Devices carry the rows of DictionaryOf: they have no memory for names.
+// Rows of an object dictionary as written in the source, with the names and texts for people and
+// tools. Devices carry the rows of DictionaryOf, without names, which would not fit their flash.
 
 #include <array>
 #include <cstddef>

@@ -22,7 +22,7 @@ class ObjectAccess {
   virtual AbortCode begin_upload(ObjectId object, Span<const std::uint8_t>& source) = 0;
 
   // Where to put the incoming bytes: `sink` is as large as the object may become. `announced` is
-  // the size the client promises, 0 = not said; a promise that cannot be kept is refused here.
+  // the size the client announces, 0 = none; a size that does not fit is refused here.
   virtual AbortCode begin_download(ObjectId object, std::size_t announced,
                                    Span<std::uint8_t>& sink) = 0;
   // The first `size` bytes of the sink are complete: check them and make them the value.

@@ -1,7 +1,6 @@
 #pragma once
-// The object dictionary: a constant table that says what there is, beside one plain struct that
-// holds the values. Values lie in memory as they go over the bus, so mapping an object into a PDO
-// is a copy.
+// The object dictionary: a constant table of the objects, beside one plain struct that holds their
+// values. Values lie in memory as they go over the bus, so mapping an object into a PDO is a copy.
 
 #include <cstddef>
 #include <cstdint>
@@ -102,6 +101,8 @@ struct Entry {
 struct Dictionary {
   Span<const Entry> rows;
   const Range* ranges = nullptr;
+  // Bits that the application wants set when a value arrives in a PDO; nullptr: it wants none.
+  std::uint32_t (*arrival)(ObjectId object) = nullptr;
 };
 
 class ObjectDictionary {
@@ -110,6 +111,7 @@ class ObjectDictionary {
   ObjectDictionary(const Dictionary& dictionary, void* values)
       : rows_(dictionary.rows),
         ranges_(dictionary.ranges),
+        arrival_(dictionary.arrival),
         values_(static_cast<std::uint8_t*>(values)) {}
 
   struct Found {
@@ -132,12 +134,16 @@ class ObjectDictionary {
   static void assign(const Entry& entry, std::uint8_t* value, Span<const std::uint8_t> bytes);
 
   [[nodiscard]] Span<const Entry> rows() const { return rows_; }
+  [[nodiscard]] std::uint32_t arrival(ObjectId object) const {
+    return arrival_ == nullptr ? 0 : arrival_(object);
+  }
 
  private:
   [[nodiscard]] AbortCode check_range(const Entry& entry, Span<const std::uint8_t> bytes) const;
 
   Span<const Entry> rows_;
   const Range* ranges_;
+  std::uint32_t (*arrival_)(ObjectId);
   std::uint8_t* values_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 
 namespace volcomp::canopen {
@@ -34,18 +35,21 @@ AbortCode resolve(std::uint32_t mapping, PdoKind kind, const ObjectDictionary& o
 
 AbortCode Pdo::configure(const PdoParameters& parameters, PdoKind kind,
                          const ObjectDictionary& objects) {
-  std::array<Piece, kMostMapped> pieces{};
+  Pieces pieces;
   std::size_t bytes = 0;
+  std::uint32_t arrivals = 0;
   for (std::size_t i = 0; i < parameters.count; ++i) {
-    const AbortCode why = resolve(parameters.mapping[i], kind, objects, pieces[i].value);
+    const AbortCode why = resolve(parameters.mapping[i], kind, objects, pieces.value[i]);
     if (why != AbortCode::none) return why;
-    pieces[i].bytes = static_cast<std::uint8_t>((parameters.mapping[i] & 0xFFU) / 8U);
-    bytes += pieces[i].bytes;
+    pieces.bytes[i] = static_cast<std::uint8_t>((parameters.mapping[i] & 0xFFU) / 8U);
+    bytes += pieces.bytes[i];
     if (bytes > 8) return AbortCode::mapping_too_long;
+    if (kind == PdoKind::receive) arrivals |= objects.arrival(object_of(parameters.mapping[i]));
   }
   parameters_ = parameters;
   set_communication(parameters);
-  piece_ = pieces;
+  pieces_ = pieces;
+  arrivals_ = arrivals;
   bytes_ = static_cast<std::uint8_t>(bytes);
   return AbortCode::none;
 }
@@ -61,9 +65,9 @@ void Pdo::set_communication(const PdoParameters& parameters) {
 void Pdo::scatter(const hal::CanFrame& frame) const {
   std::size_t at = 0;
   for (std::size_t i = 0; i < parameters_.count; ++i) {
-    if (piece_[i].value != nullptr)
-      std::memcpy(piece_[i].value, frame.data.data() + at, piece_[i].bytes);
-    at += piece_[i].bytes;
+    const std::uint8_t bytes = pieces_.bytes[i];
+    if (pieces_.value[i] != nullptr) std::memcpy(pieces_.value[i], frame.data.data() + at, bytes);
+    at += bytes;
   }
 }
 
@@ -71,8 +75,8 @@ void Pdo::gather(hal::CanFrame& frame) const {
   frame = {};
   frame.id = id();
   for (std::size_t i = 0; i < parameters_.count; ++i) {
-    std::memcpy(frame.data.data() + frame.size, piece_[i].value, piece_[i].bytes);
-    frame.size = static_cast<std::uint8_t>(frame.size + piece_[i].bytes);
+    std::memcpy(frame.data.data() + frame.size, pieces_.value[i], pieces_.bytes[i]);
+    frame.size = static_cast<std::uint8_t>(frame.size + pieces_.bytes[i]);
   }
 }
 
@@ -80,9 +84,11 @@ PdoTable::Place PdoTable::place(std::uint16_t index) const {
   Place at;
   at.mapping = (index & 0x0200U) != 0;
   at.kind = index < kTransmitCommunication ? PdoKind::receive : PdoKind::transmit;
-  const Span<Pdo>& pdos = at.kind == PdoKind::receive ? receive_ : transmit_;
+  const bool receive = at.kind == PdoKind::receive;
+  const Span<Pdo>& pdos = receive ? receive_ : transmit_;
   const std::size_t number = index & 0x01FFU;
   if (owns(index) && number < pdos.size()) at.pdo = &pdos[number];
+  at.of_cycle = number < (receive ? of_cycle_.receive : of_cycle_.transmit);
   return at;
 }
 
@@ -126,28 +132,35 @@ AbortCode PdoTable::writable(ObjectId object, std::uint8_t& bytes) const {
   return count_of_record ? AbortCode::read_only : AbortCode::none;
 }
 
-AbortCode PdoTable::write(ObjectId object, std::uint32_t value) {
+AbortCode PdoTable::write(ObjectId object, Span<const std::uint8_t> bytes, bool operational) {
+  std::uint8_t wanted = 0;
+  const AbortCode why = writable(object, wanted);
+  if (why != AbortCode::none) return why;
+  if (bytes.size() != wanted) return AbortCode::wrong_length;
   const Place at = place(object.index);
-  if (at.pdo == nullptr) return AbortCode::no_object;
+  if (at.of_cycle && operational) return AbortCode::device_state;
+  const auto value = static_cast<std::uint32_t>(load_le(bytes.data(), wanted));
   return at.mapping ? write_mapping(at, object.sub, value)
                     : write_communication(at, object.sub, value);
 }
 
-// The identifier may change only while the PDO is invalid.
+// The identifier may change only while the PDO is invalid. No port hears remote requests, so a TPDO
+// that is valid does not promise to answer them (bit 30; CiA 301, 7.5.2.37).
 AbortCode PdoTable::write_cob_id(const Place& place, PdoParameters& p, std::uint32_t value) {
   const auto id = static_cast<std::uint16_t>(value & hal::kMaxCanId);
   const bool turns_valid = (value & kPdoInvalid) == 0;
-  const bool extended = (value & 0x1FFF'F800U) != 0 || (value & (1U << 29U)) != 0;
-  if (extended || (turns_valid && restricted(id))) return AbortCode::invalid_value;
-  if (turns_valid && place.pdo->valid() && id != place.pdo->id()) return AbortCode::invalid_value;
+  const bool extended = (value & 0x3FFF'F800U) != 0;
+  const bool remote = place.kind == PdoKind::transmit && (value & kPdoNoRtr) == 0;
+  const bool changes = place.pdo->valid() && id != place.pdo->id();
+  if (extended || (turns_valid && (restricted(id) || remote || changes)))
+    return AbortCode::invalid_value;
   p.cob_id = value;
   return AbortCode::none;
 }
 
 AbortCode PdoTable::write_communication(const Place& place, std::uint8_t sub, std::uint32_t value) {
   PdoParameters p = place.pdo->parameters();
-  const bool timed = place.kind == PdoKind::transmit && place.pdo < transmit_.begin() + timed_;
-  if (timed && ((sub == 2 && value < kEventType) || (sub == 5 && value != 0)))
+  if (place.timed() && ((sub == 2 && value < kEventType) || (sub == 5 && value != 0)))
     return AbortCode::invalid_value;
   if (sub == 1) {
     const AbortCode why = write_cob_id(place, p, value);
@@ -155,13 +168,11 @@ AbortCode PdoTable::write_communication(const Place& place, std::uint8_t sub, st
   } else if (sub == 2) {
     if (value > kMostCyclicType && value < kEventType) return AbortCode::invalid_value;
     p.type = static_cast<std::uint8_t>(value);
-  } else if (sub == 3 && place.kind == PdoKind::transmit) {
+  } else if (sub == 3) {
     if (place.pdo->valid()) return AbortCode::unsupported_access;
     p.inhibit_100us = static_cast<std::uint16_t>(value);
-  } else if (sub == 5 && place.kind == PdoKind::transmit) {
-    p.event_timer_ms = static_cast<std::uint16_t>(value);
   } else {
-    return AbortCode::no_subindex;
+    p.event_timer_ms = static_cast<std::uint16_t>(value);
   }
   place.pdo->set_communication(p);
   return AbortCode::none;
@@ -169,11 +180,10 @@ AbortCode PdoTable::write_communication(const Place& place, std::uint8_t sub, st
 
 AbortCode PdoTable::write_mapping(const Place& place, std::uint8_t sub, std::uint32_t value) {
   PdoParameters p = place.pdo->parameters();
-  if (sub > kMostMapped) return AbortCode::no_subindex;
   if (place.pdo->valid()) return AbortCode::unsupported_access;
   // What only the application sends is what it has judged. Tools may write the same again, count 0
   // first; the mapping stays as it is.
-  if (place.kind == PdoKind::transmit && place.pdo < transmit_.begin() + timed_) {
+  if (place.timed()) {
     const bool same = sub == 0 ? value == 0 || value == p.count : value == p.mapping[sub - 1U];
     return same ? AbortCode::none : AbortCode::not_mappable;
   }

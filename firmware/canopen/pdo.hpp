@@ -55,29 +55,40 @@ class Pdo {
                       const ObjectDictionary& objects);
   void set_communication(const PdoParameters& parameters);
 
+  // What its values mean to the application that receives them, a bit each (Dictionary::arrival).
+  [[nodiscard]] std::uint32_t arrivals() const { return arrivals_; }
+
   void scatter(const hal::CanFrame& frame) const;  // frame.size ≥ bytes()
   void gather(hal::CanFrame& frame) const;
 
  private:
-  struct Piece {
-    std::uint8_t* value = nullptr;  // nullptr: dummy, skipped
-    std::uint8_t bytes = 0;
+  // Where the mapped values are and how many bytes they have.
+  struct Pieces {
+    std::array<std::uint8_t*, kMostMapped> value{};  // nullptr: dummy, skipped
+    std::array<std::uint8_t, kMostMapped> bytes{};
   };
   static constexpr std::uint16_t kNoFrame = 0xFFFF;
 
   std::uint16_t valid_id_ = kNoFrame;
   PdoParameters parameters_{};
-  std::array<Piece, kMostMapped> piece_{};
+  Pieces pieces_{};
+  std::uint32_t arrivals_ = 0;
   std::uint8_t bytes_ = 0;
+};
+
+// How many of its first PDOs a device's cycle cannot do without: they are fixed in OPERATIONAL. The
+// transmit PDOs among them go out when the application says so, and at no other time.
+struct PdosOfCycle {
+  std::size_t receive = 0;
+  std::size_t transmit = 0;
 };
 
 // What 1400h, 1600h, 1800h and 1A00h and following say, read and written over SDO.
 class PdoTable {
  public:
-  // The first `timed` transmit PDOs go out when the application says so, and at no other time.
-  PdoTable(Span<Pdo> receive, Span<Pdo> transmit, std::size_t timed,
+  PdoTable(Span<Pdo> receive, Span<Pdo> transmit, const PdosOfCycle& of_cycle,
            const ObjectDictionary& objects)
-      : receive_(receive), transmit_(transmit), timed_(timed), objects_(objects) {}
+      : receive_(receive), transmit_(transmit), of_cycle_(of_cycle), objects_(objects) {}
 
   static constexpr std::uint16_t kReceiveCommunication = 0x1400;
   static constexpr std::uint16_t kReceiveMapping = 0x1600;
@@ -93,7 +104,7 @@ class PdoTable {
   // How many bytes an object has; refuses read_only ones and what does not exist.
   AbortCode writable(ObjectId object, std::uint8_t& bytes) const;
   // The order CiA 301 prescribes: invalid, count 0, entries, count, valid.
-  AbortCode write(ObjectId object, std::uint32_t value);
+  AbortCode write(ObjectId object, Span<const std::uint8_t> bytes, bool operational);
 
   [[nodiscard]] Span<Pdo> receive() const { return receive_; }
   [[nodiscard]] Span<Pdo> transmit() const { return transmit_; }
@@ -103,15 +114,17 @@ class PdoTable {
     Pdo* pdo = nullptr;
     PdoKind kind = PdoKind::receive;
     bool mapping = false;
+    bool of_cycle = false;
+    [[nodiscard]] bool timed() const { return of_cycle && kind == PdoKind::transmit; }
   };
   [[nodiscard]] Place place(std::uint16_t index) const;
-  AbortCode write_communication(const Place& place, std::uint8_t sub, std::uint32_t value);
+  static AbortCode write_communication(const Place& place, std::uint8_t sub, std::uint32_t value);
   AbortCode write_mapping(const Place& place, std::uint8_t sub, std::uint32_t value);
   static AbortCode write_cob_id(const Place& place, PdoParameters& p, std::uint32_t value);
 
   Span<Pdo> receive_;
   Span<Pdo> transmit_;
-  std::size_t timed_;
+  PdosOfCycle of_cycle_;
   const ObjectDictionary& objects_;
 };
 

@@ -212,8 +212,8 @@ void SdoClient::block_upload_ended(const SdoData& frame) {
 
 // --- common
 
-// Whether this opens the transfer that was asked for. The late answer to an earlier question is
-// passed over, anything else ends the transfer.
+// Whether this answers the request of the transfer. A late answer to an earlier request is ignored,
+// anything else ends the transfer.
 bool SdoClient::answers(const SdoData& frame, std::uint8_t command) {
   if (command_of(frame) != command) {
     cancel(AbortCode::unknown_command);

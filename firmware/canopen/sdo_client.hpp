@@ -1,8 +1,8 @@
 #pragma once
 // An SDO client (CiA 301, section 7.2.4): reads and writes objects of one server, one transfer at a
 // time. Chooses the kind of transfer itself: up to 4 bytes expedited, from the block threshold on
-// in blocks with CRC, everything between segmented. Frames are handed in and taken out, time is
-// told.
+// in blocks with CRC, everything between segmented. The caller hands frames in, takes them out, and
+// passes the time.
 //
 //   client.download({0x2110, 1}, image, now);
 //   while (client.state() == SdoClient::State::busy) {
@@ -21,7 +21,7 @@ class SdoClient {
   enum class State : std::uint8_t { idle, busy, done, failed };
 
   // A server that is silent for that long fails the transfer. After half of it in the middle of a
-  // block upload it is told what has arrived, once, in case the end of the block was lost.
+  // block upload the client confirms what has arrived, once, in case the end of the block was lost.
   void set_timeout_us(std::uint64_t timeout_us) { timeout_us_ = timeout_us; }
   // Blocks are used for so many bytes and more.
   void set_block_threshold(std::size_t bytes) { block_threshold_ = bytes; }
@@ -30,7 +30,7 @@ class SdoClient {
   // until the state is no longer busy. An upload that is longer than `sink` fails with too_long.
   void download(ObjectId object, Span<const std::uint8_t> source, std::uint64_t now_us);
   void upload(ObjectId object, Span<std::uint8_t> sink, std::uint64_t now_us);
-  // Gives up; the server is told why. Nothing happens when no transfer is running.
+  // Aborts the transfer and sends the server the reason. Does nothing when no transfer is running.
   void cancel(AbortCode why);
 
   // The next frame to send, false when there is none at the moment.
@@ -43,7 +43,7 @@ class SdoClient {
   [[nodiscard]] State state() const { return state_; }
   // The server takes whatever comes for a segment: to be left with cancel() only.
   [[nodiscard]] bool in_block_download() const { return state_ == State::busy && sends_blocks(); }
-  // Why the transfer failed, and who said so.
+  // Why the transfer failed, and which side ended it.
   [[nodiscard]] AbortCode abort_code() const { return abort_code_; }
   [[nodiscard]] bool aborted_by_server() const { return aborted_by_server_; }
   // Bytes so far; after success the size of the value.

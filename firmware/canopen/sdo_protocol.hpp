@@ -1,6 +1,6 @@
 #pragma once
 // The frames of an SDO transfer (CiA 301, section 7.2.4.3). All have 8 bytes; the upper three bits
-// of the first are the command specifier, whose numbers mean something else in each direction.
+// of the first are the command specifier, whose numbers have another meaning in each direction.
 
 #include <array>
 #include <cstddef>
@@ -101,7 +101,7 @@ constexpr SdoData initiate_frame(std::uint8_t command, ObjectId object,
 
 constexpr bool is_expedited(const SdoData& frame) { return (frame[0] & kExpedited) != 0; }
 
-// The size such a frame tells, if it does.
+// The size in such a frame, if it has one.
 constexpr std::optional<std::size_t> announced_size(const SdoData& frame) {
   if ((frame[0] & kSizeIndicated) == 0) return std::nullopt;
   if (is_expedited(frame)) return kExpeditedBytes - ((frame[0] >> 2U) & 3U);

@@ -1,6 +1,7 @@
 #pragma once
 // The SDO server of a device (CiA 301, section 7.2.4): expedited, segmented and block transfer with
-// CRC in both directions. One transfer at a time; frames are handed in and taken out, time is told.
+// CRC in both directions. One transfer at a time; the caller hands frames in, takes them out, and
+// passes the time.
 //
 //   server.request(frame, now);  or  server.poll(now);
 //   while (server.response(frame)) send(frame);
@@ -28,11 +29,11 @@ class SdoServer {
   // unless it is a block download.
   void request(const SdoData& frame, std::uint64_t now_us);
   // The next frame to send, false when there is none: one per request, up to 127 segments after the
-  // request for a block, made when they are asked for.
+  // request for a block, each made at the call.
   [[nodiscard]] bool response(SdoData& out);
   // Time passed; may produce a response.
   void poll(std::uint64_t now_us);
-  // Communication reset: transfer and response are dropped without a word.
+  // Communication reset: drops transfer and response without an abort.
   void reset();
 
  private:

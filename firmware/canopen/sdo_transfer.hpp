@@ -2,8 +2,8 @@
 // The two ends of an SDO data stream. Server and client use the same pair: a download goes from the
 // client's sender to the server's receiver, an upload the other way round.
 //
-// Bytes are taken from, and put into, the memory of somebody else; nothing is buffered but the last
-// segment of a block transfer, whose padding is known only afterwards.
+// Bytes go straight from and into the memory of the caller; only the last segment of a block
+// transfer is buffered, because its padding is known only afterwards.
 
 #include "firmware/canopen/sdo_protocol.hpp"
 
@@ -15,7 +15,7 @@ class SdoSender {
   void start(Span<const std::uint8_t> source);
 
   [[nodiscard]] Span<const std::uint8_t> source() const { return source_; }
-  // Bytes that are sent for good: in a block transfer, those the other side has confirmed.
+  // Bytes whose sending is final: in a block transfer, those the other side has confirmed.
   [[nodiscard]] std::size_t sent() const;
   [[nodiscard]] bool all_sent() const { return sent_ == total_; }
 
@@ -26,8 +26,8 @@ class SdoSender {
   void start_blocks(std::uint8_t segments, bool with_crc);
   // The next segment of the block; false when it is complete.
   [[nodiscard]] bool block_segment(SdoData& out);
-  // The other side has the segments 1…`last_good` of this block and wants `segments` in the next.
-  // Refuses block_sequence, block_size.
+  // The other side has the segments 1…`last_good` of this block and requests `segments` in the
+  // next. Refuses block_sequence, block_size.
   [[nodiscard]] AbortCode confirmed(std::uint8_t last_good, std::uint8_t segments);
   // After all_sent().
   [[nodiscard]] SdoData block_end(std::uint8_t command) const;
@@ -38,7 +38,7 @@ class SdoSender {
 
   Span<const std::uint8_t> source_;
   std::size_t total_ = 0;  // segments
-  std::size_t sent_ = 0;   // segments sent for good
+  std::size_t sent_ = 0;   // confirmed segments
   std::uint8_t in_block_ = 0;
   std::uint8_t block_segments_ = 0;
   std::uint16_t crc_ = 0;
@@ -52,7 +52,7 @@ class SdoReceiver {
 
   [[nodiscard]] std::size_t received() const { return received_; }
 
-  // The bytes inside an initiate frame. If it does not tell how many, as many as the sink takes.
+  // The bytes inside an initiate frame. Without a count there are as many as the sink takes.
   [[nodiscard]] AbortCode expedited(const SdoData& frame);
   // Refuses toggle_bit, too_long.
   [[nodiscard]] AbortCode segment(const SdoData& frame, std::uint8_t toggle);

@@ -1,17 +1,20 @@
 #pragma once
-// Decides whether the watchdog is fed. The tick alone feeds it, so a dead tick bites by itself; the
-// guardian makes a dead background bite too, but only after the corrections are gone:
+// Decides whether the watchdog is fed. Only the tick feeds it, so a dead tick triggers it by
+// itself; the guardian makes a dead background trigger it too, but only after the corrections have
+// ramped to zero:
 //
 //   trusting ──token too old──► ramping ──at rest, or ramp_us over──► starving
 //      ▲                           │
 //      └────────token again────────┘
 //
 // A background that comes back while corrections are being ramped down is trusted again: nothing
-// restarts, the corrections stay at zero until somebody activates tables. Starving is final: the
-// watchdog may bite any moment, and a restart that is only sometimes cancelled helps nobody.
+// restarts, the corrections stay at zero until tables are activated. Starving is final: the
+// watchdog may trigger at any moment, and a restart that is cancelled only sometimes cannot be
+// relied on.
 
-#include <atomic>
 #include <cstdint>
+
+#include "comp/core/atomic_word.hpp"
 
 namespace volcomp::node {
 
@@ -35,7 +38,7 @@ class Guardian {
   }
   // The work that follows may take up to long_work_us, or is done. Counts as a token.
   void announce_long_work(bool begins) {
-    long_work_.store(begins, std::memory_order_relaxed);
+    long_work_.store(begins ? 1 : 0, std::memory_order_relaxed);
     alive();
   }
 
@@ -58,13 +61,13 @@ class Guardian {
   }
 
   [[nodiscard]] State state() const { return state_; }
-  [[nodiscard]] bool long_work() const { return long_work_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool long_work() const { return long_work_.load(std::memory_order_relaxed) != 0; }
 
  private:
   [[nodiscard]] std::uint32_t patience_us() const {
     return long_work() ? settings_.long_work_us : settings_.stale_us;
   }
-  // The first check counts as one: the background may not have had its turn yet.
+  // The first check counts as a token: the background may not have run yet.
   bool take_token(std::uint64_t now_us) {
     const std::uint32_t token = token_.load(std::memory_order_relaxed);
     if (started_ && token == seen_) return false;
@@ -75,8 +78,8 @@ class Guardian {
   }
 
   GuardianSettings settings_;
-  std::atomic<std::uint32_t> token_{0};
-  std::atomic<bool> long_work_{false};
+  AtomicWord<> token_{0};
+  AtomicWord<> long_work_{0};
   State state_ = State::trusting;
   std::uint32_t seen_ = 0;
   std::uint64_t fresh_us_ = 0;

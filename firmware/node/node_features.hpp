@@ -1,6 +1,6 @@
 #pragma once
-// What a node is for beside compensating and probing. Each board has room for some of it; what is
-// left out is left out of its object dictionary, too.
+// Features of a node beside compensating and probing. Each board has room for some of them; a
+// feature left out is also missing from its object dictionary.
 
 #ifndef VOLCOMP_NODE_STROKES
 #define VOLCOMP_NODE_STROKES 1
@@ -10,6 +10,9 @@
 #endif
 #ifndef VOLCOMP_NODE_ORIENTS
 #define VOLCOMP_NODE_ORIENTS 1
+#endif
+#ifndef VOLCOMP_NODE_SENTENCES
+#define VOLCOMP_NODE_SENTENCES 1
 #endif
 
 namespace volcomp::node {
@@ -21,5 +24,8 @@ inline constexpr bool kWatchesStrokes = VOLCOMP_NODE_STROKES != 0;
 inline constexpr bool kFollowsTemperature = VOLCOMP_NODE_THERMAL != 0;
 // Rotary axes that hold the direction of the tool. Without it tables of such machines are refused.
 inline constexpr bool kOrientsTool = VOLCOMP_NODE_ORIENTS != 0;
+// The reason of a refusal in words, 2112h:06. Without it that is empty: 2112h:02 has the code, and
+// tools of the host have the sentence.
+inline constexpr bool kWritesSentences = VOLCOMP_NODE_SENTENCES != 0;
 
 }  // namespace volcomp::node

@@ -25,6 +25,8 @@
 
 namespace volcomp::node {
 
+inline constexpr std::uint32_t kProductCode = 0x564F4C43;  // 1018h:02: "VOLC"
+
 template <class T>
 using PerAxis = std::array<T, kNodeAxes>;
 
@@ -68,8 +70,8 @@ enum class NodeState : std::uint8_t {
 
 struct NodeObjects {
   canopen::CommunicationObjects communication{};
-  std::uint32_t store = 0x1;    // 1010h:01; reads: saves on command
-  std::uint32_t restore = 0x1;  // 1011h:01; reads: restores on command
+  std::uint32_t store = 0x1;    // 1010h:01; reads: saves on command; 0: there is no store
+  std::uint32_t restore = 0x1;  // 1011h:01; reads: restores on command; 0: there is no store
 
   std::uint32_t machine_id = 0;        // 2000h:01; 0: any machine's tables
   std::uint8_t controller = 127;       // 2000h:02 node id of the motion controller
@@ -155,16 +157,21 @@ inline constexpr std::size_t kProcessStatePdo = 5 * kNodeAxes;
 inline constexpr std::size_t kTemperaturePdo = kProcessStatePdo + 1;  // in every node that has it
 inline constexpr std::size_t kReceivePdos =
     kFollowsTemperature ? kTemperaturePdo + 1 : kProcessStatePdo + (kWatchesStrokes ? 1 : 0);
+// Those that a cycle is computed from: all but the temperatures.
+inline constexpr std::size_t kCycleReceivePdos = kProcessStatePdo + (kWatchesStrokes ? 1 : 0);
 // Offsets, node status, the latest point: number and verdict, X and Y, Z and uncertainty.
 inline constexpr std::size_t kStatusPdo = kNodeAxes;
 inline constexpr std::size_t kFirstPointPdo = kNodeAxes + 1;
 inline constexpr std::size_t kPointPdos = 3;
 inline constexpr std::size_t kTransmitPdos = kFirstPointPdo + kPointPdos;
 
-// Default parameters of the PDOs for the drives of 2010h; PDOs of absent drives are invalid.
+// RPDOs with the offsets that the drives hold, one per axis.
+inline constexpr std::size_t kFirstHeldPdo = 2 * kNodeAxes;
+
+// Default parameters of the PDOs for the drives of 2010h; those of absent drives are invalid, and
+// those of held offsets where drives do not report (2200h:05).
 [[nodiscard]] canopen::PdoParameters default_receive_pdo(std::size_t number,
-                                                         const PerAxis<std::uint8_t>& drives,
-                                                         std::uint8_t controller);
+                                                         const NodeObjects& objects);
 [[nodiscard]] canopen::PdoParameters default_transmit_pdo(std::size_t number,
                                                           const PerAxis<std::uint8_t>& drives,
                                                           std::uint8_t node_id);

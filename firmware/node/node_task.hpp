@@ -76,6 +76,8 @@ class NodeTask final : private Preemption {
   NodeTask& operator=(const NodeTask&) = delete;
   ~NodeTask() = default;
 
+  // Code and constants, see Node; before power_on().
+  void watch_program(Span<const std::uint8_t> program) { node_.watch_program(program); }
   // Once, before the timer runs. Takes as long as loading and checking the stored tables.
   void power_on(ResetCause cause) {
     const Guarded guarded(board_.section);
@@ -89,8 +91,10 @@ class NodeTask final : private Preemption {
     const std::uint64_t now_us = board_.clock.now_us();
     watch(now_us);
     fetch(now_us);
-    if (undisturbed()) node_.poll_services(now_us);
-    node_.poll_cycle(now_us);
+    const bool serves = undisturbed();
+    if (serves) node_.device().poll_services(now_us);
+    served_ = served_ || serves;
+    node_.device().poll_cycle(now_us);
     send(now_us);
     if constexpr (ExchangesTurns<Port>::value) board_.port.end_turn();
     if (guardian_.state() != Guardian::State::starving) board_.watchdog.feed();
@@ -99,6 +103,9 @@ class NodeTask final : private Preemption {
   // The port lost frames before they could be fetched (overrun of the controller). From the tick
   // interrupt, for instance out of the port's receive().
   void frames_lost(std::uint32_t count) { lost_ += count; }
+
+  // What the port knows of its controller (Node::bus_state). From the tick interrupt.
+  void bus_state(hal::CanBusState state) { node_.bus_state(state); }
 
   // --- background
 
@@ -154,7 +161,7 @@ class NodeTask final : private Preemption {
     const Guarded guarded(board_.section);
     hal::CanFrame frame;
     if (!waiting_.pop(frame)) return;
-    node_.receive(frame, board_.clock.now_us());
+    node_.device().receive(frame, board_.clock.now_us());
     --waiting_count_;
   }
   void probe() {
@@ -165,8 +172,12 @@ class NodeTask final : private Preemption {
     const Guarded guarded(board_.section);
     node_.poll_strokes();
   }
+  // A slice keeps services waiting, so each waits in turn until all of them have been served: a
+  // processor that is short of time would else lose frames.
   void scrub() {
     const Guarded guarded(board_.section);
+    if (!served_) return;
+    served_ = false;
     node_.poll_scrub(board_.clock.now_us());
   }
 
@@ -184,11 +195,11 @@ class NodeTask final : private Preemption {
   void fetch(std::uint64_t now_us) {
     hal::CanFrame frame;
     for (int i = 0; i < kMostFetched && board_.port.receive(frame); ++i) {
-      const canopen::Device::Work work = node_.work(frame);
-      if (work == canopen::Device::Work::cyclic) {
-        node_.receive_cyclic(frame, now_us);
-      } else if (work == canopen::Device::Work::service && undisturbed()) {
-        node_.receive_service(frame, now_us);
+      const NodeDevice::Work work = node_.device().work(frame);
+      if (work == NodeDevice::Work::cyclic) {
+        node_.device().receive_cyclic(frame, now_us);
+      } else if (work == NodeDevice::Work::service && undisturbed()) {
+        node_.device().receive_service(frame, now_us);
       } else if (waiting_.push(frame)) {
         ++waiting_count_;
       } else {
@@ -203,8 +214,8 @@ class NodeTask final : private Preemption {
   void send(std::uint64_t now_us) {
     hal::CanFrame frame;
     for (int i = 0; i < kMostSent; ++i) {
-      if (!node_.offer(frame, now_us) || !board_.port.send(frame)) return;
-      node_.taken(now_us);
+      if (!node_.device().offer(frame, now_us) || !board_.port.send(frame)) return;
+      node_.device().taken(now_us);
     }
   }
 
@@ -214,6 +225,7 @@ class NodeTask final : private Preemption {
   std::uint32_t waiting_count_ = 0;   // of them not yet served
   std::uint32_t lost_ = 0;            // frames, not yet reported
   int scopes_ = 0;                    // of preemptible work, one inside the other
+  bool served_ = false;               // services were polled since the last slice of the scrub
   Node node_;
 };
 

@@ -1,12 +1,12 @@
 #pragma once
-// How the background lets the tick interrupt in. The background works on the node with the tick
-// kept out (hal/critical_section.hpp), in pieces that are short against the tick period. What is
-// long, it does inside a Preemptible scope:
+// Lets the tick interrupt preempt the background. The background works on the node with the tick
+// locked out (hal/critical_section.hpp), in pieces that are short against the tick period. Long
+// work runs inside a Preemptible scope:
 //
 //   const Preemptible preemptible(preemption_);
 //   crc = crc32(image);                          // the tick runs as often as it falls due
 //
-// What may be touched in there is said once, in node.hpp; in one sentence: nothing the tick uses.
+// Such a scope must touch nothing the tick uses; node.hpp lists what it may touch.
 
 namespace volcomp::node {
 

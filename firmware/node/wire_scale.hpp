@@ -22,7 +22,7 @@ struct WireScale {
 // The nearest run-time offset, saturating.
 [[nodiscard]] std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale);
 
-// A position on the wire is 32 bits wide. A linear axis uses it as it is; a rotary axis wraps and
+// A position on the wire is 32 bits wide. A linear axis uses it directly; a rotary axis wraps and
 // is counted through by differences, which must stay below half the range per cycle.
 class WirePosition {
  public:

@@ -1,6 +1,7 @@
 // volcomp-node: the compensation node as a Linux process on a SocketCAN interface, or over a frame
 // pipe, where time is counted in turns and every run is the same.
-// Exit codes: 0 ended by SIGINT, SIGTERM or the other end of the pipe, 2 input that cannot be used.
+// Exit codes: 0 ended by SIGINT, SIGTERM or the other end of the pipe, 2 input that cannot be used,
+// 3 the interface was lost and --exit-on-lost-interface was given.
 
 #include <csignal>
 #include <cstdio>
@@ -12,20 +13,26 @@
 
 #include "firmware/canopen/exchange.hpp"
 #include "firmware/node/node.hpp"
+#include "firmware/node/store/read_only_storage.hpp"
 #include "firmware/node/store/record_storage.hpp"
 #include "hal/linux/file_blocks.hpp"
+#include "hal/linux/lasting_can.hpp"
 #include "hal/linux/node_pipe.hpp"
-#include "hal/linux/socket_can.hpp"
 #include "hal/linux/steady_clock.hpp"
 
 namespace {
 
 using volcomp::hal::FileBlocks;
+using volcomp::hal::LastingCan;
 using volcomp::hal::NodePipe;
 using volcomp::hal::OpenStatus;
-using volcomp::hal::SocketCan;
 using volcomp::node::Node;
+using volcomp::node::ReadOnlyStorage;
 using volcomp::node::RecordStorage;
+using volcomp::node::Storage;
+
+constexpr int kUnusableInput = 2;
+constexpr int kInterfaceLost = 3;
 
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int /*signal*/) { stop_requested = 1; }
@@ -34,35 +41,55 @@ struct Arguments {
   std::string link;
   std::string store;
   int node_id = 32;
+  bool exit_on_lost_interface = false;
 };
 
-int complain(const std::string& what, OpenStatus status) {
-  static_cast<void>(std::fprintf(stderr, "volcomp-node: %s: %s\n", what.c_str(),
-                                 volcomp::hal::sentence(status.result)));
-  return 2;
+void say(const std::string& what, const std::string& sentence) {
+  static_cast<void>(std::fprintf(stderr, "volcomp-node: %s: %s\n", what.c_str(), sentence.c_str()));
 }
 
-void serve(Node& node, SocketCan& port) {
+int complain(const std::string& what, OpenStatus status) {
+  say(what, volcomp::hal::sentence(status));
+  return kUnusableInput;
+}
+
+// False: the node is to end.
+bool outlives(LastingCan::News news, const Arguments& arguments) {
+  const bool lost = news == LastingCan::News::lost;
+  const bool ends = lost && arguments.exit_on_lost_interface;
+  if (lost) {
+    say(arguments.link, ends ? "the interface is down or gone"
+                             : "the interface is down or gone; the node waits until it is back");
+  }
+  if (news == LastingCan::News::back) say(arguments.link, "the interface is back");
+  return !ends;
+}
+
+int serve(Node& node, LastingCan& port, const Arguments& arguments) {
   const volcomp::hal::SteadyClock clock;
   constexpr std::uint64_t kPoll_us = 1000;
   node.power_on(clock.now_us());
   while (stop_requested == 0) {
-    volcomp::canopen::exchange(node, port, clock.now_us());
+    node.bus_state(port.bus_state());
+    volcomp::canopen::exchange(node.device(), port, clock.now_us());
     const std::uint64_t now = clock.now_us();
+    if (!outlives(port.supervise(now), arguments)) return kInterfaceLost;
     const std::uint64_t deadline = node.deadline_us();
     const std::uint64_t pause = deadline <= now ? 0 : std::min(deadline - now, kPoll_us);
     static_cast<void>(port.wait(static_cast<std::uint32_t>(pause)));
   }
+  return 0;
 }
 
-void serve(Node& node, NodePipe& port) {
+int serve(Node& node, NodePipe& port, const Arguments& /*arguments*/) {
   constexpr std::uint32_t kLook_us = 100'000;
   node.power_on(port.now_us());
   while (stop_requested == 0 && !port.ended()) {
     if (!port.begin_turn(kLook_us)) continue;
-    volcomp::canopen::exchange(node, port, port.now_us());
+    volcomp::canopen::exchange(node.device(), port, port.now_us());
     port.end_turn();
   }
+  return 0;
 }
 
 template <class Port>
@@ -74,25 +101,37 @@ int run_on(Port& port, const char* name, const Arguments& arguments, Node& node)
   static_cast<void>(std::signal(SIGPIPE, SIG_IGN));  // a pipe that breaks is noticed anyway
   std::printf("volcomp-node: node %d on %s\n", arguments.node_id, arguments.link.c_str());
   static_cast<void>(std::fflush(stdout));
-  serve(node, port);
-  return 0;
+  return serve(node, port, arguments);
+}
+
+// nullptr where nothing is kept.
+OpenStatus open_store(const std::string& path, Storage*& store) {
+  static FileBlocks blocks;
+  static RecordStorage<FileBlocks> storage(blocks);
+  static ReadOnlyStorage kept(storage);
+  store = nullptr;
+  if (path.empty()) return {};
+  const OpenStatus status = blocks.open(path.c_str());
+  if (!status.ok()) return status;
+  store = &storage;
+  if (blocks.read_only()) {
+    say(path, "can only be read: what is stored is used, and 1010h and 1011h are refused");
+    store = &kept;
+  }
+  return status;
 }
 
 int run(const Arguments& arguments) {
-  static FileBlocks blocks;
-  static RecordStorage<FileBlocks> storage(blocks);
-  if (!arguments.store.empty()) {
-    const OpenStatus status = blocks.open(arguments.store.c_str());
-    if (!status.ok()) return complain(arguments.store, status);
-  }
-  static Node node(static_cast<std::uint8_t>(arguments.node_id),
-                   arguments.store.empty() ? nullptr : &storage);
+  Storage* store = nullptr;
+  if (const OpenStatus status = open_store(arguments.store, store); !status.ok())
+    return complain(arguments.store, status);
+  static Node node(static_cast<std::uint8_t>(arguments.node_id), store);
   static constexpr std::string_view kPipe = "pipe:";
   if (arguments.link.compare(0, kPipe.size(), kPipe) == 0) {
     static NodePipe pipe;
     return run_on(pipe, &arguments.link[kPipe.size()], arguments, node);
   }
-  static SocketCan can;
+  static LastingCan can;
   return run_on(can, arguments.link.c_str(), arguments, node);
 }
 
@@ -109,11 +148,14 @@ int start(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--store", arguments.store,
                  "File that keeps parameters and tables (made when missing; without it nothing "
-                 "is kept)");
+                 "is kept; one that can only be read is used and not changed)");
+  app.add_flag("--exit-on-lost-interface", arguments.exit_on_lost_interface,
+               "End with exit code 3 when the CAN interface goes down or away; without it the node "
+               "waits until the interface is back");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    return app.exit(e) == 0 ? 0 : kUnusableInput;
   }
   return run(arguments);
 }
@@ -125,6 +167,6 @@ int main(int argc, char** argv) {
     return start(argc, argv);
   } catch (...) {
     static_cast<void>(std::fputs("volcomp-node: the command line cannot be read\n", stderr));
-    return 2;
+    return kUnusableInput;
   }
 }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <climits>
+#include <string_view>
 
 namespace volcomp::hal {
 namespace {
@@ -15,7 +17,7 @@ namespace {
 constexpr std::size_t kChunkBytes = 1024;  // on the stack
 using Chunk = std::array<std::uint8_t, kChunkBytes>;
 
-// The system may move fewer bytes than asked for; every round moves at least one.
+// The system may move fewer bytes than requested; every round moves at least one.
 bool read_all(int descriptor, std::size_t at, Span<std::uint8_t> out) {
   for (std::size_t done = 0; done < out.size();) {
     const ssize_t n =
@@ -36,6 +38,31 @@ bool write_all(int descriptor, std::size_t at, Span<const std::uint8_t> bytes) {
   return true;
 }
 
+// Opens the folder of a file. No path is longer than PATH_MAX: open(2) has taken the file's.
+int open_folder_of(std::string_view path) {
+  std::array<char, PATH_MAX> folder{"."};
+  const std::size_t slash = path.rfind('/');
+  const std::size_t length = slash == 0 ? 1 : slash;
+  if (slash != std::string_view::npos) {
+    if (length >= folder.size()) return -1;
+    path.copy(folder.data(), length);
+    folder[length] = '\0';
+  }
+  return ::open(folder.data(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+}
+
+// A file is on the medium, but not its name, until its folder is written, too (fsync(2)). EINVAL:
+// a file system that knows no such thing.
+bool sync_folder_of(const char* path) {
+  const int folder = open_folder_of(path);
+  if (folder < 0) return false;
+  const bool synced = ::fsync(folder) == 0 || errno == EINVAL;
+  const int error = errno;
+  static_cast<void>(::close(folder));
+  errno = error;
+  return synced;
+}
+
 }  // namespace
 
 OpenStatus FileBlocks::open(const char* path) {
@@ -46,19 +73,32 @@ OpenStatus FileBlocks::open(const char* path) {
 }
 
 OpenStatus FileBlocks::attach(const char* path) {
-  descriptor_ = ::open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) return {OpenResult::failed, errno};
-  // Some network file systems know no locks; only a lock held by somebody else is a reason to stop.
+  if (!open_file(path)) return {OpenResult::failed, errno};
+  // Some network file systems know no locks; only a lock held by another process is a reason to
+  // stop.
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     return {OpenResult::in_use, errno};
   struct stat info {};
   if (::fstat(descriptor_, &info) != 0) return {OpenResult::failed, errno};
   if (!S_ISREG(info.st_mode)) return {OpenResult::wrong_size, 0};
-  if (info.st_size == 0) return create();
+  if (info.st_size == 0) return create(path);
   return info.st_size == off_t{kBytes} ? OpenStatus{} : OpenStatus{OpenResult::wrong_size, 0};
 }
 
-OpenStatus FileBlocks::create() {
+// The reason for which it cannot be written counts where it cannot be read, either.
+bool FileBlocks::open_file(const char* path) {
+  descriptor_ = ::open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  const int error = errno;
+  read_only_ = descriptor_ < 0 && (error == EROFS || error == EACCES || error == EPERM);
+  if (read_only_) descriptor_ = ::open(path, O_RDONLY | O_CLOEXEC);
+  errno = error;
+  return descriptor_ >= 0;
+}
+
+// The name first: if that fails, the file is still empty and the next start tries again.
+OpenStatus FileBlocks::create(const char* path) {
+  if (read_only_) return {OpenResult::failed, EROFS};
+  if (!sync_folder_of(path)) return {OpenResult::failed, errno};
   if (::ftruncate(descriptor_, off_t{kBytes}) != 0) return {OpenResult::failed, errno};
   for (std::size_t sector = 0; sector < kSectors; ++sector) {
     if (!erase(sector)) return {OpenResult::failed, errno};
@@ -69,6 +109,7 @@ OpenStatus FileBlocks::create() {
 void FileBlocks::close() {
   if (descriptor_ >= 0) static_cast<void>(::close(descriptor_));
   descriptor_ = -1;
+  read_only_ = false;
 }
 
 BlockRead FileBlocks::read(std::size_t at, Span<std::uint8_t> out) const {

@@ -25,10 +25,13 @@ class FileBlocks {
   ~FileBlocks() { close(); }
 
   // A missing or empty file becomes an erased one; if power fails meanwhile its bytes hold
-  // anything, as after an interrupted erase. Fails with failed, wrong_size or in_use; a file of
-  // another size is left as it is.
+  // anything, as after an interrupted erase. A file that may only be read is opened for reading.
+  // Fails with failed, wrong_size or in_use; a file of another size is left as it is.
   OpenStatus open(const char* path);
   void close();
+
+  // The file system or the rights of the file allow no writing: program() and erase() fail.
+  [[nodiscard]] bool read_only() const { return read_only_; }
 
   // All fail when the file is closed, the range leaves the device or the system reports an error.
   // program() and erase() return when the data are on the medium.
@@ -38,10 +41,12 @@ class FileBlocks {
 
  private:
   [[nodiscard]] OpenStatus attach(const char* path);
-  [[nodiscard]] OpenStatus create();
+  [[nodiscard]] bool open_file(const char* path);
+  [[nodiscard]] OpenStatus create(const char* path);
   [[nodiscard]] bool all_erased(std::size_t at, std::size_t size) const;
 
   int descriptor_ = -1;
+  bool read_only_ = false;
 };
 
 }  // namespace volcomp::hal

@@ -36,7 +36,10 @@ void close_one(int& descriptor) {
 OpenStatus NodePipe::open(const char* folder) {
   close();
   folder_ = ::open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder_ < 0) return failure(OpenResult::no_such_folder);
+  if (folder_ < 0) {
+    const bool missing = errno == ENOENT || errno == ENOTDIR;
+    return failure(missing ? OpenResult::no_such_folder : OpenResult::failed);
+  }
   if (const OpenStatus s = make_pipe(folder_, kPipeToNode); !s.ok()) return s;
   if (const OpenStatus s = make_pipe(folder_, kPipeFromNode); !s.ok()) return s;
   to_node_ = ::openat(folder_, kPipeToNode, O_RDONLY | O_NONBLOCK | O_CLOEXEC);

@@ -39,7 +39,7 @@ class NodePipe {
   bool send(const CanFrame& frame) { return write_record(pipe_frame(frame)); }
   void end_turn();
 
-  // The host has quit, is gone, talks nonsense or says more than kMostReceived frames.
+  // The host has quit, is gone, sends nonsense or more than kMostReceived frames.
   [[nodiscard]] bool ended() const { return ended_; }
   // The host's time at the end of its last turn.
   [[nodiscard]] std::uint64_t now_us() const { return now_us_; }

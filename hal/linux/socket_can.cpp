@@ -1,6 +1,7 @@
 #include "hal/linux/socket_can.hpp"
 
 #include <linux/can.h>
+#include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
@@ -42,7 +43,7 @@ OpenStatus find_interface(int descriptor, const char* name, int& index) {
   if (::ioctl(descriptor, SIOCGIFINDEX, &request) != 0)
     return failure(OpenResult::no_such_interface);
   index = request.ifr_ifindex;
-  // Asked after the index, because the answers share one union.
+  // Requested after the index, because the answers share one union.
   if (::ioctl(descriptor, SIOCGIFFLAGS, &request) != 0)
     return failure(OpenResult::no_such_interface);
   const bool up = (static_cast<unsigned>(request.ifr_flags) & unsigned{IFF_UP}) != 0;
@@ -101,6 +102,7 @@ void SocketCan::close() {
   descriptor_ = -1;
   network_down_ = false;
   skipped_ = {};
+  bus_state_ = CanBusState::active;
 }
 
 bool SocketCan::send(const CanFrame& frame) {
@@ -129,9 +131,10 @@ bool SocketCan::receive(CanFrame& frame) {
 }
 
 bool SocketCan::skip(const can_frame& raw) {
-  // An error report uses the identifier for flags of its own, so it is looked at first.
+  // An error report uses the identifier for flags of its own, so it is checked first.
   if ((raw.can_id & CAN_ERR_FLAG) != 0) {
     ++skipped_.error;
+    note_error(raw);
     return true;
   }
   if ((raw.can_id & CAN_EFF_FLAG) != 0) {
@@ -143,6 +146,22 @@ bool SocketCan::skip(const can_frame& raw) {
     return true;
   }
   return false;
+}
+
+// linux/can/error.h. A report of the controller that names no state (a lost frame) changes none.
+void SocketCan::note_error(const can_frame& raw) {
+  constexpr std::uint8_t kPassive = CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE;
+  constexpr std::uint8_t kWarning = CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING;
+  if ((raw.can_id & CAN_ERR_BUSOFF) != 0) {
+    bus_state_ = CanBusState::off;
+  } else if ((raw.can_id & CAN_ERR_RESTARTED) != 0) {
+    bus_state_ = CanBusState::active;
+  } else if ((raw.can_id & CAN_ERR_CRTL) != 0) {
+    const std::uint8_t controller = raw.data[1];
+    if ((controller & CAN_ERR_CRTL_ACTIVE) != 0) bus_state_ = CanBusState::active;
+    if ((controller & kWarning) != 0) bus_state_ = CanBusState::warning;
+    if ((controller & kPassive) != 0) bus_state_ = CanBusState::passive;
+  }
 }
 
 void SocketCan::note_failure() {

@@ -5,8 +5,8 @@
 //   SocketCan port;
 //   if (const OpenStatus s = port.open("can0"); !s.ok()) print("can0: ", sentence(s.result));
 //
-// An interface that goes down leaves the socket open: network_down() tells, and traffic resumes by
-// itself when it is up again. One that was removed needs open() once more.
+// An interface that goes down leaves the socket open: network_down() reports it, and traffic
+// resumes by itself when it is up again. One that was removed needs open() once more.
 
 #include <cstdint>
 
@@ -17,8 +17,8 @@ struct can_frame;
 
 namespace volcomp::hal {
 
-// Frames heard that CANopen has no use for: 29-bit identifiers, remote requests, error reports of
-// the controller. They wrap around.
+// Received frames that CANopen has no use for: 29-bit identifiers, remote requests, error reports
+// of the controller. They wrap around.
 struct SkippedFrames {
   std::uint32_t extended = 0;
   std::uint32_t remote = 0;
@@ -50,6 +50,9 @@ class SocketCan {
   // The last attempt to send or receive found the interface down or gone.
   [[nodiscard]] bool network_down() const { return network_down_; }
   [[nodiscard]] const SkippedFrames& skipped() const { return skipped_; }
+  // State of the controller by the error reports seen by receive(); active until one reports
+  // otherwise.
+  [[nodiscard]] CanBusState bus_state() const { return bus_state_; }
 
   // For a caller that waits for several things at once; -1 when closed.
   [[nodiscard]] int descriptor() const { return descriptor_; }
@@ -60,10 +63,12 @@ class SocketCan {
   [[nodiscard]] OpenStatus attach(const char* interface);
   void note_failure();
   bool skip(const ::can_frame& raw);
+  void note_error(const ::can_frame& raw);
 
   int descriptor_ = -1;
   bool network_down_ = false;
   SkippedFrames skipped_;
+  CanBusState bus_state_ = CanBusState::active;
 };
 
 }  // namespace volcomp::hal

@@ -115,7 +115,7 @@ LoopbackBus::Port::Port(LoopbackBus& bus, std::string name, std::size_t number,
 bool LoopbackBus::Port::send(const CanFrame& frame) {
   if (frame.id > kMaxCanId || frame.size > frame.data.size())
     throw std::invalid_argument("a frame that no CAN bus can carry");
-  if (!connected_ || bus_.full_ || !transmit_.push(frame)) {
+  if (!connected_ || refuses_ || bus_.full_ || !transmit_.push(frame)) {
     ++counters_.refused;
     return false;
   }

@@ -1,7 +1,7 @@
 #pragma once
 // A CAN bus inside the process, in virtual time: the same calls give the same trace, bit for bit.
 // One frame at a time is on the bus and every other connected port receives it, unless a fault was
-// asked for.
+// requested.
 //
 //   LoopbackBus bus;                                  // 1 Mbit/s
 //   LoopbackBus::Port& a = bus.attach("controller");
@@ -9,7 +9,7 @@
 //   a.send({0x080, 0, {}});
 //   while (bus.step(until_ns)) { … let every participant receive() and send() … }
 //
-// There is no acknowledge: a frame that nobody hears counts as sent. Without faults no call of
+// There is no acknowledge: a frame without a receiver counts as sent. Without faults no call of
 // step(), send() or receive() allocates memory.
 
 #include <array>
@@ -127,7 +127,7 @@ class LoopbackBus::Port {
     std::uint64_t overrun = 0;   // frames dropped because that was full
   };
 
-  // False when the transmit queue or the bus is full or the port is disconnected. Throws
+  // False when the transmit queue or the bus is full, the port is disconnected or refuses. Throws
   // std::invalid_argument for an identifier above 7FFh or more than 8 bytes.
   bool send(const CanFrame& frame);
   bool receive(CanFrame& frame) { return receive_.pop(frame); }
@@ -135,6 +135,9 @@ class LoopbackBus::Port {
   // Disconnecting empties both queues and drops what is delayed on its way here.
   void connect(bool on);
   [[nodiscard]] bool connected() const { return connected_; }
+
+  // While on, every send() is refused; what is queued still goes out, and frames are received.
+  void refuse(bool on) { refuses_ = on; }
 
   // Frames ready for receive(), and frames still to be sent.
   [[nodiscard]] std::size_t waiting() const { return receive_.size(); }
@@ -156,6 +159,7 @@ class LoopbackBus::Port {
   FrameQueue receive_{kReceiveCapacity};
   Counters counters_;
   bool connected_ = true;
+  bool refuses_ = false;
 };
 
 }  // namespace volcomp::hal

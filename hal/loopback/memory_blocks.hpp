@@ -23,10 +23,10 @@ enum class Torn : std::uint8_t {
   some_bits,      // every other bit done
   cleared,        // all zero: NOR flash programs a sector to zero before it erases it
   random,         // any bits
-  uncorrectable,  // any bits, and the error correction says so
-  unstable,       // each read differs: erased, done, in between or uncorrectable. Of a sector never
-                  // what it held before: that was programmed to zero first
-  complete,       // done, but nobody was told
+  uncorrectable,  // any bits, and the error correction reports it
+  unstable,  // each read differs: erased, done, in between or uncorrectable. A sector never reads
+             // as before: it was programmed to zero first
+  complete,  // done, but not reported
 };
 inline constexpr std::array<Torn, 9> kEveryTorn{
     Torn::untouched, Torn::front,         Torn::back,     Torn::some_bits, Torn::cleared,

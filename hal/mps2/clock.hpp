@@ -16,7 +16,7 @@ class Clock {
   [[nodiscard]] std::uint64_t now_us() const;
 
  private:
-  // What makes 64 bits of 32: no reader can tell.
+  // Extend 32 bits to 64: not visible to a reader.
   mutable std::uint64_t us_ = 0;
   mutable std::uint32_t last_ = 0;      // counter at the last call
   mutable std::uint32_t fraction_ = 0;  // ticks that did not make a whole microsecond yet, 0…24

@@ -21,7 +21,7 @@ class FlashBlocks {
   static constexpr std::size_t kSectorBytes = std::size_t{64} * 1024;
   static constexpr std::size_t kSectors = 2;
   static constexpr std::size_t kBytes = kSectorBytes * kSectors;
-  static constexpr std::size_t kMemoryBytes = kBytes + kUnitBytes;  // with what tells it apart
+  static constexpr std::size_t kMemoryBytes = kBytes + kUnitBytes;  // with its mark
 
   // The memory to use, from now on and after every reset; what was never used before is erased.
   // False, and every other call fails: it has fewer than kMemoryBytes.

@@ -5,8 +5,8 @@
 //
 // After I instructions it has counted T = ⌊(64·I + c) / 40⌋; c is fixed by the moment it was
 // started and matters in steps of 8 ns only, its phase 0…4. An instruction is longer than a tick,
-// so T tells I as soon as the phase is known, and three of the eight values of T mod 8 never occur:
-// which three tells the phase. A reading that contradicts it proves that QEMU was started in
+// so T gives I as soon as the phase is known, and three of the eight values of T mod 8 never occur:
+// which three depends on the phase. A reading that contradicts it proves that QEMU was started in
 // another way.
 //
 // The emulator knows neither cycles nor caches: these are instructions, never microseconds.
@@ -21,7 +21,7 @@ class InstructionCounter {
   void start();
 
   // What SysTick has counted; 24 bits, wraps after 10 485 760 instructions. A call, so that every
-  // reading costs the same: two in a row tell what to subtract.
+  // reading costs the same: two in a row give what to subtract.
   [[nodiscard]] static std::uint32_t ticks();
 
   // Instructions executed between two values of ticks() less than one wrap apart.

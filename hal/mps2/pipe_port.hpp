@@ -1,6 +1,6 @@
 #pragma once
 // The CAN port of hal/can_port.hpp over the frame pipe (hal/frame_pipe.hpp), by semihosting: turn
-// by turn with whoever simulates the bus. Virtual time stands still while the other end works, so a
+// by turn with the simulator of the bus. Virtual time stands still while the other end works, so a
 // run repeats itself instruction by instruction.
 //
 //   PipePort port;
@@ -12,14 +12,14 @@
 //
 // Also the clock of hal/clock.hpp: the time of the other end at its last turn.
 //
-// Once the other end has told it to quit, is gone or talks nonsense, end() says so, turns pass
-// without frames and time stands still.
+// Once the other end has sent quit, is gone or sends nonsense, end() reports it, turns pass without
+// frames and time stands still.
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
+#include "comp/core/atomic_word.hpp"
 #include "hal/can_port.hpp"
 #include "hal/frame_pipe.hpp"
 #include "hal/ring.hpp"
@@ -32,9 +32,9 @@ class PipePort {
   static constexpr std::size_t kMostReceived = 256;
   static constexpr std::size_t kMostSent = 64;
 
-  enum class End : std::uint8_t { none, told_to_quit, gone, nonsense, too_many_frames };
+  enum class End : std::uint32_t { none, told_to_quit, gone, nonsense, too_many_frames };
 
-  // False when the host has no such pipes or nobody listens to semihosting.
+  // False when the host has no such pipes or does not answer semihosting.
   [[nodiscard]] bool open();
 
   void begin_turn();
@@ -60,7 +60,7 @@ class PipePort {
   std::array<std::uint8_t, (kMostSent + 1) * kPipeRecordBytes> outgoing_{};
   std::size_t outgoing_bytes_ = 0;
   std::uint64_t now_us_ = 0;
-  std::atomic<End> end_{End::none};
+  AtomicWord<End> end_{End::none};
 };
 
 }  // namespace volcomp::hal::mps2

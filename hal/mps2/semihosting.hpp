@@ -1,8 +1,8 @@
 #pragma once
 // Services of the debugger or emulator the board hangs on (Arm "Semihosting for AArch32 and
 // AArch64"). The processor stands still, virtual time included, until the host has answered. Where
-// no host listens, every call fails; inside a HardFault or NMI handler it would lock up, so
-// host_found() has to be asked there.
+// no host listens, every call fails; inside a HardFault or NMI handler it would lock up, so check
+// host_found() there.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace volcomp::hal::mps2::semihosting {
 
-// Asks whether a host listens and remembers the answer. Before main.
+// Finds out whether a host listens and stores the answer. Before main.
 void find_host();
 [[nodiscard]] bool host_found();
 
@@ -25,8 +25,8 @@ enum class Mode : std::uint8_t { read = 1, write = 5 };  // fopen "rb", "wb"
 [[nodiscard]] bool read(int handle, Span<std::uint8_t> bytes);
 [[nodiscard]] bool write(int handle, Span<const std::uint8_t> bytes);
 
-// What the host says the program was called with, zero-terminated; false when it does not fit or
-// nobody answers.
+// The command line of the program as the host reports it, zero-terminated; false when it does not
+// fit or no host answers.
 [[nodiscard]] bool command_line(Span<char> text);
 
 // Ends the emulator with this exit code. Comes back only where no host listens.

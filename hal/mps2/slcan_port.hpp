@@ -8,10 +8,10 @@
 //   port.on_receive_interrupt();
 //   port.on_transmit_interrupt();
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
+#include "comp/core/atomic_word.hpp"
 #include "hal/can_port.hpp"
 #include "hal/ring.hpp"
 #include "hal/slcan.hpp"
@@ -43,7 +43,7 @@ class SlcanPort {
   SlcanDevice device_;
   Ring<std::uint8_t, kBytes> received_;
   Ring<std::uint8_t, kBytes> outgoing_;
-  std::atomic<std::uint32_t> losses_{0};  // the receive interrupt counts
+  AtomicWord<> losses_{0};  // the receive interrupt counts
   std::uint32_t losses_told_ = 0;
 };
 

@@ -16,13 +16,13 @@ void send(std::uint8_t byte);
 // False when nothing is there. Clears the interrupt. One reader only.
 bool receive(std::uint8_t& byte);
 
-// Bytes were lost because nobody took them; asking forgets it.
+// Bytes were lost because they were not taken; the call clears it.
 bool take_receive_overrun();
 
 // Turns the receiver on together with the interrupts: a byte that came in between would raise none,
-// and while nobody takes it there comes no other. From then on each received byte raises UARTRX0
-// until receive() has taken it, and each byte that has left, or a request, raises UARTTX0 until it
-// is acknowledged.
+// and while it is not taken no other comes. From then on each received byte raises UARTRX0 until
+// receive() has taken it, and each byte that has left, or a request, raises UARTTX0 until it is
+// acknowledged.
 void start_interrupts();
 void request_transmit_interrupt();
 void acknowledge_transmit();

@@ -1,7 +1,7 @@
 #pragma once
 // The watchdog of hal/watchdog.hpp: CMSDK APB watchdog (Arm DDI 0479, 4.4). When the time is over
-// it raises the NMI, whose handler notes why and requests a system reset; where not even that works
-// the hardware resets by itself after the same time again.
+// it raises the NMI, whose handler stores the cause and requests a system reset; where not even
+// that works the hardware resets by itself after the same time again.
 
 #include <cstdint>
 

@@ -6,7 +6,7 @@
 
 namespace volcomp::hal::sja1000 {
 
-// Section 6.4.1. What says "reset" can be written in reset mode only.
+// Section 6.4.1. Registers marked "reset" can be written in reset mode only.
 enum Register : std::uint8_t {
   kMode = 0,
   kCommand = 1,  // reads as 0

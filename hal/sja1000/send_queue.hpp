@@ -39,7 +39,7 @@ class SendQueue {
   void clear() { size_ = 0; }
 
  private:
-  // Kept with the most urgent frame last, where taking it moves no other.
+  // Keeps the most urgent frame last, where taking it moves no other.
   template <class GoesFirst>
   void insert_before_lower(const CanFrame& frame, GoesFirst goes_first) {
     const auto end = frames_.begin() + static_cast<std::ptrdiff_t>(size_);

@@ -19,7 +19,7 @@
 // chip's only transmit buffer is taken back for a more urgent one. No call blocks, loops are
 // bounded by the queue (kSendCapacity) or by the chip's FIFO (21 frames).
 //
-// Bus-off: what waits is lost, send() refuses, and after kBusOffPause_us the chip is told to join
+// Bus-off: what waits is lost, send() refuses, and after kBusOffPause_us the chip is set to join
 // the bus again, which it does after 128 × 11 recessive bits (ISO 11898-1).
 //
 // Both acceptance filters pass every data frame with an 11-bit identifier. Remote frames, which no
@@ -43,8 +43,6 @@ struct Sja1000Settings {
   std::uint8_t output_control = 0;
   std::uint8_t clock_divider = 0;  // without the PeliCAN bit, which the driver sets
 };
-
-enum class CanBusState : std::uint8_t { stopped, active, warning, passive, off };
 
 // They wrap around.
 struct Sja1000Counters {

@@ -52,7 +52,7 @@ void Sja1000<Registers, InterruptLock>::configure() const {
 
 template <class Registers, class InterruptLock>
 void Sja1000<Registers, InterruptLock>::join_bus() {
-  static_cast<void>(read(sja1000::kInterrupt));  // forget what was
+  static_cast<void>(read(sja1000::kInterrupt));  // clears what was pending
   write(sja1000::kInterruptEnable, sja1000::kInterrupts);
   write(sja1000::kMode, sja1000::kOperateDualFilter);
   note_bus_state();
@@ -128,7 +128,7 @@ bool Sja1000<Registers, InterruptLock>::send(const CanFrame& frame) {
   return true;
 }
 
-// Looks at the transmit buffer, whoever calls and however often: a lost interrupt costs time only.
+// Checks the transmit buffer, from any caller and however often: a lost interrupt costs time only.
 template <class Registers, class InterruptLock>
 void Sja1000<Registers, InterruptLock>::feed_transmitter() {
   using namespace sja1000;
@@ -165,7 +165,7 @@ void Sja1000<Registers, InterruptLock>::load(const CanFrame& frame) {
   command(kTransmissionRequest);
 }
 
-// In bus-off the chip is in reset mode until told otherwise, then silent until the bus has been
+// In bus-off the chip is in reset mode until set otherwise, then silent until the bus has been
 // quiet for long enough (section 6.4.5, note 1).
 template <class Registers, class InterruptLock>
 void Sja1000<Registers, InterruptLock>::note_bus_state() {

@@ -6,8 +6,8 @@
 
 namespace volcomp::hal::virt::semihosting {
 
-// What the host says the program was called with, zero-terminated; false when it does not fit or
-// nobody answers.
+// The command line of the program as the host reports it, zero-terminated; false when it does not
+// fit or no host answers.
 [[nodiscard]] bool command_line(Span<char> text);
 
 // Ends the emulator with this exit code. Comes back only where no host listens.

@@ -23,7 +23,7 @@ int print_bus_load(const BusLoadArguments& arguments) {
   const std::vector<host::BusLoadRow> table = host::bus_load_table(axes, xyfz::measure_bus_load);
   results.add(arguments.json_file, json_text(host::to_json(table)));
   results.write();
-  fmt::print(results.words(), "{}", host::describe(table));
+  fmt::print(results.text(), "{}", host::describe(table));
   return 0;
 }
 

@@ -44,7 +44,7 @@ void send_with_progress(host::NodeClient& client, const std::vector<std::uint8_t
   });
 }
 
-// The bus lets nobody know whether what became active is what was sent, so it is read back.
+// Reads the CRC back, because the node may have activated other tables than those sent.
 host::ActiveTables activate(host::NodeClient& client, const std::vector<std::uint8_t>& image) {
   host::activate_tables(client);
   const host::ActiveTables tables = host::active_tables(client);
@@ -58,7 +58,7 @@ host::ActiveTables activate(host::NodeClient& client, const std::vector<std::uin
 
 int download(const CanArguments& arguments) {
   Results results({arguments.json_file}, {arguments.image});
-  std::FILE* const words = results.words();
+  std::FILE* const words = results.text();
   const std::vector<std::uint8_t> image = host::read_image_file(arguments.image);
   host::NodeClient client = connect(arguments);
   send_with_progress(client, image);
@@ -96,7 +96,7 @@ int upload(const CanArguments& arguments) {
                               {"crc32", fmt::format("{:08X}", crc_of(image))}};
   results.add(arguments.json_file, json_text(result));
   results.write();
-  fmt::print(results.words(), "{}: {} bytes, CRC-32 {:08X}\n", shown_output(arguments.image),
+  fmt::print(results.text(), "{}: {} bytes, CRC-32 {:08X}\n", shown_output(arguments.image),
              image.size(), crc_of(image));
   return 0;
 }
@@ -105,7 +105,7 @@ int diagnose_node(const CanArguments& arguments) {
   Results results({arguments.json_file});
   host::NodeClient client = connect(arguments);
   const host::Diagnosis diagnosis = host::diagnose(client);
-  fmt::print(results.words(), "{}", host::describe(diagnosis));
+  fmt::print(results.text(), "{}", host::describe(diagnosis));
   results.add(arguments.json_file, json_text(host::to_json(diagnosis)));
   results.write();
   return 0;

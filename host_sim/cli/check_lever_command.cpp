@@ -43,7 +43,7 @@ nlohmann::json to_json(const host::LeverVerdict& v) {
 
 int check(const LeverArguments& a) {
   Results results({a.json_file}, {a.machine, a.first, a.second});
-  std::FILE* const words = results.words();
+  std::FILE* const words = results.text();
   const host::LeverVerdict v =
       host::check_lever(host::read_machine_file(a.machine), host::read_runs_file(a.first),
                         host::read_runs_file(a.second),

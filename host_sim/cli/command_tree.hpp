@@ -16,7 +16,7 @@ struct OptionText {
   std::string description;
   ValueKind value = ValueKind::none;
   std::vector<std::string> choices;
-  std::string default_value;  // empty: none, or nothing worth telling
+  std::string default_value;  // empty: none, or not worth printing
   std::string group;          // of the help text
   bool required = false;
   bool many = false;  // more than one value

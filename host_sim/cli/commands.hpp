@@ -16,12 +16,17 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
 void add_build_tables_command(CLI::App& app, int& code);
 void add_export_tables_command(CLI::App& app, int& code);
 void add_import_command(CLI::App& app, int& code);
+void add_dump_command(CLI::App& app, int& code);
+void add_evaluate_command(CLI::App& app, int& code);
+void add_calibrate_probe_command(CLI::App& app, int& code);
+void add_inspect_command(CLI::App& app, int& code);
 void add_check_lever_command(CLI::App& app, int& code);
 void add_machine_command(CLI::App& app, int& code);
 void add_list_command(CLI::App& app, int& code);
 void add_device_files_command(CLI::App& app, int& code);
 void add_explain_command(CLI::App& app, int& code);
 void add_can_commands(CLI::App& app, int& code);
+void add_setup_command(CLI::App& app, int& code);
 void add_replay_command(CLI::App& app, int& code);
 void add_bus_load_command(CLI::App& app, int& code);
 void add_compare_command(CLI::App& app, int argc, char** argv, int& code);

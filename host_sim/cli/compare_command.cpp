@@ -61,7 +61,7 @@ int compare(const CompareArguments& a) {
     add_report(results, a.report_folder, host::comparison_document(result, {a.command, {}}));
   results.add(a.json_file, json_text(host::comparison_json(result)));
   results.write();
-  fmt::print(results.words(), "{}", host::comparison_text(result));
+  fmt::print(results.text(), "{}", host::comparison_text(result));
   return result.within_limit() ? 0 : 1;
 }
 

@@ -5,7 +5,7 @@
 namespace volcomp::cli {
 namespace {
 
-// In single quotes a shell takes everything as it is, but the quote itself.
+// In single quotes a shell takes every character literally except the quote itself.
 std::string quoted_for_shell(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {

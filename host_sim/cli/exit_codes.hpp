@@ -1,6 +1,5 @@
 #pragma once
-// What the exit codes of volcomp mean: said once, for the help text, the manual page and the
-// commands.
+// Meanings of the exit codes of volcomp, for the help text, the manual page and the commands.
 
 #include <array>
 #include <string>

@@ -60,7 +60,7 @@ int tell(const ExplainArguments& a) {
   const Answer answer = a.words.empty() ? list_words() : explain_words(a.words);
   results.add(a.json_file, json_text(answer.figures));
   results.write();
-  fmt::print(results.words(), "{}", answer.text);
+  fmt::print(results.text(), "{}", answer.text);
   return 0;
 }
 

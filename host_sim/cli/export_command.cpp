@@ -43,7 +43,7 @@ Source source_of(const ExportArguments& a) {
   for (const std::string& path : a.runs)
     runs.push_back(host::read_runs_file(path));
   const auto built =
-      host::commission(machine, runs, host::tables_only(host::ModelKind::abbe_closed));
+      host::build_tables(machine, runs, host::tables_only(host::ModelKind::abbe_closed));
   return {a.machine, host::table_model(built->tables, a.machine)};
 }
 
@@ -104,10 +104,10 @@ int export_tables_to(const ExportArguments& a) {
   results.add_files(a.out, files);
   results.add(a.json_file, json_text(export_json(result)));
   results.write();
-  fmt::print(results.words(), "{}: {} files; entries X {} Y {} Z {}\n", a.out, files.size(),
+  fmt::print(results.text(), "{}: {} files; entries X {} Y {} Z {}\n", a.out, files.size(),
              result.entries[0], result.entries[1], result.entries[2]);
   for (const host::ExportedFormat& format : result.formats)
-    print_format(results.words(), format, result);
+    print_format(results.text(), format, result);
   return 0;
 }
 

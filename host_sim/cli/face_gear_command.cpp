@@ -43,7 +43,7 @@ int run_face_gear_command(const FaceGearArguments& arguments) {
       run_watched(*view, &bus, [&options](const host::Progress& progress) {
         return face_gear::run_face_gear(options, progress);
       });
-  fmt::print(results.words(), "{}transport: {}\n", face_gear::face_gear_summary(run),
+  fmt::print(results.text(), "{}transport: {}\n", face_gear::face_gear_summary(run),
              describe(arguments.node));
   add_maps(arguments.map_folder, run, results);
   const nlohmann::json document = face_gear::face_gear_document(run, run_context(arguments, *view));

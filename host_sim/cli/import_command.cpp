@@ -104,7 +104,7 @@ int import_with(const ImportArguments& a, const Read& read) {
   results.add_files(a.out, files);
   results.add(a.json_file, json_text(written_json(a, imported, files)));
   results.write();
-  fmt::print(results.words(), "{}", written_text(a, imported, files));
+  fmt::print(results.text(), "{}", written_text(a, imported, files));
   return 0;
 }
 

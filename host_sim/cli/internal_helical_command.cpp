@@ -27,7 +27,7 @@ std::vector<std::string> add_tables(const std::string& folder,
   for (const internal_helical::ControllerFile& file :
        internal_helical::controller_files(run.gear, run.detail.tables)) {
     files.push_back({file.name, file.text});
-    fmt::print(results.words(), "table: {} ({})\n",
+    fmt::print(results.text(), "table: {} ({})\n",
                (std::filesystem::path(folder) / file.name).string(), file.meaning);
     names.push_back(file.name);
   }
@@ -50,7 +50,7 @@ int run_internal_helical_command(const InternalHelicalArguments& arguments) {
       run_watched(*view, bus.get(), [&options](const host::Progress& progress) {
         return internal_helical::run_internal_helical(options, progress);
       });
-  fmt::print(results.words(), "{}transport: {}\n", internal_helical::internal_helical_summary(run),
+  fmt::print(results.text(), "{}transport: {}\n", internal_helical::internal_helical_summary(run),
              describe(arguments.node));
   const std::vector<std::string> tables = add_tables(arguments.table_folder, run, results);
   const nlohmann::json document =

@@ -35,7 +35,7 @@ int run_l300g_command(const L300gArguments& arguments) {
   const l300g::L300gResult result = run_watched(
       *view, &bus,
       [&options](const host::Progress& progress) { return l300g::run_l300g(options, progress); });
-  fmt::print(results.words(), "{}transport: {}\n", l300g::l300g_summary(result),
+  fmt::print(results.text(), "{}transport: {}\n", l300g::l300g_summary(result),
              describe(arguments.node));
   add_programs(arguments.gcode_folder, result, results);
   const nlohmann::json document = l300g::l300g_document(result, run_context(arguments, *view));
@@ -63,9 +63,9 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
       {{"mandrel", l300g::Origin::mandrel}, {"nominal", l300g::Origin::nominal}},
       "Where the axis of A is taken to be")
       ->default_str("nominal");
-  add_choice<sim::TableKind>(
+  add_choice<host::TableKind>(
       *l300g, "--tables", options.tables,
-      {{"identified", sim::TableKind::identified}, {"means", sim::TableKind::means}},
+      {{"identified", host::TableKind::identified}, {"means", host::TableKind::means}},
       "What is compensated, all of each error function or its mean");
   l300g
       ->add_option(

@@ -31,7 +31,7 @@ int describe_machine(const MachineArguments& a, const Describe& describe) {
   const std::string text = describe(machine);
   results.add(a.json_file, json_text(host::summary_of(machine)));
   results.write();
-  fmt::print(results.words(), "{}", text);
+  fmt::print(results.text(), "{}", text);
   return 0;
 }
 
@@ -83,7 +83,7 @@ int list_everything(const std::string& json_file) {
   }
   results.add(json_file, json_text(result));
   results.write();
-  fmt::print(results.words(), "{}", text);
+  fmt::print(results.text(), "{}", text);
   return 0;
 }
 

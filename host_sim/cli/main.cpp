@@ -11,6 +11,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/exit_codes.hpp"
+#include "host_sim/cli/misspelt.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/host/io/interruption.hpp"
 #include "host_sim/host/io/version.hpp"
@@ -54,6 +55,10 @@ int run(int argc, char** argv) {
   add_build_tables_command(app, code);
   add_export_tables_command(app, code);
   add_import_command(app, code);
+  add_dump_command(app, code);
+  add_evaluate_command(app, code);
+  add_calibrate_probe_command(app, code);
+  add_inspect_command(app, code);
   add_check_lever_command(app, code);
   add_verify_command(app, argc, argv, code);
   add_simulate_command(app, code);
@@ -61,6 +66,7 @@ int run(int argc, char** argv) {
   add_list_command(app, code);
   add_device_files_command(app, code);
   add_explain_command(app, code);
+  add_setup_command(app, code);
   add_can_commands(app, code);
   add_monitor_command(app, code);
   add_replay_command(app, code);
@@ -72,7 +78,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : number(ExitCode::unusable);
+    const std::string unknown =
+        e.get_exit_code() == 0 ? "" : misspelt(app, {argv + 1, argv + argc});
+    if (unknown.empty()) return app.exit(e) == 0 ? 0 : number(ExitCode::unusable);
+    complain(unknown);
+    return number(ExitCode::unusable);
   }
   finish_standard_output();
   return code;
@@ -85,7 +95,7 @@ int main(int argc, char** argv) {
   try {
     return volcomp::cli::run(argc, argv);
   } catch (const volcomp::host::Interrupted& interrupted) {
-    static_cast<void>(std::raise(interrupted.signal));  // whoever waits for us shall see why
+    static_cast<void>(std::raise(interrupted.signal));  // the parent process sees the signal
   } catch (const std::exception& e) {
     volcomp::cli::complain(e.what());
   } catch (...) {

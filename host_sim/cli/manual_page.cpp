@@ -145,7 +145,7 @@ std::string manual_page(const CommandText& program) {
     text += option_paragraph(o);
   text += ".SH COMMANDS\n";
   for (const CommandText* command : all_commands(program)) {
-    // One that only has others below it says nothing of its own.
+    // A command that only has others below it has no section.
     if (command->commands.empty()) text += command_section(*command);
   }
   text += kStreams;

@@ -55,14 +55,14 @@ class Watch {
         monitor_(settings_of(arguments)),
         period_us_(static_cast<std::uint64_t>(1e6 / arguments.rate_hz)) {}
 
-  // Time without frames counts, too. False: enough was seen.
+  // Time without frames counts, too. False: the one report of `once` is printed.
   bool until(std::uint64_t time_us) {
     if (next_us_ == 0) next_us_ = time_us + period_us_;
     while (time_us >= next_us_ && !whole_log()) {
       print(next_us_);
       if (arguments_.once) return false;
       next_us_ += period_us_;
-      // Silence of hours in a log is told once.
+      // A gap of hours in a log gives one report.
       if (time_us > next_us_ + kMostSilent * period_us_) next_us_ = time_us;
     }
     last_us_ = time_us;
@@ -102,16 +102,16 @@ void watch_log(std::istream& stream, const std::string& name, Watch& watch,
                const host::Interruption& interruption) {
   host::CsvLines lines(stream, name);
   std::string line;
-  std::uint64_t last_us = 0;
+  host::SteadyTime steady;
   bool any = false;
   while (lines.any(line)) {
     interruption.check();
     const std::optional<host::LoggedFrame> logged = host::parse_log_line(line, name, lines.line());
     if (!logged) continue;
     any = true;
-    last_us = host::latest_time(*logged, last_us, name);
-    if (!watch.until(last_us)) return;
-    watch.take(last_us, logged->frame);
+    const std::uint64_t time_us = steady.of(*logged);
+    if (!watch.until(time_us)) return;
+    watch.take(time_us, logged->frame);
   }
   if (!any) throw host::UserError(fmt::format("{}: holds no frames", name));
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Checks of options that take numbers. CLI11's own compare with < and >, so "nan" passes all of
-// them, and its whole numbers take "-1" for the largest.
+// Checks of options that take numbers. Those of CLI11 compare with < and >, so "nan" passes them
+// all, and its whole numbers read "-1" as the largest.
 
 #include <charconv>
 #include <cmath>

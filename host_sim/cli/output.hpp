@@ -1,6 +1,6 @@
 #pragma once
-// Where results go: files, or standard output for "-". Words for people then go to standard error,
-// so that a pipe holds the result and nothing else.
+// Where results go: files, or standard output for "-". Text for people then goes to standard error,
+// so that a pipe holds only the result.
 
 #include <cstdio>
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace volcomp::cli {
 
-// For words about a result: its path, or "standard output".
+// Names a result in messages: its path, or "standard output".
 [[nodiscard]] std::string shown_output(const std::string& path);
 
 // A result for programs. The name of a file need not be UTF-8 as JSON is.
@@ -31,14 +31,14 @@ class Results {
   explicit Results(const std::vector<std::string>& names, std::vector<std::string> inputs = {},
                    const std::string& folder = {});
 
-  // For words to people: standard output, or standard error when one of the results goes there.
-  [[nodiscard]] std::FILE* words() const { return words_; }
+  // The stream for people: standard output, or standard error when one of the results goes there.
+  [[nodiscard]] std::FILE* text() const { return words_; }
 
   // All throw UserError naming the file or the folder.
   void add(const std::string& name, std::string_view content);
   // Made if need be.
   void add_folder(const std::string& folder) { files_.add_folder(folder); }
-  // Files whose names were not known before; refused as above.
+  // Adds files whose names were unknown before; refused as above.
   void add_files(const std::string& folder, const std::vector<host::NamedText>& files);
   void write();
 
@@ -54,10 +54,10 @@ class Results {
   host::WholeFiles files_;
 };
 
-// For what goes wrong after it: that the results are in their places all the same, or nothing.
+// For errors after write(): a sentence that the results are in their places all the same, or empty.
 [[nodiscard]] std::string standing_results();
 
-// Throws UserError when what was printed has not arrived, a full disk for instance.
+// Throws UserError when the output could not be written, to a full disk for instance.
 void finish_standard_output();
 
 }  // namespace volcomp::cli

@@ -1,5 +1,5 @@
 #pragma once
-// One line on a terminal; silent when the output goes elsewhere.
+// One line on a terminal; prints nothing when the output goes elsewhere.
 
 #include <unistd.h>
 

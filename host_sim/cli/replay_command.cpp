@@ -23,42 +23,31 @@ struct ReplayArguments {
   std::string json_file;
 };
 
-// Firmware for as long as a replay needs it, started anew whenever the log says so.
-class FirmwareForReplay {
- public:
-  explicit FirmwareForReplay(const FirmwareChoice& choice)
-      : board_(sim::emulated_board(choice.board)), image_(choice.image) {}
-
-  host::ReplayResult replay(const std::vector<host::LoggedFrame>& log, std::uint8_t node_id) {
-    host::ReplayResult result = run(log, node_id);
-    running_->finish();
-    return result;
+// Firmware for the time of a replay, restarted at every restart in the log.
+host::ReplayResult replay_into_firmware(const FirmwareChoice& choice,
+                                        const std::vector<host::LoggedFrame>& log,
+                                        std::uint8_t node_id) {
+  const sim::EmulatedBoard board = sim::emulated_board(choice.board);
+  std::shared_ptr<sim::EmulatedNode> running;
+  const auto start = [&]() -> std::shared_ptr<host::PipeLink> {
+    running.reset();  // first, since there is one at a time
+    running = std::make_shared<sim::EmulatedNode>(board, choice.image);
+    return {running, &running->pipe()};
+  };
+  host::ReplayResult result;
+  try {
+    result = host::replay_over_pipe(log, node_id, start);
+  } catch (const host::UserError& error) {
+    throw host::UserError(error.what() + (running ? running->last_words() : std::string()));
   }
-
- private:
-  host::ReplayResult run(const std::vector<host::LoggedFrame>& log, std::uint8_t node_id) {
-    try {
-      return host::replay_over_pipe(log, node_id, [this] { return start(); });
-    } catch (const host::UserError& error) {
-      throw host::UserError(error.what() + (running_ ? running_->last_words() : std::string()));
-    }
-  }
-  std::shared_ptr<host::PipeLink> start() {
-    running_.reset();  // first, since there is one at a time
-    running_ = std::make_shared<sim::EmulatedNode>(board_, image_);
-    return {running_, &running_->pipe()};
-  }
-
-  sim::EmulatedBoard board_;
-  std::filesystem::path image_;
-  std::shared_ptr<sim::EmulatedNode> running_;
-};
+  running->finish();
+  return result;
+}
 
 host::ReplayResult replay_as_asked(const ReplayArguments& arguments) {
   const std::vector<host::LoggedFrame> log = host::read_can_log(arguments.log);
   const auto node_id = static_cast<std::uint8_t>(arguments.node_id);
-  if (arguments.firmware.chosen())
-    return FirmwareForReplay(arguments.firmware).replay(log, node_id);
+  if (arguments.firmware.chosen()) return replay_into_firmware(arguments.firmware, log, node_id);
   if (arguments.image.empty()) return host::replay(log, node_id, {});
   return host::replay(log, node_id, host::read_image_file(arguments.image));
 }
@@ -68,15 +57,16 @@ nlohmann::json to_json(const host::ReplayResult& r) {
   if (r.difference) {
     difference = {{"line", r.difference->line},
                   {"time_us", r.difference->time_us},
+                  {"cycle", r.difference->cycle},
+                  {"sync_counter", r.difference->sync_counter},
                   {"what", r.difference->what}};
   }
-  return {{"difference", difference},
-          {"ok", r.equal()},
-          {"cycles", r.cycles},
-          {"frames_fed", r.fed},
-          {"frames_compared", r.compared},
-          {"frames_skipped", r.skipped},
-          {"power_ups", r.power_ups}};
+  nlohmann::json clock_set = nlohmann::json::array();
+  for (const host::ClockSet& set : r.clock_set)
+    clock_set.push_back({{"line", set.line}, {"by_us", set.by_us}});
+  return {{"difference", difference},    {"clock_set", clock_set},  {"ok", r.equal()},
+          {"cycles", r.cycles},          {"frames_fed", r.fed},     {"frames_compared", r.compared},
+          {"frames_skipped", r.skipped}, {"power_ups", r.power_ups}};
 }
 
 int replay_log(const ReplayArguments& arguments) {
@@ -85,7 +75,7 @@ int replay_log(const ReplayArguments& arguments) {
   const host::ReplayResult result = replay_as_asked(arguments);
   results.add(arguments.json_file, json_text(to_json(result)));
   results.write();
-  fmt::print(results.words(), "{}", host::describe(result));
+  fmt::print(results.text(), "{}", host::describe(result));
   return result.equal() ? 0 : 1;
 }
 

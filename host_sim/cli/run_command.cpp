@@ -22,7 +22,7 @@ struct XyfzArguments : RunArguments {
   bool one_diagonal = false;
 };
 
-// Runs run_xyfz or one of its kind with the node where it was asked for.
+// Runs run_xyfz or one of its kind with the node at the chosen place.
 template <class Result>
 Result run_scenario(const XyfzArguments& arguments, RunView& view,
                     Result (*scenario)(const xyfz::XyfzOptions&, const host::Progress&)) {
@@ -42,7 +42,7 @@ int run_diagonal_only(const XyfzArguments& arguments) {
   Results results = run_results(arguments);
   const std::unique_ptr<RunView> view = run_view(arguments, results);
   const xyfz::OneDiagonal result = run_scenario(arguments, *view, xyfz::run_one_diagonal);
-  fmt::print(results.words(), "{}transport: {}\n", xyfz::one_diagonal_summary(result),
+  fmt::print(results.text(), "{}transport: {}\n", xyfz::one_diagonal_summary(result),
              describe(arguments.node));
   write_results(arguments, {}, xyfz::one_diagonal_figures(result), results);
   return result.ok() ? 0 : 1;
@@ -60,7 +60,7 @@ int run_xyfz_command(XyfzArguments& arguments) {
   const std::unique_ptr<RunView> view = run_view(arguments, results);
   xyfz::XyfzResult result = run_scenario(arguments, *view, xyfz::run_xyfz);
   result.options.make_cell = {};  // the bus has ended
-  fmt::print(results.words(), "{}transport: {}\n", xyfz::xyfz_summary(result),
+  fmt::print(results.text(), "{}transport: {}\n", xyfz::xyfz_summary(result),
              describe(arguments.node));
   const nlohmann::json document = xyfz::xyfz_document(result, run_context(arguments, *view));
   write_results(arguments, document, xyfz::xyfz_figures(result), results);

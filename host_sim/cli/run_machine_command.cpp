@@ -43,7 +43,7 @@ int run_machine_command(const MachineArguments& arguments) {
         return any_machine::run_machine(options, progress);
       });
   result.options.make_cell = {};  // the bus has ended
-  fmt::print(results.words(), "{}transport: {}\n", any_machine::machine_summary(result),
+  fmt::print(results.text(), "{}transport: {}\n", any_machine::machine_summary(result),
              describe(arguments.node));
   const nlohmann::json document =
       any_machine::machine_document(result, run_context(arguments, *view));

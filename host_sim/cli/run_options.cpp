@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/number_check.hpp"
+#include "host_sim/host/machine/machine_bus.hpp"
 #include "host_sim/host/report/page/report.hpp"
 #include "host_sim/sim/controller/tick_tables.hpp"
 
@@ -53,7 +54,7 @@ CLI::Option* add_figure_options(CLI::App& scenario, RunArguments& arguments) {
 
 std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node) {
   CLI::Option* cycle = scenario.add_option("--cycle-hz", node.cycle_hz, "Cycle on the bus")
-                           ->check(number_between(50.0, 1000.0))
+                           ->check(number_between(host::kLeastCycle_hz, host::kMostCycle_hz))
                            ->capture_default_str();
   CLI::Option* log = scenario.add_option("--log", node.log_file,
                                          "Write all frames to this file, as candump -L does (-: "
@@ -66,9 +67,18 @@ std::filesystem::path machine_of(const RunArguments& arguments, const std::strin
                                    : std::filesystem::path(arguments.machine);
 }
 
+void require_page(const std::string& option) {
+  if (host::has_report_page()) return;
+  throw host::UserError(option +
+                        ": this program was built without the page of its reports; run "
+                        "toolchain/setup.sh, which installs node and its packages, and build "
+                        "volcomp again");
+}
+
 std::unique_ptr<RunView> run_view(const RunArguments& arguments, const Results& results) {
+  if (arguments.live.port) require_page("--serve");
   return std::make_unique<RunView>(arguments.live, arguments.command, describe(arguments.node),
-                                   results.words());
+                                   results.text());
 }
 
 host::RunContext run_context(const RunArguments& arguments, const RunView& view) {
@@ -93,11 +103,12 @@ void write_results(const RunArguments& arguments, const nlohmann::json& document
   figures["transport"] = describe(arguments.node);
   results.add(arguments.json_file, json_text(figures));
   results.write();
-  if (!folder.empty()) fmt::print(results.words(), "report: {}\n", report_files(folder).page);
+  if (!folder.empty()) fmt::print(results.text(), "report: {}\n", report_files(folder).page);
 }
 
 std::vector<std::string> with_report(std::vector<std::string> names, const std::string& folder) {
   if (folder.empty()) return names;
+  require_page("--report");
   const ReportFiles report = report_files(folder);
   names.insert(names.end(), {report.data, report.page});
   return names;

@@ -39,7 +39,10 @@ std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node);
 [[nodiscard]] std::filesystem::path machine_of(const RunArguments& arguments,
                                                const std::string& bundled);
 
-// Looks on from the beginning of the run; must outlive every machine and bus of it.
+// Refuses an option that writes or shows pages in a program that was built without them.
+void require_page(const std::string& option);
+
+// Watches the run from its beginning; must outlive every machine and bus of it.
 [[nodiscard]] std::unique_ptr<RunView> run_view(const RunArguments& arguments,
                                                 const Results& results);
 [[nodiscard]] host::RunContext run_context(const RunArguments& arguments, const RunView& view);
@@ -51,7 +54,7 @@ std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node);
 void write_results(const RunArguments& arguments, const nlohmann::json& document,
                    nlohmann::json figures, Results& results);
 
-// `names` and those of a report, if a folder for one is given.
+// `names` and those of a report, if a folder for one is given; refused without require_page().
 [[nodiscard]] std::vector<std::string> with_report(std::vector<std::string> names,
                                                    const std::string& folder);
 void add_report(Results& results, const std::string& folder, const nlohmann::json& document);
@@ -84,7 +87,7 @@ auto run_with_bar(ScenarioBus* bus, const Scenario& scenario) {
   return result;
 }
 
-// The same, and the page that looks on knows how far it is or why it failed.
+// The same, and passes the progress or the reason of a failure to the live page.
 template <class Scenario>
 auto run_watched(RunView& view, ScenarioBus* bus, const Scenario& scenario) {
   try {

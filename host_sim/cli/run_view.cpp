@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds kMoment{50};
 
 void say(std::FILE* words, const std::string& line) {
   fmt::print(words, "{}\n", line);
-  static_cast<void>(std::fflush(words));  // whoever reads a pipe waits for it
+  static_cast<void>(std::fflush(words));  // a reader of a pipe waits for it
 }
 
 }  // namespace
@@ -57,10 +57,10 @@ void RunView::failed(const std::string& why) {
   if (server_) await_readers();
 }
 
-// A page asks four times a second; the second answer from now on is surely of the end.
+// A page polls four times a second; the second answer from now on is certain to contain the end.
 void RunView::await_readers() const {
   constexpr int kPatience = 60;    // moments
-  constexpr int kOtherPages = 10;  // moments for pages that ask less often
+  constexpr int kOtherPages = 10;  // moments for pages that poll less often
   constexpr std::uint64_t kSurely = 2;
   const std::uint64_t before = server_->told();
   for (int i = 0; i < kPatience && server_->watched() && !interruption_.asked(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Who looks on while a scenario runs: the statistics for its report and, with --serve, a page in
+// Live view of a running scenario: the statistics for its report and, with --serve, a page in
 // browsers of this computer.
 
 #include <cstdint>
@@ -23,18 +23,18 @@ struct LiveChoice {
 
 class RunView final : public sim::MachineWatch {
  public:
-  // Says in `words` where the page is. Throws UserError when its port cannot be had.
+  // Prints the address of the page to `words`. Throws UserError when its port cannot be had.
   RunView(const LiveChoice& choice, const std::string& command, const std::string& transport,
           std::FILE* words);
 
-  // Of every machine of the run. Throws Interrupted.
+  // Called by every machine of the run. Throws Interrupted.
   [[nodiscard]] std::uint32_t enter() override { return feed_.enter(); }
   void cycle(const sim::MachineSnapshot& snapshot) override;
   void progress(double done, const std::string& what);
 
   [[nodiscard]] const sim::TickStatistics& ticks() const { return feed_.ticks(); }
 
-  // Returns when the pages that look on have seen it, or with Ctrl+C where the page is to stay.
+  // Returns when the open pages have read it, or with Ctrl+C where the page is to stay.
   void ended(const nlohmann::json& document);
   void failed(const std::string& why);
 
@@ -45,7 +45,7 @@ class RunView final : public sim::MachineWatch {
   LiveChoice choice_;
   std::FILE* words_;
   sim::LiveFeed feed_;
-  host::Interruption interruption_;  // a run leaves no temporary folder, and tells its page
+  host::Interruption interruption_;  // a run removes its temporary folder and informs its page
   std::unique_ptr<sim::LiveServer> server_;
 };
 

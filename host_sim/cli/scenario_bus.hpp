@@ -30,7 +30,7 @@ class ScenarioBus {
   // `watch`, if any, sees every cycle of every machine; it must outlive them.
   explicit ScenarioBus(const NodePlace& place, sim::MachineWatch* watch = nullptr);
 
-  // Does the work; what goes wrong in it is told together with what the firmware said last.
+  // Does the work; adds the last output of the firmware to the message of an error.
   template <class Work>
   auto watch(Work&& work) {
     return board_ ? board_->with_last_words(work) : work();

@@ -10,9 +10,12 @@
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_files.hpp"
 #include "host_sim/cli/run_options.hpp"
-#include "host_sim/experiments/xyfz/simulated_measurement.hpp"
+#include "host_sim/experiments/xyfz/scenario.hpp"
+#include "host_sim/experiments/xyfz/truth.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/machine/xyz_axes.hpp"
+#include "host_sim/sim/campaign/simulated_measurement.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -20,9 +23,9 @@ namespace {
 struct SimulateArguments {
   std::string machine;  // empty: the one that comes with the program
   std::uint64_t machine_seed = xyfz::kXyfzMachineSeed;
-  xyfz::Instruments instruments;
+  sim::Instruments instruments;
   std::size_t runs = 5;
-  xyfz::DiagonalPlan plan;
+  sim::DiagonalPlan plan;
   int volume_points = 100;
   std::string out;
   std::string json_file;
@@ -30,19 +33,23 @@ struct SimulateArguments {
   NodePlace node;
 };
 
-xyfz::SimulatedMachine machine_of(const SimulateArguments& a) {
-  return xyfz::simulated_machine(
-      a.machine.empty() ? host::bundled_machine("xyfz") : std::filesystem::path(a.machine),
-      a.machine_seed);
+// With the errors of the paper's machine where the file describes one like it.
+sim::SimulatedMachine machine_of(const SimulateArguments& a) {
+  host::MachineFile machine = host::read_machine_file(
+      a.machine.empty() ? host::bundled_machine("xyfz") : std::filesystem::path(a.machine));
+  std::optional<sim::TrueMachine> truth =
+      xyfz::xyfz_truth(sim::with_targets_at_references(machine), a.machine_seed);
+  if (!truth) truth = sim::draw_slides(machine, a.machine_seed);
+  return {std::move(machine), std::move(*truth)};
 }
 
 int simulate_run_files(const SimulateArguments& a) {
   Results results({a.json_file}, {a.machine}, a.out);
-  const xyfz::SimulatedMachine simulated = machine_of(a);
+  const sim::SimulatedMachine simulated = machine_of(a);
   std::vector<host::NamedText> files;
   std::string text;
   nlohmann::json axes = nlohmann::json::array();
-  for (const host::RunsFile& runs : xyfz::simulate_runs(simulated, a.instruments, a.runs)) {
+  for (const host::RunsFile& runs : sim::simulate_runs(simulated, a.instruments, a.runs)) {
     const std::string path = (std::filesystem::path(a.out) / runs.name).string();
     files.push_back({runs.name, host::runs_csv(runs)});
     text += path + "\n";
@@ -58,7 +65,7 @@ int simulate_run_files(const SimulateArguments& a) {
                                {"axes", axes}};
   results.add(a.json_file, json_text(figures));
   results.write();
-  fmt::print(results.words(), "{}", text);
+  fmt::print(results.text(), "{}", text);
   return 0;
 }
 
@@ -70,10 +77,9 @@ std::string node_words(const sim::BusAxes& axes) {
   return fmt::format("node {} compensates with its tables, CRC-32 {:08X}", id, crc);
 }
 
-// `measure(cell, progress)` on the machine with whatever compensation was asked for; the words say
-// which.
+// Runs `measure(cell, progress)` on the machine with the chosen compensation; `words` names it.
 template <class Measure>
-auto on_machine(const SimulateArguments& a, const xyfz::SimulatedMachine& simulated,
+auto on_machine(const SimulateArguments& a, const sim::SimulatedMachine& simulated,
                 const Measure& measure, std::string& words) {
   std::unique_ptr<ScenarioBus> bus;
   if (!a.node.can.empty()) bus = std::make_unique<ScenarioBus>(a.node);
@@ -93,7 +99,8 @@ auto on_machine(const SimulateArguments& a, const xyfz::SimulatedMachine& simula
           a.tables.empty() ? std::vector<std::uint8_t>() : host::read_image_file(a.tables);
       cell = sim::make_integrated_cell(simulated.truth, machine.correction, image);
     }
-    cell->place(sim::travel_box(machine).lo);
+    const host::XyzAxes xyz(machine);
+    cell->place(xyz.pose(xyz.travel().lo));
     words = axes != nullptr    ? node_words(*axes)
             : a.tables.empty() ? "nothing is compensated"
                                : "compensated with " + a.tables;
@@ -109,13 +116,13 @@ void check(const SimulateArguments& a) {
     throw host::UserError("loopback is a bus inside volcomp run; there is no node to be met on it");
 }
 
-// Writes what `csv` makes of the measurement, and says what `extent` calls it.
+// Writes what `csv` makes of the measurement and prints its extent as `extent` names it.
 template <class Measure, class Csv, class Extent>
 int simulate_file(const SimulateArguments& a, const Measure& measure, const Csv& csv,
                   const Extent& extent) {
   check(a);
   Results results({a.out, a.node.log_file}, {a.machine, a.tables});
-  const xyfz::SimulatedMachine simulated = machine_of(a);
+  const sim::SimulatedMachine simulated = machine_of(a);
   std::string words;
   const auto file = on_machine(
       a, simulated,
@@ -125,7 +132,7 @@ int simulate_file(const SimulateArguments& a, const Measure& measure, const Csv&
       words);
   results.add(a.out, csv(file));
   results.write();
-  fmt::print(results.words(), "{}\n{}: {}\n", words, shown_output(a.out), extent(file));
+  fmt::print(results.text(), "{}\n{}: {}\n", words, shown_output(a.out), extent(file));
   return 0;
 }
 
@@ -133,7 +140,7 @@ int simulate_diagonal_file(const SimulateArguments& a) {
   return simulate_file(
       a,
       [&](sim::MotionCell& cell, const host::MachineFile& machine, const host::Progress& progress) {
-        return xyfz::simulate_diagonals(cell, machine, a.plan, a.instruments, progress);
+        return sim::simulate_diagonals(cell, machine, a.plan, a.instruments, progress);
       },
       host::diagonals_csv,
       [&](const host::DiagonalsFile& file) {
@@ -147,7 +154,7 @@ int simulate_volume_file(const SimulateArguments& a) {
       a,
       [&](sim::MotionCell& cell, const host::MachineFile& machine, const host::Progress& progress) {
         progress(0.0, "places of the volume");
-        return xyfz::simulate_volume(cell, machine, a.volume_points, a.instruments.seed);
+        return sim::simulate_volume(cell, machine, a.volume_points, a.instruments.seed);
       },
       host::volume_csv,
       [](const host::VolumeFile& file) { return fmt::format("{} places", file.points.size()); });
@@ -155,8 +162,10 @@ int simulate_volume_file(const SimulateArguments& a) {
 
 std::shared_ptr<SimulateArguments> add_machine_options(CLI::App& command) {
   auto a = std::make_shared<SimulateArguments>();
-  command.add_option("--machine", a->machine,
-                     "Machine file (TOML; default: the xyfz that comes with the program)");
+  command.add_option(
+      "--machine", a->machine,
+      "Machine file (TOML) with linear axes; rotary ones stand still (default: the xyfz "
+      "that comes with the program)");
   command
       .add_option("--machine-seed", a->machine_seed, "Seed of the errors of the simulated machine")
       ->check(seed_number())
@@ -181,7 +190,7 @@ void add_compensation_options(CLI::App& command, SimulateArguments& a) {
     option->needs(can);
 }
 
-void add_perfect(CLI::App& command, xyfz::Instruments& instruments) {
+void add_perfect(CLI::App& command, sim::Instruments& instruments) {
   command.add_flag(
       "--perfect", instruments.perfect,
       "Instruments without errors (default: 0.7 µm and 0.7 µrad per reading and more)");
@@ -191,7 +200,7 @@ void add_perfect(CLI::App& command, xyfz::Instruments& instruments) {
 
 void add_simulate_command(CLI::App& app, int& code) {
   CLI::App* simulate = app.add_subcommand(
-      "simulate", "Measure the simulated XYFZ machine: the CSV files its owner would have");
+      "simulate", "Measure a simulated machine: the CSV files its owner would have");
   simulate->require_subcommand(1);
 
   CLI::App* runs = simulate->add_subcommand("runs", "Runs of every axis, for build-tables");
@@ -200,7 +209,8 @@ void add_simulate_command(CLI::App& app, int& code) {
   runs->add_option("--runs", r->runs, "Runs in each direction")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  runs->add_option("--out", r->out, "Folder for runs_X.csv, runs_Y.csv, runs_Z.csv")->required();
+  runs->add_option("--out", r->out, "Folder for runs_X.csv and one of every other axis")
+      ->required();
   runs->add_option("--json", r->json_file,
                    "Write what was measured and written to this file (-: standard output)");
   runs->callback([r, &code] { code = simulate_run_files(*r); });

@@ -43,7 +43,7 @@ std::string closed_text(const std::optional<host::TurnGap>& gap) {
                      1e6 * gap->rad);
 }
 
-std::string axis_line(const host::MachineFile& machine, const host::Commissioned& tables,
+std::string axis_line(const host::MachineFile& machine, const host::BuiltTables& tables,
                       std::size_t a) {
   const BuiltTable& b = *tables.built[a];
   const Iso230Figures& f = b.positioning;
@@ -70,7 +70,7 @@ std::string validity_text(const host::MachineFile& machine, const Provenance& pr
   return text;
 }
 
-std::string words_of(const host::MachineFile& machine, const host::Commissioned& tables) {
+std::string words_of(const host::MachineFile& machine, const host::BuiltTables& tables) {
   std::string text;
   for (std::size_t a = 0; a < machine.axes.size(); ++a)
     text += axis_line(machine, tables, a);
@@ -87,7 +87,7 @@ std::string words_of(const host::MachineFile& machine, const host::Commissioned&
 }
 
 // Figures after ISO 230-2 in um or urad.
-nlohmann::json axis_json(const host::MachineFile& machine, const host::Commissioned& tables,
+nlohmann::json axis_json(const host::MachineFile& machine, const host::BuiltTables& tables,
                          std::size_t a) {
   const BuiltTable& b = *tables.built[a];
   const Iso230Figures& f = b.positioning;
@@ -108,7 +108,7 @@ nlohmann::json axis_json(const host::MachineFile& machine, const host::Commissio
   return j;
 }
 
-nlohmann::json build_json(const host::MachineFile& machine, const host::Commissioned& tables,
+nlohmann::json build_json(const host::MachineFile& machine, const host::BuiltTables& tables,
                           const std::vector<std::uint8_t>& image) {
   nlohmann::json axes = nlohmann::json::array();
   for (std::size_t a = 0; a < machine.axes.size(); ++a)
@@ -130,8 +130,8 @@ nlohmann::json build_json(const host::MachineFile& machine, const host::Commissi
   return j;
 }
 
-host::CommissionOptions options_of(const BuildArguments& arguments) {
-  host::CommissionOptions options;
+host::BuildOptions options_of(const BuildArguments& arguments) {
+  host::BuildOptions options;
   options.model = arguments.model == "naive"  ? host::ModelKind::naive
                   : arguments.model == "abbe" ? host::ModelKind::abbe
                                               : host::ModelKind::abbe_closed;
@@ -149,7 +149,7 @@ int build_tables(const BuildArguments& arguments) {
   std::vector<host::RunsFile> runs;
   for (const std::string& path : arguments.runs)
     runs.push_back(host::read_runs_file(path));
-  const auto tables = host::commission(machine, runs, options_of(arguments));
+  const auto tables = host::build_tables(machine, runs, options_of(arguments));
   Provenance& provenance = tables->tables.provenance;
   provenance.built_unix_s = static_cast<std::int64_t>(std::time(nullptr));
   if (arguments.temperature_C)
@@ -164,7 +164,7 @@ int build_tables(const BuildArguments& arguments) {
   results.add(arguments.out, {reinterpret_cast<const char*>(image.data()), image.size()});
   results.add(arguments.json_file, json_text(build_json(machine, *tables, image)));
   results.write();
-  fmt::print(results.words(), "{}{}: {} bytes, machine {}, CRC-32 {:08X}\n",
+  fmt::print(results.text(), "{}{}: {} bytes, machine {}, CRC-32 {:08X}\n",
              words_of(machine, *tables), shown_output(arguments.out), image.size(), machine.id,
              image_crc({image.data(), image.size()}));
   return 0;

@@ -31,7 +31,7 @@ struct VerifyArguments {
 };
 
 DiagonalBox box_of(const VerifyArguments& a, const host::MachineFile& machine) {
-  if (a.box_mm.empty()) return host::travel_of(machine);
+  if (a.box_mm.empty()) return host::XyzAxes(machine).travel();
   DiagonalBox box;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -96,9 +96,9 @@ int verify_files(const VerifyArguments& a) {
   results.add(a.json_file, json_text(host::verification_json(input, result)));
   results.add(a.csv_file, host::verification_csv(result));
   results.write();
-  fmt::print(results.words(), "{}", host::verification_text(input, result));
+  fmt::print(results.text(), "{}", host::verification_text(input, result));
   if (!a.report_folder.empty())
-    fmt::print(results.words(), "report: {}/report.html\n", a.report_folder);
+    fmt::print(results.text(), "report: {}/report.html\n", a.report_folder);
   return result.ok ? 0 : 1;
 }
 

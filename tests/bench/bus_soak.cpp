@@ -17,8 +17,7 @@
 
 namespace {
 
-// Bytes of the objects alive. What the C library says is in use counts its own caches of freed
-// blocks as well.
+// Bytes of the objects alive. The count of the C library includes its own caches of freed blocks.
 std::size_t live_bytes = 0;
 
 }  // namespace
@@ -49,7 +48,7 @@ bool complain(bool fine, const std::string& what) {
 
 using Ports = std::set<const hal::LoopbackBus::Port*>;
 
-// Whoever receives something.
+// The ports that receive something.
 Ports participants(BusWorld& world) {
   Ports ports;
   world.bus().set_fault_hook([&ports](const hal::CanFrame&, const hal::LoopbackBus::Port&,

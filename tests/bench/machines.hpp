@@ -43,7 +43,7 @@ inline constexpr JointKind kRotary = JointKind::rotary;
 inline constexpr MachineDescription kGeneric =
     serial_machine({kLinear, kLinear, kLinear}, {Axis::x, Axis::y, Axis::z}, 3, 3);
 
-// X, Y, B carry the probe, A the gear; X, Y and B correct (seed 000).
+// X, Y, B carry the probe, A the gear; X, Y and B correct (docs/papers/l300g.md).
 inline constexpr MachineDescription kGrinder = serial_machine(
     {kLinear, kLinear, kRotary, kRotary}, {Axis::x, Axis::y, Axis::y, Axis::x}, 3, 4);
 
@@ -52,8 +52,7 @@ inline constexpr MachineDescription kFiveAxis =
     serial_machine({kLinear, kLinear, kLinear, kRotary, kRotary},
                    {Axis::x, Axis::y, Axis::z, Axis::x, Axis::z}, 3, 5);
 
-// Smooth tables over 500 mm or a turn, the latter with one knot in ten fewer: 81 and 73 if nothing
-// else is said.
+// Smooth tables over 500 mm or a turn, the latter with one knot in ten fewer: 81 and 73 by default.
 inline constexpr std::size_t kKnots = 81;
 [[nodiscard]] std::unique_ptr<MachineTables> make_tables(const MachineDescription& machine,
                                                          std::size_t knots = kKnots);

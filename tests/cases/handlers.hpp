@@ -1,5 +1,5 @@
 #pragma once
-// Every kind of case, by seed: each handler drives the public interface of the library and nothing
+// Every kind of case, by paper: each handler drives the public interface of the library and nothing
 // else.
 
 #include "tests/cases/case_file.hpp"

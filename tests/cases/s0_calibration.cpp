@@ -1,4 +1,5 @@
-// Seed 000: circles through probe readings, error motions from targets, the printed procedure.
+// Cases of docs/papers/l300g.md: circles through probe readings, error motions from targets, the
+// printed procedure.
 
 #include "comp/metrology/fits/axis_identification.hpp"
 #include "comp/metrology/fits/circle_fit.hpp"

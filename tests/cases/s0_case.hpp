@@ -1,5 +1,5 @@
 #pragma once
-// What the cases of seed 000 share: lists, joints, the L300G, gears.
+// Shared by the cases of docs/papers/l300g.md: lists, joints, the L300G, gears.
 
 #include <vector>
 

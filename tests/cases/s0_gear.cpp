@@ -1,4 +1,4 @@
-// Seed 000: involute flanks, deviations, tolerances and grades.
+// Cases of docs/papers/l300g.md: involute flanks, deviations, tolerances and grades.
 
 #include "comp/metrology/gears/gear_deviations.hpp"
 #include "comp/metrology/gears/gear_tolerance.hpp"

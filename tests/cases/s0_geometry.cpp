@@ -1,4 +1,4 @@
-// Seed 000: error chains of probe and work branch, the arm, the stylus.
+// Cases of docs/papers/l300g.md: error chains of probe and work branch, the arm, the stylus.
 
 #include "comp/metrology/fits/axis_identification.hpp"
 #include "comp/metrology/fits/stylus.hpp"

@@ -1,4 +1,4 @@
-// Seed 001: input that must be refused, or accepted with a warning or a flag.
+// Cases of docs/papers/xyfz.md: input that must be refused, or accepted with a warning or a flag.
 
 #include <cmath>
 

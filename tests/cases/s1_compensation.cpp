@@ -1,4 +1,5 @@
-// Seed 001: diagonals, commands that compensate, the integer tick, the figures of the paper.
+// Cases of docs/papers/xyfz.md: diagonals, commands that compensate, the integer tick, the figures
+// of the paper.
 
 #include "comp/metrology/tables/compensated_command.hpp"
 #include "comp/metrology/tables/diagonals.hpp"

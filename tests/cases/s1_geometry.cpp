@@ -1,4 +1,5 @@
-// Seed 001: exact and first-order volumetric errors of the XYFZ machine and of generic chains.
+// Cases of docs/papers/xyfz.md: exact and first-order volumetric errors of the XYFZ machine and of
+// generic chains.
 
 #include "comp/metrology/tables/abbe.hpp"
 #include "tests/cases/handlers.hpp"

@@ -1,4 +1,5 @@
-// Seed 001: from runs to tables, interpolation, squareness closure, per-axis tables.
+// Cases of docs/papers/xyfz.md: from runs to tables, interpolation, squareness closure, per-axis
+// tables.
 
 #include "comp/machine/xyfz.hpp"
 #include "comp/metrology/tables/per_axis.hpp"

@@ -1,4 +1,5 @@
-// Seed 002: flanks of face gears, distances from them and the verdicts on touches.
+// Cases of docs/papers/face-gear.md: flanks of face gears, distances from them and the verdicts on
+// touches.
 
 #include <cmath>
 

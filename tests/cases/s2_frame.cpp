@@ -1,4 +1,4 @@
-// Seed 002: the frame of a face gear, from one ball and from many.
+// Cases of docs/papers/face-gear.md: the frame of a face gear, from one ball and from many.
 
 #include <cmath>
 

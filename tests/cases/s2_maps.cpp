@@ -1,4 +1,4 @@
-// Seed 002: patches through a grid, closest points, error maps, pitch.
+// Cases of docs/papers/face-gear.md: patches through a grid, closest points, error maps, pitch.
 
 #include <cmath>
 
@@ -91,7 +91,7 @@ json bspline(const json& in) {
 
 // --- maps
 
-// Of a ball from a flank, without its radius; the nearest slot where the case names none.
+// Distance of a ball from a flank less its radius; the nearest slot where the case names none.
 double deviation_of(const FaceGear& gear, const json& in, const json& centre, bool nearest) {
   const Vec3 q = vector3(centre);
   const double pitches = std::atan2(q.y(), q.x()) * gear.teeth / (2.0 * kPi);

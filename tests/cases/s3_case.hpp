@@ -1,5 +1,5 @@
 #pragma once
-// What the cases of seed 003 share: gears, wheel setups.
+// Shared by the cases of docs/papers/internal-helical.md: gears, wheel setups.
 
 #include "comp/metrology/gears/form_wheel.hpp"
 #include "tests/cases/case_file.hpp"

@@ -1,4 +1,4 @@
-// Seed 003: pitch and profile of internal gears, grades.
+// Cases of docs/papers/internal-helical.md: pitch and profile of internal gears, grades.
 
 #include <algorithm>
 

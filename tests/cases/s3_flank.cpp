@@ -1,4 +1,4 @@
-// Seed 003: what errors of the axes leave on the flank.
+// Cases of docs/papers/internal-helical.md: what errors of the axes leave on the flank.
 
 #include <cmath>
 

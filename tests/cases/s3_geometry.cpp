@@ -1,4 +1,5 @@
-// Seed 003: lower-body arrays, error chains, wheel profiles, contact lines.
+// Cases of docs/papers/internal-helical.md: lower-body arrays, error chains, wheel profiles,
+// contact lines.
 
 #include <algorithm>
 

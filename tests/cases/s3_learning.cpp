@@ -1,4 +1,5 @@
-// Seed 003: learning of offset tables, their guard, and the statistics it is fed with.
+// Cases of docs/papers/internal-helical.md: learning of offset tables, their guard, and the
+// statistics it is fed with.
 
 #include <cmath>
 

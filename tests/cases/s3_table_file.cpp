@@ -1,4 +1,5 @@
-// Seed 003: tables of controllers, to the letter; read back and written again.
+// Cases of docs/papers/internal-helical.md: tables of controllers, to the letter; read back and
+// written again.
 
 #include <sstream>
 

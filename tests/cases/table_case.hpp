@@ -1,5 +1,5 @@
 #pragma once
-// Raw runs of a seed-001 case, for the kinds that build tables.
+// Raw runs of a case of docs/papers/xyfz.md, for the kinds that build tables.
 
 #include <memory>
 

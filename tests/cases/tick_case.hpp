@@ -1,6 +1,6 @@
 #pragma once
-// Runs the tables of a seed-001 case through the real tick: quantised, encoded, decoded, folded,
-// activated.
+// Runs the tables of a case of docs/papers/xyfz.md through the real tick: quantised, encoded,
+// decoded, folded, activated.
 
 #include <memory>
 

@@ -1,5 +1,6 @@
 #pragma once
-// The XYFZ machine of a seed-001 case: chain, tables in the internal convention, model.
+// The XYFZ machine of a case of docs/papers/xyfz.md: chain, tables in the internal convention,
+// model.
 
 #include <memory>
 

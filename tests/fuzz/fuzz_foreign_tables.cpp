@@ -1,5 +1,5 @@
-// Any bytes as a file of somebody else's: accepted or refused with a UserError. The first byte
-// chooses the format.
+// Any bytes as a foreign file: accepted or refused with a UserError. The first byte chooses the
+// format.
 
 #include <sstream>
 

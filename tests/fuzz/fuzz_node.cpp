@@ -89,13 +89,13 @@ class Watched {
 
   void pass(std::uint64_t us) {
     now_us_ += us;
-    node_->poll(now_us_);
+    node_->device().poll(now_us_);
     check(2);  // a SYNC of its own cuts a cycle short, and the next may be due at once
     drain();
   }
 
   void give(const hal::CanFrame& frame) {
-    node_->receive(frame, now_us_);
+    node_->device().receive(frame, now_us_);
     check(1);
     drain();
   }
@@ -109,9 +109,9 @@ class Watched {
     constexpr int kMost = 256;
     hal::CanFrame frame;
     int count = 0;
-    while (node_->offer(frame, now_us_)) {
+    while (node_->device().offer(frame, now_us_)) {
       require(frame.id <= hal::kMaxCanId && frame.size <= 8);
-      node_->taken(now_us_);
+      node_->device().taken(now_us_);
       if (count == 0) first = frame;
       last = frame;
       require(++count <= kMost);

@@ -1,5 +1,6 @@
 // Flash in a file while the system reports errors: each is passed on, none is taken for success.
 
+#include <fcntl.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -54,6 +55,80 @@ TEST_F(FileFailures, AFullDiskHasNoRoomForANewStore) {
 TEST_F(FileFailures, AStoreThatDoesNotReachTheMediumIsNotOpened) {
   calls.fdatasync = [](int) { return failing(EIO); };
   expect_refused(OpenResult::failed, EIO);
+}
+
+// fsync(2): without it a power failure may leave the file without its name.
+TEST_F(FileFailures, TheNameOfANewStoreReachesTheMediumBeforeItsBytes) {
+  bool synced = false;
+  calls.fsync = [&](int fd) {
+    struct stat folder {};
+    struct stat parent {};
+    EXPECT_EQ(::fstat(fd, &folder), 0);
+    EXPECT_EQ(::stat(path_.parent_path().c_str(), &parent), 0);
+    EXPECT_EQ(folder.st_ino, parent.st_ino);
+    EXPECT_EQ(std::filesystem::file_size(path_), 0U);
+    synced = true;
+    return 0;
+  };
+  ASSERT_TRUE(blocks.open(path_.c_str()).ok());
+  EXPECT_TRUE(synced);
+  blocks.close();
+  synced = false;
+  ASSERT_TRUE(blocks.open(path_.c_str()).ok());
+  EXPECT_FALSE(synced) << "it was there";
+}
+
+TEST_F(FileFailures, AStoreWhoseNameDoesNotReachTheMediumIsMadeAgain) {
+  calls.fsync = [](int) { return failing(EIO); };
+  expect_refused(OpenResult::failed, EIO);
+  expect_refused(OpenResult::failed, EIO);
+  calls.fsync = [](int) { return failing(EINVAL); };  // a file system without
+  EXPECT_TRUE(blocks.open(path_.c_str()).ok());
+}
+
+// As root everything may be written; a kernel that refuses is played.
+TEST_F(FileFailures, AStoreThatMayOnlyBeReadIsRead) {
+  const Bytes unit(FileBlocks::kUnitBytes, 0x5A);
+  ASSERT_TRUE(blocks.open(path_.c_str()).ok());
+  EXPECT_FALSE(blocks.read_only());
+  ASSERT_TRUE(blocks.program(64, {unit.data(), unit.size()}));
+  for (const int error : {EROFS, EACCES, EPERM}) {
+    calls.open = [error](const char* path, int flags) {
+      return (flags & O_ACCMODE) == O_RDONLY ? kernel_open(path, flags) : failing(error);
+    };
+    ASSERT_TRUE(blocks.open(path_.c_str()).ok()) << error;
+    EXPECT_TRUE(blocks.read_only());
+    Bytes read(unit.size());
+    EXPECT_EQ(blocks.read(64, read), BlockRead::done);
+    EXPECT_EQ(read, unit);
+    EXPECT_FALSE(blocks.program(128, {unit.data(), unit.size()}));
+    EXPECT_FALSE(blocks.erase(0));
+  }
+  blocks.close();
+  EXPECT_FALSE(blocks.read_only());
+}
+
+TEST_F(FileFailures, WhereNothingCanBeWrittenAMissingStoreIsNotMade) {
+  calls.open = [](const char* path, int flags) {
+    return (flags & O_ACCMODE) == O_RDONLY ? kernel_open(path, flags) : failing(EROFS);
+  };
+  expect_refused(OpenResult::failed, EROFS);
+  calls.open = nullptr;
+  ASSERT_TRUE(blocks.open(path_.c_str()).ok());
+  blocks.close();
+  std::filesystem::resize_file(path_, 0);
+  calls.open = [](const char* path, int flags) {
+    return (flags & O_ACCMODE) == O_RDONLY ? kernel_open(path, flags) : failing(EROFS);
+  };
+  expect_refused(OpenResult::failed, EROFS);
+}
+
+TEST_F(FileFailures, OtherReasonsNotToOpenAreNoReasonToRead) {
+  ASSERT_TRUE(blocks.open(path_.c_str()).ok());
+  calls.open = [](const char* path, int flags) {
+    return (flags & O_ACCMODE) == O_RDONLY ? kernel_open(path, flags) : failing(EMFILE);
+  };
+  expect_refused(OpenResult::failed, EMFILE);
 }
 
 TEST_F(FileFailures, AFileOfWhichTheSystemTellsNothing) {

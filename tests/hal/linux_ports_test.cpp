@@ -59,6 +59,14 @@ TEST(OpenStatus, EveryReasonHasItsOwnSentence) {
   EXPECT_EQ(sentences.size(), static_cast<std::size_t>(OpenResult::in_use) + 1);
 }
 
+TEST(OpenStatus, WhatTheSystemSaidIsPassedOn) {
+  EXPECT_EQ(hal::sentence({OpenResult::failed, EACCES}),
+            "the operating system refused: Permission denied");
+  EXPECT_EQ(hal::sentence({OpenResult::failed, EROFS}),
+            "the operating system refused: Read-only file system");
+  EXPECT_EQ(hal::sentence({OpenResult::interface_down, ENETDOWN}), "interface is down");
+}
+
 TEST(SteadyClock, NeverGoesBack) {
   const hal::SteadyClock clock;
   std::uint64_t last = clock.now_us();

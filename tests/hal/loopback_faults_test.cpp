@@ -1,4 +1,4 @@
-// Faults happen as asked for, and only there.
+// Faults happen as requested, and only there.
 
 #include "hal/loopback/loopback_bus.hpp"
 

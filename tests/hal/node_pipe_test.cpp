@@ -1,4 +1,4 @@
-// The node's end of a frame pipe: hosts that come, go, say too much or nothing sensible, and a
+// The node's end of a frame pipe: hosts that come, go, send too much or nothing sensible, and a
 // system that refuses.
 
 #include "hal/linux/node_pipe.hpp"
@@ -93,6 +93,11 @@ TEST_F(NodePipeTest, MakesItsPipesAndFindsThemAgain) {
 TEST_F(NodePipeTest, AFolderIsNeeded) {
   std::filesystem::remove(folder);
   expect_refused(OpenResult::no_such_folder, ENOENT);
+}
+
+TEST_F(NodePipeTest, AFolderThatMayNotBeOpenedIsNotOneThatIsMissing) {
+  calls.open = [](const char*, int) { return failing(EACCES); };
+  expect_refused(OpenResult::failed, EACCES);
 }
 
 TEST_F(NodePipeTest, AFileInPlaceOfAPipeIsRefused) {

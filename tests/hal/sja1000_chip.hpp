@@ -69,7 +69,7 @@ class Sja1000Chip {
   std::uint8_t enabled_ = 0;
   unsigned receive_errors_ = 0;
   unsigned transmit_errors_ = 0;
-  std::array<std::uint8_t, 32> plain_{};  // what is only kept
+  std::array<std::uint8_t, 32> plain_{};  // what is only stored
   std::array<std::uint8_t, 8> filter_{};
   std::array<std::uint8_t, 13> transmit_{};
   std::deque<std::deque<std::uint8_t>> fifo_;

@@ -284,7 +284,7 @@ TEST_F(Sja1000, ALateInterruptStopsNothing) {
   EXPECT_EQ(can.counters().taken_back, 0U);
 }
 
-// One place is kept for the frame that was in the chip, and one only.
+// One place is reserved for the frame that was in the chip, and one only.
 TEST(SendQueue, HoldsOneMoreThatComesBack) {
   hal::SendQueue<2> queue;
   EXPECT_TRUE(queue.push(frame(2)));

@@ -20,7 +20,7 @@ bool parse(const std::string& line, hal::CanFrame& out) {
   return hal::parse_slcan_frame({line.data(), line.size()}, out);
 }
 
-// An adapter whose frames are kept.
+// An adapter that stores its frames.
 struct Adapter {
   SlcanDevice device{32};
   std::vector<hal::CanFrame> frames;
@@ -52,7 +52,7 @@ TEST(Slcan, LongestFrameFillsTheText) {
   EXPECT_EQ(line.size(), hal::SlcanText::kCapacity);
 }
 
-// A size that no frame has is the caller's mistake: it costs nobody's memory.
+// A size that no frame has is the caller's mistake: it damages no memory.
 TEST(Slcan, NoMoreThanTheBytesThereAreIsWritten) {
   hal::CanFrame impossible = frame(0x7FF, {1, 2, 3, 4, 5, 6, 7, 8});
   impossible.size = 15;
@@ -102,7 +102,7 @@ TEST(Slcan, WhatIsNoFrameIsRefusedAndLeavesTheFrameAlone) {
   }
 }
 
-// One character of a good line changed: refused, or a line that says the same thing again.
+// One character of a good line changed: refused, or a line that means the same again.
 TEST(Slcan, DamagedLinesNeverBecomeSomethingElseThanTheySay) {
   Random random;
   SCOPED_TRACE(random.trace());

@@ -1,5 +1,5 @@
-// SocketCAN against a kernel played by the test: what the manual pages and the kernel's CAN
-// documentation say it answers (Documentation/networking/can.rst; errors of packet(7), send(2)).
+// SocketCAN against a kernel played by the test: its answers by the manual pages and the kernel's
+// CAN documentation (Documentation/networking/can.rst; errors of packet(7), send(2)).
 
 #include "hal/linux/socket_can.hpp"
 
@@ -15,6 +15,7 @@
 #include <deque>
 #include <string>
 
+#include "hal/linux/lasting_can.hpp"
 #include "tests/hal/support.hpp"
 #include "tests/hal/system_calls.hpp"
 
@@ -203,6 +204,98 @@ TEST_F(KernelWithCan, ANetworkThatGoesDownShowsAndComesBack) {
     EXPECT_TRUE(port.receive(got));
     EXPECT_FALSE(port.network_down()) << error;
   }
+}
+
+// --- error reports (linux/can/error.h)
+
+TEST_F(KernelWithCan, ErrorReportsTellTheStateOfTheController) {
+  struct Report {
+    canid_t flags;
+    std::uint8_t controller;  // data[1]
+    hal::CanBusState state;
+  };
+  using State = hal::CanBusState;
+  const std::vector<Report> reports{
+      {CAN_ERR_CRTL, CAN_ERR_CRTL_TX_WARNING, State::warning},
+      {CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW, State::warning},  // names no state
+      {CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE, State::passive},
+      {CAN_ERR_ACK, CAN_ERR_CRTL_ACTIVE, State::passive},  // no report of the controller
+      {CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE, State::active},
+      {CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE | CAN_ERR_CRTL_TX_WARNING, State::passive},
+      {CAN_ERR_CRTL, CAN_ERR_CRTL_RX_WARNING, State::warning},
+      {CAN_ERR_BUSOFF, 0, State::off},
+      {CAN_ERR_RESTARTED, 0, State::active},
+      {CAN_ERR_BUSOFF | CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE, State::off}};
+  ASSERT_TRUE(port.open("can0").ok());
+  EXPECT_EQ(port.bus_state(), State::active);
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    can_frame raw{};
+    raw.can_id = CAN_ERR_FLAG | reports[i].flags;
+    raw.can_dlc = CAN_ERR_DLC;
+    raw.data[1] = reports[i].controller;
+    heard = {raw};
+    EXPECT_TRUE(receive_all(port).empty());
+    EXPECT_EQ(port.bus_state(), reports[i].state) << i;
+  }
+  port.close();
+  EXPECT_EQ(port.bus_state(), State::active);
+}
+
+// --- an interface that goes and comes (net/can/raw.c: ENODEV once, nothing afterwards)
+
+class InterfaceThatGoes : public KernelWithCan {
+ protected:
+  using News = hal::LastingCan::News;
+
+  void SetUp() override {
+    KernelWithCan::SetUp();
+    ASSERT_TRUE(lasting.open("can0").ok());
+    ASSERT_EQ(lasting.supervise(0), News::none);
+  }
+  void turn() {
+    while (lasting.receive(got)) {
+    }
+    receive_error = EAGAIN;
+  }
+
+  hal::CanFrame got;
+  hal::LastingCan lasting;
+};
+
+TEST_F(InterfaceThatGoes, IsOpenedAgainAndBothAreToldOnce) {
+  receive_error = index_error = ENODEV;
+  int told = 0;
+  for (std::uint64_t now_us = 0; now_us < 2'000'000; now_us += 1000) {
+    turn();
+    const News news = lasting.supervise(now_us);
+    EXPECT_NE(news, News::back);
+    told += news == News::lost ? 1 : 0;
+    EXPECT_FALSE(lasting.send(frame(0x701)));
+  }
+  EXPECT_EQ(told, 1);
+  index_error = 0;  // there, but not up
+  flags = 0;
+  EXPECT_EQ(lasting.supervise(3'000'000), News::none);
+  flags = IFF_UP;
+  EXPECT_EQ(lasting.supervise(3'000'000 + hal::LastingCan::kRetry_us), News::back);
+  heard = {raw_frame(0x123)};
+  EXPECT_TRUE(lasting.receive(got));
+  EXPECT_EQ(lasting.supervise(9'000'000), News::none);
+}
+
+TEST_F(InterfaceThatGoes, IsAskedForNoMoreThanFiveTimesASecond) {
+  receive_error = index_error = ENODEV;
+  int asked = 0;
+  const auto ioctl = calls.ioctl;
+  calls.ioctl = [&](int fd, unsigned long request, void* argument) {
+    ++asked;
+    return ioctl(fd, request, argument);
+  };
+  for (std::uint64_t now_us = 0; now_us <= 1'000'000; now_us += 1000) {
+    turn();
+    static_cast<void>(lasting.supervise(now_us));
+  }
+  EXPECT_EQ(asked, 5);
 }
 
 TEST_F(KernelWithCan, AFullQueueIsNoNetworkDown) {

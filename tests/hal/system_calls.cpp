@@ -17,6 +17,8 @@ int __real_fstat(int fd, struct stat* info);
 int __real_flock(int fd, int operation);
 int __real_ftruncate(int fd, off_t size);
 int __real_fdatasync(int fd);
+int __real_fsync(int fd);
+int __real_open(const char* path, int flags, ...);
 ssize_t __real_pwrite(int fd, const void* bytes, size_t size, off_t at);
 int __real_mkfifoat(int folder, const char* name, mode_t mode);
 int __real_openat(int folder, const char* name, int flags, ...);
@@ -44,6 +46,8 @@ SystemCalls::~SystemCalls() { answers = nullptr; }
 ssize_t kernel_pwrite(int fd, const void* bytes, std::size_t size, off_t at) {
   return __real_pwrite(fd, bytes, size, at);
 }
+
+int kernel_open(const char* path, int flags) { return __real_open(path, flags, 0600); }
 
 extern "C" {
 
@@ -81,6 +85,12 @@ int __wrap_ftruncate(int fd, off_t size) {
 }
 int __wrap_fdatasync(int fd) {
   return ask<&SystemCalls::fdatasync>([&] { return __real_fdatasync(fd); }, fd);
+}
+int __wrap_fsync(int fd) {
+  return ask<&SystemCalls::fsync>([&] { return __real_fsync(fd); }, fd);
+}
+int __wrap_open(const char* path, int flags, mode_t mode) {
+  return ask<&SystemCalls::open>([&] { return __real_open(path, flags, mode); }, path, flags);
 }
 ssize_t __wrap_pwrite(int fd, const void* bytes, size_t size, off_t at) {
   return ask<&SystemCalls::pwrite>([&] { return __real_pwrite(fd, bytes, size, at); }, fd, bytes,

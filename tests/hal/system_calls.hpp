@@ -1,7 +1,7 @@
 #pragma once
-// What hal/linux asks of the system, answered by a test instead of the kernel: the linker leads
-// these calls of the test program here (--wrap, see CMakeLists.txt). A call without an answer goes
-// to the kernel.
+// System calls of hal/linux, answered by a test instead of the kernel: the linker leads these calls
+// of the test program here (--wrap, see CMakeLists.txt). A call without an answer goes to the
+// kernel.
 //
 //   SystemCalls calls;
 //   calls.fdatasync = [](int) { return failing(EIO); };
@@ -33,6 +33,8 @@ class SystemCalls {
   std::function<int(int fd, int operation)> flock;
   std::function<int(int fd, off_t size)> ftruncate;
   std::function<int(int fd)> fdatasync;
+  std::function<int(int fd)> fsync;
+  std::function<int(const char* path, int flags)> open;
   std::function<ssize_t(int fd, const void* bytes, std::size_t size, off_t at)> pwrite;
   std::function<int(int folder, const char* name)> mkfifoat;
   std::function<int(int folder, const char* name)> openat;
@@ -48,5 +50,6 @@ inline int failing(int error) {
 
 // The kernel's own, past the answers.
 ssize_t kernel_pwrite(int fd, const void* bytes, std::size_t size, off_t at);
+int kernel_open(const char* path, int flags);
 
 }  // namespace volcomp::test

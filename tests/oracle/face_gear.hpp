@@ -1,6 +1,6 @@
 #pragma once
-// A face gear by the closed forms of seed 002 (sections 2 to 4), written for tests and only for
-// them: points, normals and signed distances that no code under test has had a hand in.
+// A face gear by closed forms (docs/papers/face-gear.md), written for tests only: points, normals
+// and signed distances, independent of the code under test.
 
 #include <array>
 #include <cmath>
@@ -37,7 +37,7 @@ struct FaceGear {
   }
 };
 
-// The gear of the paper's Table 3 as decoded in section 3.
+// The gear of the paper's Table 3 (docs/papers/face-gear.md).
 inline FaceGear gear_of_table_3() {
   FaceGear gear;
   gear.relief = Relief{48.4, 2.4, 0.060};
@@ -148,7 +148,7 @@ inline std::array<Vec3, kGridCells> points_of(const std::array<SurfacePoint, kGr
   return points;
 }
 
-// Signed distance of a point from a flank without relief: section 4.
+// Signed distance of a point from a flank without relief.
 inline double distance(const FaceGear& g, const Vec3& q, int side, int slot) {
   const double rho = std::hypot(q.x(), q.y());
   double c = g.arm() / rho;

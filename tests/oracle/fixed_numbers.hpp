@@ -33,7 +33,7 @@ class Fixed {
   std::mt19937_64 bits_{1};
 };
 
-// Of integers, least significant byte first.
+// Digest of integers, least significant byte first.
 class Digest {
  public:
   void add(std::uint64_t value, std::size_t bytes) {

@@ -1,6 +1,6 @@
 #pragma once
-// Images whose checksums are right and whose numbers are not: what damages an image before it is
-// sealed, or who means harm, can write. Shared by the property test and the fuzzer.
+// Images with right checksums and wrong numbers, as damage before an image is sealed, or an
+// attacker, can write them. Shared by the property test and the fuzzer.
 
 #include <array>
 #include <cmath>
@@ -62,7 +62,22 @@ class HostileImage {
     }
   }
 
-  // Of the sizes at which arithmetic changes: none, tiny, huge, infinite, not a number.
+  // By multiplications, which round alike on every processor.
+  static double power_of_ten(int exponent) {
+    double power = 1.0;
+    for (int i = 0; i < std::abs(exponent); ++i)
+      power *= 10.0;
+    return exponent < 0 ? 1.0 / power : power;
+  }
+
+  // −most…most; half of them near 0, where the sizes of machines are.
+  template <class Bits>
+  static int exponent(Bits& bits, int most) {
+    const int span = bits() % 2 == 0 ? most : most / 16;
+    return static_cast<int>(bits() % static_cast<unsigned>(2 * span + 1)) - span;
+  }
+
+  // A number at which arithmetic changes: none, tiny, huge, infinite, not a number.
   template <class T, class Bits>
   static T odd_number(Bits& bits) {
     const T sign = bits() % 2 == 0 ? T{1} : T{-1};
@@ -81,32 +96,45 @@ class HostileImage {
       case 5:
         return T{0} * sign;
       case 6:
-        return sign * static_cast<T>(std::pow(10.0, static_cast<double>(bits() % 80) - 40.0));
+        return sign * static_cast<T>(power_of_ten(exponent(bits, Limits::max_exponent10 - 1)));
       default:
-        return sign * std::ldexp(T{1}, static_cast<int>(bits() % 2000) - 1000);
+        return sign * std::ldexp(T{1}, exponent(bits, Limits::max_exponent - 1));
     }
+  }
+
+  // One after the other: compilers differ in which argument of a call they evaluate first.
+  template <class Bits>
+  static std::size_t pick(Bits& bits, std::size_t count) {
+    return static_cast<std::size_t>(bits() % count);
+  }
+  template <class T, class Bits>
+  void put_odd(Bits& bits, std::size_t first, std::size_t count) {
+    const std::size_t at = first + sizeof(T) * pick(bits, count);
+    put(at, odd_number<T>(bits));
   }
 
   template <class Bits>
   void mutate_one(Bits& bits) {
     using namespace image_layout;
+    constexpr std::size_t kJointAt = 6;  // offset, orientation, constant error: 18 doubles
     const std::size_t bodies = bytes_[kBodiesAt];
-    switch (bits() % 8) {
-      case 0:  // tool point
-        return put(kHeaderBytes + kMachineBytes - 8 * (1 + bits() % 3), odd_number<double>(bits));
-      case 1:
-      case 2:  // joint offset
-        if (bodies == 0) return;
-        return put(first_axis(bits() % bodies) + 6 + 8 * (bits() % 3), odd_number<double>(bits));
-      case 3:  // any number of a body
-        if (bodies == 0) return;
-        return put(first_axis(bits() % bodies) + 6 + 8 * (bits() % 18), odd_number<double>(bits));
-      case 4:  // any byte
-        bytes_[bits() % size_] = static_cast<std::uint8_t>(bits());
-        return;
-      default:
-        break;
+    const std::size_t what = pick(bits, 8);
+    if (what >= 5) return mutate_axis(bits);
+    if (what == 0)
+      return put_odd<double>(bits, kHeaderBytes + kMachineBytes - 24, 3);  // tool point
+    if (what == 4) {                                                       // any byte
+      std::uint8_t& byte = bytes_[pick(bits, size_)];
+      byte = static_cast<std::uint8_t>(bits());
+      return;
     }
+    if (bodies == 0) return;
+    const std::size_t body = first_axis(pick(bits, bodies));
+    put_odd<double>(bits, body + kJointAt, what == 3 ? 18 : 3);
+  }
+
+  template <class Bits>
+  void mutate_axis(Bits& bits) {
+    using namespace image_layout;
     std::array<std::size_t, 256> place{};
     std::array<std::size_t, 256> length{};
     std::size_t axes = 0;
@@ -115,20 +143,17 @@ class HostileImage {
       length[axes++] = knots;
     });
     if (axes == 0) return;
-    const std::size_t a = bits() % axes;
+    const std::size_t a = pick(bits, axes);
     const std::size_t at = place[a];
-    switch (bits() % 5) {
-      case 0:  // first knot or pitch
-        return put(at + 8 * (bits() % 2), static_cast<std::int64_t>(bits() >> bits() % 64));
-      case 1:  // direction
-        return put(at + 21 + 8 * (bits() % 3), odd_number<double>(bits));
-      case 2:  // expansion
-        return put(at + 45 + 4 * (bits() % 2), odd_number<float>(bits));
-      default:
-        if (length[a] == 0) return;
-        return put(at + kAxisHeaderBytes + 4 * (bits() % (12 * length[a])),
-                   odd_number<float>(bits));
+    const std::size_t what = pick(bits, 5);
+    if (what == 0) {  // first knot or pitch
+      const std::size_t which = pick(bits, 2);
+      const std::size_t shift = pick(bits, 64);
+      return put(at + 8 * which, static_cast<std::int64_t>(bits() >> shift));
     }
+    if (what == 1) return put_odd<double>(bits, at + 21, 3);  // direction
+    if (what == 2) return put_odd<float>(bits, at + 45, 2);   // expansion
+    if (length[a] != 0) put_odd<float>(bits, at + kAxisHeaderBytes, 12 * length[a]);
   }
 
   std::uint8_t* bytes_;

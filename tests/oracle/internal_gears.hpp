@@ -1,5 +1,5 @@
 #pragma once
-// The gear, wheel and machine of seed 003.
+// The gear, wheel and machine of docs/papers/internal-helical.md.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-// The L300G as a machine that probes, with random errors of all axes, and touches whose latches are
-// those of a straight motion.
+// The L300G as a machine that probes, with random errors of all axes, and touches with the latches
+// of a straight motion.
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/gears/l300g.hpp"

@@ -74,7 +74,7 @@ inline AxisTable random_table(std::int64_t q0, std::int64_t pitch, std::uint32_t
   return table;
 }
 
-// Strokes of the machine of seed 001: −500…0, −300…0, −400…0 mm.
+// Strokes of the XYFZ machine (docs/papers/xyfz.md): −500…0, −300…0, −400…0 mm.
 inline MachineTables xyfz_tables(double delta_nm, double epsilon, Random& random,
                                  const MachineDescription& machine = kXyfzMachine) {
   MachineTables tables;

@@ -10,6 +10,7 @@ import { pathToFileURL } from 'node:url';
 import { withBrowser } from './browser.mjs';
 import { checkTable, Failures, readNumber, run, shows, TABLES } from './checks.mjs';
 import { checkCurves } from './curves.mjs';
+import { checkLabels } from './labels.mjs';
 import { checkTips } from './tips.mjs';
 
 // The curves of ISO 230-2 follow from its means and deviations.
@@ -109,10 +110,11 @@ async function takePictures(page, failures, folder) {
 }
 
 // A4 less its margins; what belongs to the screen stays away.
-async function checkPaper(page, failures) {
+async function checkPaper(page, failures, charts) {
   await page.media('print', 'dark');
   await page.value('dispatchEvent(new Event("beforeprint"))');
   await page.settled();
+  await checkLabels(page, failures, charts, 'on paper');
   const wide = await page.value(`[...document.querySelectorAll('main, .chart svg, table')].map((node) => node.getBoundingClientRect().right)
     .filter((right) => right > document.querySelector('main').getBoundingClientRect().right + 2).length`);
   failures.same(wide, 0, 'what is wider than the paper');
@@ -138,6 +140,7 @@ async function main([name, results, ...command]) {
   const begun = Date.now();
   let numbers = 0;
   let points = 0;
+  let labels = 0;
   await withBrowser(async (browser) => {
     const page = await browser.newPage();
     await page.open(url);
@@ -150,14 +153,21 @@ async function main([name, results, ...command]) {
     for (const [index, chart] of charts.entries()) points += await checkCurves(page, failures, chart, index);
     for (const [index, chart] of charts.entries()) await checkTips(page, failures, chart, index);
     await checkZoom(page, failures, charts);
-    await checkPaper(page, failures);
+    labels = await checkLabels(page, failures, charts, 'on a wide screen');
+    await page.size(700, 900);
+    await page.settled();
+    await checkLabels(page, failures, charts, 'on a narrow screen');
+    await page.size(1240, 900);
+    await page.settled();
+    await checkPaper(page, failures, charts);
     await takePictures(page, failures, folder);
     const foreign = page.requests.filter((address) => address !== url && !address.startsWith('data:'));
     failures.same(foreign.join(' '), '', 'requests to elsewhere');
     failures.same(page.complaints.join(' | '), '', 'complaints of the console');
   });
+  failures.check(labels > 10, `only ${labels} labels in charts`);
   failures.check(numbers > 10, `only ${numbers} numbers in tables`);
-  console.log(`${name}: ${numbers} numbers in tables, ${points} points of curves, ${charts.length} charts, ${Date.now() - begun} ms in the browser`);
+  console.log(`${name}: ${numbers} numbers in tables, ${points} points of curves, ${charts.length} charts with ${labels} labels, ${Date.now() - begun} ms in the browser`);
   return failures.end();
 }
 

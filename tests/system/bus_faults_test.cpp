@@ -15,6 +15,9 @@
 //   several of these        any of these                 8250h and others     the last of them
 //   second SYNC producer    its messages are no cycles   FF20h                100 good SYNCs
 //   ... without counter     its messages are no cycles   8240h                100 good SYNCs
+//   port of the node full   offsets frozen               8130h after 350 ms   frames leave again
+//   foreign offset report   nothing sent to that drive   FF21h                6 equal reports
+//   ... drives trusted      goes on                      none                 –
 //   bus full                no cycles, no heartbeats     8130h, 8130h D       as after power-on
 //   second SDO client       goes on, a transfer is lost  none (SDO abort)     repetition
 //   download broken off     goes on with the old tables  none (SDO timeout)   2112h:01 = 0
@@ -27,6 +30,7 @@
 
 #include <gtest/gtest.h>
 
+#include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "tests/system/bus_world.hpp"
 
@@ -134,7 +138,7 @@ void frames_late(BusWorld& world, Random& random, int cycles) {
   });
 }
 
-// Several at once: frames lost, twice and late while somebody is reset.
+// Several at once: frames lost, twice and late while a station is reset.
 void many_at_once(BusWorld& world, Random& random, int cycles) {
   const auto any_fate = [&](const hal::CanFrame& frame) {
     const bool late = frame.id != canopen::kSync && random.uniform() < 0.2;
@@ -156,7 +160,27 @@ void bus_full(BusWorld& world, Random& /*random*/, int cycles) {
   world.bus().set_full(false);
 }
 
+// Frames still arrive, cycles are computed, nothing leaves: for less than the heartbeat time-out.
+void port_full(BusWorld& world, Random& /*random*/, int cycles) {
+  world.keep_moving(true);
+  world.axes().fill_node_port(true);
+  world.run(cycles);
+  world.axes().fill_node_port(false);
+  world.run(cycles);
+  world.keep_moving(false);
+}
+
 // --- others on the bus
+
+// On the identifier of a drive's own report.
+void foreign_report(BusWorld& world, Random& random, int cycles) {
+  const auto id = static_cast<std::uint16_t>(0x481U + any_axis(random));
+  for (int i = 0; i < cycles; ++i) {
+    const auto byte = [&random] { return static_cast<std::uint8_t>(random.uniform(0.0, 256.0)); };
+    if (random.uniform() < 0.3) world.intruder().send({id, 4, {byte(), byte(), byte(), byte()}});
+    world.run(1);
+  }
+}
 
 void second_sync(BusWorld& world, Random& random, int cycles) {
   auto counter = static_cast<std::uint8_t>(random.uniform(1.0, 240.0));
@@ -228,6 +252,8 @@ std::vector<Fault> faults() {
       {"SecondSyncProducer", 300, second_sync, {{kNode, 0xFF20}}},
       {"SecondSyncProducerWithoutCounter", 300, second_sync_without_counter, {{kNode, 0x8240}}},
       {"ManyAtOnce", 600, many_at_once, {stale}},
+      {"PortFull", 140, port_full, {}},
+      {"ForeignReport", 100, foreign_report, {{kNode, 0xFF21}}},
       {"BusFull", 400, bus_full, {node_silent, drive_silent}},
       {"SecondSdoClient", 200, second_sdo_client, {}},
       {"DownloadBrokenOff", 800, download_broken_off, {}},
@@ -274,7 +300,65 @@ TEST_P(BusFault, NoStepAndFullRecovery) {
 INSTANTIATE_TEST_SUITE_P(Kinds, BusFault, ::testing::ValuesIn(faults()),
                          [](const auto& kind) { return std::string(kind.param.name); });
 
-// The controller asks for the CRC of the active tables, and sends others.
+// --- drives that do not report (2200h:05 = 0)
+
+class TrustedBusFault : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(TrustedBusFault, NoStepAndFullRecovery) {
+  const Fault& fault = GetParam();
+  BusWorld world(2, bus_machine().image, Drives::trust);
+  Random random(3);
+  ASSERT_TRUE(world.recover(kRecovery)) << world.trouble();
+  world.run(300);
+  world.mark();
+  fault.run(world, random, fault.cycles);
+  expect_recovery(world);
+  EXPECT_FALSE(world.emergency(kNode, 0xFF21)) << world.emergencies();
+}
+
+// Nothing is lost on the way: a node that trusts could not know.
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, TrustedBusFault,
+    ::testing::Values(Fault{"PortFull", 140, port_full, {}},
+                      Fault{"ForeignReport", 100, foreign_report, {}},
+                      Fault{"TablesChangedInMotion", 400, tables_changed_in_motion, {}}),
+    [](const auto& kind) { return std::string(kind.param.name); });
+
+// Somebody sends a drive an offset of his own: the node finds another value there than it sent, and
+// goes back at 2203h per cycle.
+TEST(BusFaults, FromAnotherOffsetTheWayBackIsSoft) {
+  BusWorld world(5);
+  ASSERT_TRUE(world.approach());
+  const host::Offsets before = world.offsets();
+  const AxisLimits limits = bus_machine_settings().limits.axis[0];
+  const std::int32_t far = 3 * limits.rate / 4;  // the intruder shall keep the promise, too
+  const auto other = static_cast<std::int32_t>(before[0] < 0 ? before[0] + far : before[0] - far);
+  ASSERT_GT(far, 5 * limits.soft_rate);
+  hal::CanFrame foreign{0x301, 4, {}};
+  canopen::store_le(foreign.data.data(), 4, static_cast<std::uint32_t>(other));
+  // It counts where it comes between the node's own offset and SYNC.
+  std::uint64_t delay_ns = 0;
+  world.bus().set_fault_hook([&](const hal::CanFrame& frame, const hal::LoopbackBus::Port&,
+                                 const hal::LoopbackBus::Port&) {
+    const bool is_foreign = frame.id == foreign.id && frame.data == foreign.data;
+    return Fate{false, false, is_foreign ? delay_ns : 0};
+  });
+  while (world.offsets()[0] != other && delay_ns < kCycle_ns) {
+    world.intruder().send(foreign);
+    world.stand(1);
+    delay_ns += kCycle_ns / 20;
+  }
+  world.bus().set_fault_hook({});
+  ASSERT_EQ(world.offsets()[0], other);
+  world.forget_steps();
+  world.stand(300);
+  EXPECT_TRUE(world.emergency(kNode, 0xFF21));
+  EXPECT_EQ(world.offsets(), before);
+  EXPECT_EQ(world.largest_step(), limits.soft_rate);
+  EXPECT_TRUE(world.violation().empty()) << world.violation();
+}
+
+// The controller reads the CRC of the active tables, and sends others.
 TEST(BusFaults, OtherTablesOfTheSameMachineComeIntoForce) {
   BusWorld world(4);
   world.run(300);

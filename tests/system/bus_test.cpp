@@ -52,7 +52,7 @@ TEST(Bus, HasRoomForTheCycleOfThreeAxesWithTheLongestFrames) {
 TEST(Bus, LineAtTenMetresPerMinuteIsCompensatedWithinTwoNanometres) {
   const BusMachine& m = bus_machine();
   const xyfz::Dynamics d =
-      xyfz::run_dynamics(m.truth, m.file, *m.commissioned, bus_cells(m.file, kBusCycle_hz));
+      xyfz::run_dynamics(m.truth, m.file, *m.built, bus_cells(m.file, kBusCycle_hz));
   EXPECT_LE(d.line_worst_nm, 2.0);
   EXPECT_GT(d.line_worst_nm, 0.0);
 }

@@ -19,7 +19,7 @@ constexpr int kSettle = 40;          // cycles without any change
 constexpr int kLongest = 20'000;     // cycles for one journey
 constexpr double kMargin_mm = 45.0;  // a quick stop from 400 mm/s takes 40 mm
 
-// Tables that ask for other offsets everywhere.
+// Tables that lead to other offsets everywhere.
 MachineTables shifted(MachineTables tables) {
   constexpr float kShift_nm = 3000.0F;
   for (AxisTable& table : tables.axis) {
@@ -39,10 +39,10 @@ BusMachine make_bus_machine() {
   m.truth = xyfz::make_xyfz_truth(m.file, xyfz::kXyfzMachineSeed,
                                   xyfz::tune_xyfz(m.file, xyfz::kXyfzMachineSeed));
   const Campaign campaign = perfect_campaign(m.truth, m.file);
-  m.commissioned = host::commission(campaign.machine, campaign.runs,
-                                    host::tables_only(host::ModelKind::abbe_closed));
-  m.image = host::make_image(m.commissioned->tables);
-  m.other_image = host::make_image(shifted(m.commissioned->tables));
+  m.built = host::build_tables(campaign.machine, campaign.runs,
+                               host::tables_only(host::ModelKind::abbe_closed));
+  m.image = host::make_image(m.built->tables);
+  m.other_image = host::make_image(shifted(m.built->tables));
   return m;
 }
 
@@ -60,23 +60,43 @@ const BusMachine& bus_machine() {
   return machine;
 }
 
-host::BusSettings bus_machine_settings() {
-  return host::bus_settings(bus_machine().file, kBusCycle_hz);
+host::BusSettings bus_machine_settings(Drives drives) {
+  host::BusSettings settings = host::bus_settings(bus_machine().file, kBusCycle_hz);
+  settings.drives_report_offsets = drives == Drives::confirm;
+  return settings;
 }
 
 Intruder::Intruder(SimulatedBus& bus)
     : sdo_(bus_machine_settings().node), port_(&bus.attach(*this, "intruder")) {}
 
-BusWorld::BusWorld(std::uint64_t seed, const std::vector<std::uint8_t>& image)
-    : random_(seed),
-      axes_(bus_machine_settings(), image),
+BusWorld::BusWorld(std::uint64_t seed, const std::vector<std::uint8_t>& image, Drives drives)
+    : drives_(drives),
+      random_(seed),
+      axes_(bus_machine_settings(drives), image),
       intruder_(axes_.bus()),
       path_(on_wire(kStart)),
       goal_(path_) {
   for (std::size_t a = 0; a < kBusMachineAxes; ++a)
     watch(a);
   axes_.stand_at(host::pose_of(kStart));
-  axes_.bring_up();
+  if (drives == Drives::confirm) axes_.bring_up();
+  for (int i = 0; i < 6000 && !axes_.controller().motion_allowed(); ++i)
+    step(goal_);
+}
+
+// Writes to a waiting node what a drive holds, one drive after the other. While its offsets are
+// being sent the node refuses that.
+void BusWorld::vouch() {
+  constexpr std::uint64_t kCalm = 10;  // cycles: nothing is under way any more
+  host::SdoChannel& sdo = intruder_.sdo();
+  const bool asks = node().state == static_cast<std::uint8_t>(node::NodeState::waiting) ||
+                    node().state == static_cast<std::uint8_t>(node::NodeState::degraded);
+  if (drives_ == Drives::confirm || !asks || axes_.cycles() % kCalm != 0) return;
+  sdo.clear();
+  vouched_ = (vouched_ + 1) % kBusMachineAxes;
+  const auto axis = static_cast<std::uint8_t>(vouched_ + 1);
+  const auto held = static_cast<std::int32_t>(offsets()[vouched_]);
+  sdo.write_value<std::int32_t>({0x2206, axis}, held, "offset a drive holds");
 }
 
 void BusWorld::watch(std::size_t axis) {
@@ -111,6 +131,7 @@ void BusWorld::step(const std::vector<std::int32_t>& goal) {
       path_[a] += std::max(-step_nm_, std::min(goal[a] - path_[a], step_nm_));
   }
   axes_.run_cycle(path_);
+  vouch();
 }
 
 void BusWorld::run(int cycles) {
@@ -118,6 +139,12 @@ void BusWorld::run(int cycles) {
     if (at(goal_)) choose_goal();
     step(goal_);
   }
+}
+
+void BusWorld::stand(int cycles) {
+  const std::vector<std::int32_t> here = path_;
+  for (int i = 0; i < cycles; ++i)
+    step(here);
 }
 
 bool BusWorld::go_to(const Vec3& mm) {

@@ -1,5 +1,5 @@
 #pragma once
-// A machine on the bus that moves about, and whoever disturbs it. Shared by the bus tests and the
+// A machine on the bus that moves about, and its disturbances. Shared by the bus tests and the
 // soak.
 
 #include <memory>
@@ -19,12 +19,13 @@ inline constexpr std::size_t kBusMachineAxes = 3;
 struct BusMachine {
   host::MachineFile file;
   TrueMachine truth;
-  std::unique_ptr<host::Commissioned> commissioned;
+  std::unique_ptr<host::BuiltTables> built;
   std::vector<std::uint8_t> image;
   std::vector<std::uint8_t> other_image;
 };
 [[nodiscard]] const BusMachine& bus_machine();
-[[nodiscard]] host::BusSettings bus_machine_settings();
+enum class Drives : std::uint8_t { confirm, trust };  // whether they report the offset they hold
+[[nodiscard]] host::BusSettings bus_machine_settings(Drives drives = Drives::confirm);
 
 // Another participant on the bus: an SDO client to the compensation node, and single frames.
 class Intruder {
@@ -50,11 +51,14 @@ class Intruder {
 class BusWorld {
  public:
   explicit BusWorld(std::uint64_t seed,
-                    const std::vector<std::uint8_t>& image = bus_machine().image);
+                    const std::vector<std::uint8_t>& image = bus_machine().image,
+                    Drives drives = Drives::confirm);
 
-  // The axes travel between random places inside the travel, each as fast as it is told, and stop
-  // while the controller forbids motion.
+  // The axes travel between random places inside the travel, each at its set speed, and stop while
+  // the controller forbids motion.
   void run(int cycles);
+  // Stays where it is.
+  void stand(int cycles);
   // Moves straight to a place and stands there until nothing changes any more. False when that
   // takes too long.
   [[nodiscard]] bool go_to(const Vec3& mm);
@@ -66,7 +70,7 @@ class BusWorld {
   // What is missing for that.
   [[nodiscard]] std::string trouble();
 
-  // Goes on moving whatever the controller says.
+  // Goes on moving whatever the controller commands.
   void keep_moving(bool on) { keep_moving_ = on; }
 
   // Emergency messages since mark(): whether one with this code came from this node.
@@ -79,6 +83,7 @@ class BusWorld {
   // the slew limit or an offset above the limit.
   [[nodiscard]] const std::string& violation() const { return violation_; }
   [[nodiscard]] std::int32_t largest_step() const { return largest_step_; }
+  void forget_steps() { largest_step_ = 0; }
   [[nodiscard]] std::uint64_t inputs() const { return inputs_; }
 
   [[nodiscard]] BusAxes& axes() { return axes_; }
@@ -94,7 +99,10 @@ class BusWorld {
   void step(const std::vector<std::int32_t>& goal);
   [[nodiscard]] bool at(const std::vector<std::int32_t>& goal) const { return path_ == goal; }
   void choose_goal();
+  void vouch();
 
+  Drives drives_;
+  std::size_t vouched_ = 0;
   Random random_;
   BusAxes axes_;
   Intruder intruder_;

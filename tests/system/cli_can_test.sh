@@ -5,7 +5,7 @@
 . "$(dirname "$0")/cli_common.sh"
 volcomp=$1
 
-for command in download upload diagnose replay; do
+for command in setup download upload diagnose replay; do
   expect 0 '--node-id' "$volcomp" "$command" --help
 done
 expect 0 '--axes' "$volcomp" bus-load --help
@@ -55,6 +55,16 @@ expect 1 'first difference' "$volcomp" replay "$work/changed.log" --json "$work/
 grep -q '"ok": false' "$work/changed.json" || { echo 'FAILED: the JSON knows of no difference'; failed=1; }
 "$volcomp" replay - --json - <"$work/bus.log" 2>/dev/null | grep -q '"difference": null' ||
   { echo 'FAILED: a log from a pipe does not replay'; failed=1; }
+
+# The clock of the computer was set back by an hour while candump ran: noted, with the line.
+awk 'NR <= 20000 { sub(/\([0-9]+/, sprintf("(%010d", substr($1, 2) + 3600)) } 1' "$work/bus.log" >"$work/set.log"
+expect 0 'line 20001: the clock of the log was set back by 3600' "$volcomp" replay "$work/set.log"
+
+# A log that lacks a SYNC is no difference of the node, and no agreement: not judged.
+line=$(grep -n ' 080#' "$work/bus.log" | sed -n '3000s/:.*//p')
+sed "${line}d" "$work/bus.log" >"$work/lacks.log"
+expect 2 'cannot be judged' "$volcomp" replay "$work/lacks.log"
+one_line "$volcomp" replay "$work/lacks.log"
 
 tail -n 1000 "$work/bus.log" >"$work/headless.log"
 expect 2 'no start of node 32' "$volcomp" replay "$work/headless.log"

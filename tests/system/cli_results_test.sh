@@ -170,17 +170,34 @@ holds 'an interrupted run leaves no temporary folder' rmdir tmp
 mkfifo unread
 exec 8<>unread
 dd if=/dev/zero of=unread bs=4096 oflag=nonblock status=none 2>/dev/null  # full
-/usr/bin/python3 -c 'import os, signal, sys
+
+# drafts PID: of the results of a command, with something in them.
+drafts() { find . -name "*.$1.tmp" -size +0; }
+
+# leaves_no_draft SIGNAL NUMBER COMMAND…: which writes a file and, to standard output, what is not read.
+leaves_no_draft() {
+  local before blocked
+  before=$(everything)
+  /usr/bin/python3 -c 'import os, signal, sys
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell ignores it in the background
-os.execvp(sys.argv[1], sys.argv[1:])' "${build[@]}" --stamp other --out t.vct --json - >unread 2>/dev/null &
-blocked=$!
-while kill -0 "$blocked" 2>/dev/null && [ ! -s "t.vct.$blocked.tmp" ]; do
-  sleep 0.05
-done
-kill -INT "$blocked"
-wait "$blocked"
-holds 'a command that nobody reads ends by the signal' test "$?" = 130
-holds 'a command that nobody reads leaves no draft' test ! -e "t.vct.$blocked.tmp"
+os.execvp(sys.argv[1], sys.argv[1:])' "${@:3}" >unread 2>/dev/null &
+  blocked=$!
+  while kill -0 "$blocked" 2>/dev/null && [ -z "$(drafts "$blocked")" ]; do
+    sleep 0.05
+  done
+  kill -"$1" "$blocked"
+  wait "$blocked"
+  holds "SIG$1 ends ${*:3:2}, which nobody reads" test "$?" = $((128 + $2))
+  holds "${*:3:2} leaves everything as it was" test "$before" = "$(everything)"
+}
+leaves_no_draft INT 2 "${build[@]}" --stamp other --out t.vct --json -
+leaves_no_draft TERM 15 "${build[@]}" --stamp other --out new.vct --json -
+leaves_no_draft INT 2 "${verify[@]}" --csv figures.csv --json -
+leaves_no_draft TERM 15 "${verify[@]}" --report new_report --json -
+leaves_no_draft INT 2 "$volcomp" export-tables --image t.vct --out new_controller --format isg --entries 5 --json -
+leaves_no_draft TERM 15 "$volcomp" export-tables --image t.vct --out new_controller --format isg --entries 5 --json -
+leaves_no_draft INT 2 "$volcomp" simulate runs --seed 9 --out runs --json -
+leaves_no_draft TERM 15 "$volcomp" simulate runs --seed 9 --out new_runs --json -
 exec 8<&-
 
 # --- what stands is said when only the words about it cannot be written

@@ -32,6 +32,16 @@ for seed in -1 1e3 0x10 18446744073709551616 99999999999999999999; do
   expect 2 "--machine-seed: $seed is not a whole number" "$volcomp" simulate runs --machine-seed "$seed" --out "$work/never"
 done
 
+# What is misspelt is named, with what it may have been.
+expect 2 'volcomp: unknown command "simulte", did you mean "simulate"? (known: run, ' "$volcomp" simulte
+expect 2 'unknown command "chek", did you mean "check"? (known: ' "$volcomp" machine chek "$machine"
+expect 2 'unknown command "frobnicate" (known: ' "$volcomp" frobnicate
+expect 2 'unknown option "--mahcine", did you mean "--machine"? (all: volcomp build-tables --help)' \
+  "$volcomp" build-tables --mahcine "$machine" --runs "$work/a.csv" --out "$work/never"
+expect 2 'unknown option "--cycl-hz", did you mean "--cycle-hz"?' "$volcomp" simulate diagonals --out simulte --cycl-hz=50
+one_line "$volcomp" simulte
+one_line "$volcomp" monitor --cn vcan0
+
 files=(--machine "$work/none.toml" --runs "$work/none.csv" --out "$work/none.vct")
 numbers --temperature "$volcomp" build-tables "${files[@]}"
 numbers --expires "$volcomp" build-tables "${files[@]}"

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The documentation agrees with the program: generated pages are those the program makes, links lead somewhere, every
-page is listed and every drawing shown, and every command shown exists with the options it is shown with.
+page is listed and every drawing shown, every command shown exists with the options it is shown with, and wiring is that
+of the example.
 
     docs_test.py VOLCOMP SOURCE_FOLDER
 """
@@ -158,12 +159,26 @@ def commands_exist():
     check(count > 15, f"only {count} commands were found in the pages")
 
 
+# --- wiring
+
+def wiring_is_that_of_the_example():
+    example = (ROOT / "firmware/embed/linuxcnc/volcomp.hal").read_text(encoding="utf-8").splitlines()
+    page = (ROOT / "docs/packages.md").read_text(encoding="utf-8")
+    shown = re.search(r"^```\n(loadrt volcomp .*?)^```", page, re.M | re.S)
+    check(shown, "docs/packages.md: the wiring of LinuxCNC was not found")
+    for line in shown.group(1).splitlines() if shown else []:
+        check(line in example, f"docs/packages.md: firmware/embed/linuxcnc/volcomp.hal lacks: {line}")
+    positions = [line.split()[2] for line in example if "=> volcomp." in line and ".position" in line]
+    check(positions == [f"joint.{n}.pos-cmd" for n in range(3)], f"volcomp.hal: compensated at {positions}")
+
+
 generated_pages()
 every_object_is_explained()
 every_code_is_explained()
 links_lead_somewhere()
 everything_is_linked()
 commands_exist()
+wiring_is_that_of_the_example()
 for failure in failures:
     print(f"FAILED: {failure}")
 sys.exit(1 if failures else 0)

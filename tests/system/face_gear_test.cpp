@@ -1,5 +1,5 @@
-// A face gear on the simulated YK7280: the simulations of seed 002 section 11, and the whole
-// procedure by touches over the bus.
+// A face gear on the simulated YK7280: simulations of the evaluation (docs/papers/face-gear.md),
+// and the whole procedure by touches over the bus.
 
 #include <cmath>
 
@@ -18,7 +18,7 @@
 namespace volcomp::sim {
 namespace {
 
-// --- section 11, in numbers alone
+// --- in numbers alone
 
 constexpr double kBall_mm = 0.5;
 
@@ -222,7 +222,7 @@ TEST(FaceGear, OtherGearsFormsAndSeedsPassToo) {
 
 TEST(FaceGear, WhatThePaperSaysOfItsTables) {
   for (const face_gear::PaperStatement& s : face_gear::paper_statements()) {
-    const double wanted = std::string(s.key) == "left_row5" ? 4.6 : s.stated;  // the tables say 4.6
+    const double wanted = std::string(s.key) == "left_row5" ? 4.6 : s.stated;  // 4.6 in the tables
     EXPECT_NEAR(s.found, wanted, 1e-9) << s.what;
   }
 }
@@ -242,8 +242,8 @@ TEST(FaceGear, ACellThatIsNoFlankIsMarkedMissingAndThereIsNoGrade) {
       loopback_axes(),
       50.0};
   const MachineTables tables =
-      tables_of(identify_axes(hall.truth, file), file, file.chain.description(),
-                TableKind::identified, kDefaultKnots);
+      host::tables_of(identify_axes(hall.truth, file).found, file, file.chain.description(),
+                      host::TableKind::identified, kDefaultKnots);
   face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
   face_gear::FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
   inspector.use(inspector.frame_from_one_ball());
@@ -266,8 +266,9 @@ TEST(FaceGear, AFrameIsStaleAfterTheArmWasDeployedAnew) {
                                  gear, face_gear::true_mounting(),
                                  {},   loopback_axes(),
                                  50.0};
-  const MachineTables tables = tables_of(identify_axes(hall.truth, file), file,
-                                         file.chain.description(), TableKind::none, kDefaultKnots);
+  const MachineTables tables =
+      host::tables_of(identify_axes(hall.truth, file).found, file, file.chain.description(),
+                      host::TableKind::none, kDefaultKnots);
   face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
   face_gear::FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
   inspector.use(inspector.frame_from_one_ball());

@@ -1,5 +1,5 @@
-// Touches on flanks of a face gear, through drives, latches, bus and node: the node says of them
-// what this computer says.
+// Touches on flanks of a face gear, through drives, latches, bus and node: the node judges them as
+// this computer does.
 
 #include <gtest/gtest.h>
 
@@ -23,8 +23,8 @@ TEST(Flanks, AreJudgedByTheNodeAsTheyAreHere) {
                                  {},
                                  loopback_axes()};
   const MachineTables tables =
-      tables_of(identify_axes(hall.truth, file), file, file.chain.description(),
-                TableKind::identified, kDefaultKnots);
+      host::tables_of(identify_axes(hall.truth, file).found, file, file.chain.description(),
+                      host::TableKind::identified, kDefaultKnots);
   FaceGrid grid;
   ASSERT_TRUE(make_face_grid(hall.gear, face_grid_of_table_3(), grid).ok());
   face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());

@@ -1,6 +1,5 @@
 // The grinder with its compensation on a bus: the same as with the compensation beside the
-// controller, and what happens when frames are lost or the feed is another one (seed 003, "Bad
-// input").
+// controller, and what happens when frames are lost or the feed is another one.
 
 #include <algorithm>
 #include <cmath>
@@ -302,7 +301,7 @@ TEST_F(DisturbedGrinder, StopsWithoutADrive) {
               HasSubstr("the machine on the bus has stopped: "));
 }
 
-// Tables of another feed are put aside, and learning says which feed they are for.
+// Tables of another feed are put aside, and learning reports which feed they are for.
 TEST_F(DisturbedGrinder, UsesTablesForTheirFeedOnly) {
   world_.process.pass([this](const internal_helical::StrokeStep& step) {
     internal_helical::StrokeStep faster = step;

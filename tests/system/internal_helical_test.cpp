@@ -1,5 +1,5 @@
-// Internal helical grinding over 16 seeds against seed 003 section 9 and its addendum, and the ways
-// to learn that must come out worse.
+// Internal helical grinding over 16 seeds against the ranges for the gear of
+// docs/papers/internal-helical.md, and the ways to learn that must come out worse.
 
 #include <cmath>
 #include <sstream>
@@ -48,7 +48,8 @@ TEST(InternalHelical, SynchronisationErrorFallsByFiveInSixUpdates) {
   EXPECT_NEAR(internal_helical::sync_spread(right_way(), true).median, 0.47, 0.05);
 }
 
-// A controller that is corrected well still shows the lag (finding F6).
+// A controller that is corrected well still shows the lag (docs/papers/internal-helical.md, "What
+// we do").
 TEST(InternalHelical, TheLagOfZStays) {
   for (const internal_helical::SeedResult& seed : right_way().seed) {
     EXPECT_NEAR(seed.before.z_peak_mm, 0.170, 0.001);
@@ -90,7 +91,7 @@ TEST(InternalHelical, TheSameSeedIsTheSameGear) {
             right_way().seed[0].after.inspection.pitch[0].position);
 }
 
-// Every file, read back, asks for what was learned.
+// Every file, read back, commands what was learned.
 TEST(InternalHelical, ControllerFilesSayWhatWasLearned) {
   const internal_helical::InternalHelicalResult& result = right_way();
   const internal_helical::LearnedTables& t = result.detail.tables;

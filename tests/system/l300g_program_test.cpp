@@ -64,7 +64,8 @@ struct Planned {
         truth(l300g::make_l300g_truth(file, l300g::grinder_errors(errors), 1)),
         setup{l300g::grinder_geometry(file.chain), l300g::master_gear(), PathStyle::fixed_a,
               1.4935} {
-    const IdentifiedModel model(identify_axes(truth, file), TableKind::identified, file.chain);
+    const host::IdentifiedModel model(identify_axes(truth, file).found, host::TableKind::identified,
+                                      file.chain);
     before = l300g::inspection_program(setup, "before", l300g::no_offset);
     after = l300g::inspection_program(setup, "after", [&](const Pose& q) {
       return l300g::compensation_at(model.volumetric(), q);

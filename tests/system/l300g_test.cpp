@@ -1,5 +1,5 @@
-// The whole procedure of seed 000 on the simulated L300G: every number here is one of its section
-// 5.4 (or another, where said), found by touches over the bus.
+// The whole procedure of docs/papers/l300g.md on the simulated L300G: every expected number was
+// computed independently and is found here by touches over the bus.
 
 #include <map>
 #include <memory>
@@ -18,7 +18,8 @@ constexpr double kVaried_um = 0.4;  // where the small variation is in
 
 l300g::L300gResult run(const std::string& errors, PathStyle path = PathStyle::fixed_a,
                        l300g::Origin origin = l300g::Origin::nominal,
-                       TableKind tables = TableKind::identified, std::uint64_t seed = 1) {
+                       host::TableKind tables = host::TableKind::identified,
+                       std::uint64_t seed = 1) {
   l300g::L300gOptions options;
   options.machine = host::bundled_machine("l300g");
   options.errors = errors;
@@ -40,7 +41,7 @@ struct Wanted {
   int grade_left, grade_right;
 };
 
-void expect_total(const std::array<l300g::FlankTrace, 2>& trace, const Wanted& wanted,
+void expect_total(const std::array<host::FlankTrace, 2>& trace, const Wanted& wanted,
                   double tolerance) {
   EXPECT_NEAR(trace[0].figures.total, wanted.left, tolerance) << "left";
   EXPECT_NEAR(trace[1].figures.total, wanted.right, tolerance) << "right";
@@ -51,7 +52,7 @@ void expect_total(const std::array<l300g::FlankTrace, 2>& trace, const Wanted& w
 void expect_good_gear(const l300g::GearInspection& gear, double tolerance) {
   expect_total(gear.profile, {5.59, 5.59, 4, 4}, tolerance);
   expect_total(gear.lead, {4.82, 4.82, 4, 4}, tolerance);
-  for (const l300g::FlankTrace& profile : gear.profile) {
+  for (const host::FlankTrace& profile : gear.profile) {
     EXPECT_NEAR(profile.figures.form, 4.40, tolerance);
     EXPECT_NEAR(profile.figures.slope, 3.40, tolerance);
   }
@@ -74,7 +75,7 @@ TEST(L300g, P8SpoilsTheProfileAndCompensationPutsItRight) {
   EXPECT_TRUE(l300g::l300g_verdict(p8()).ok);
 }
 
-// In words, it is what the grades of each flank say (worse, better or neither) and nothing else.
+// In words, it follows the grades of each flank (worse, better or neither) and nothing else.
 TEST(L300g, TheVerdictSaysWhatTheGradesSay) {
   const auto claim_of = [](std::array<int, 2> profile, std::array<int, 2> lead) {
     auto changed = std::make_unique<l300g::L300gResult>(p8());
@@ -93,7 +94,7 @@ TEST(L300g, TheVerdictSaysWhatTheGradesSay) {
   EXPECT_THAT(claim_of({4, 4}, {4, 4}), HasSubstr("nothing to compensate"));
 }
 
-// Of constants of 0.004°: X + Y + B − A by components, B tilted by 1.3° at the flank.
+// Constants of 0.004°: X + Y + B − A by components, B tilted by 1.3° at the flank.
 TEST(L300g, OrientationIsWhatTheAxesAddUpTo) {
   constexpr double kTilt = 0.004 * kPi / 180.0;
   EXPECT_NEAR(p8().orientation.x(), 0.0, 0.03 * kTilt);
@@ -101,7 +102,7 @@ TEST(L300g, OrientationIsWhatTheAxesAddUpTo) {
   EXPECT_NEAR(p8().orientation.z(), 3.0 * kTilt, 0.03 * kTilt);
 }
 
-// Section 5.3: the errors that the paper has measured cannot do what the paper shows.
+// The errors that the paper has measured cannot do what it shows (docs/papers/l300g.md, Table 2).
 TEST(L300g, Table2AloneLeavesTheGradeAlone) {
   const l300g::L300gResult result = run("table2");
   expect_total(result.before.profile, {5.50, 4.65, 4, 3}, kTolerance_um);
@@ -142,12 +143,13 @@ TEST(L300g, ASlopeOfASpoilsTheGeneratingPath) {
   expect_good_gear(result.after, kTolerance_um);
 }
 
-// --- rows that depend on phases nobody has handed down
+// --- rows that depend on phases that are not known
 
 TEST(L300g, SmallVariationIsCompensatedWhateverItsPhases) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
-    const l300g::L300gResult result = run("p8-variation", PathStyle::fixed_a,
-                                          l300g::Origin::nominal, TableKind::identified, seed);
+    const l300g::L300gResult result =
+        run("p8-variation", PathStyle::fixed_a, l300g::Origin::nominal, host::TableKind::identified,
+            seed);
     EXPECT_EQ(result.before.profile[0].grade_1995, 8) << seed;
     EXPECT_EQ(result.before.profile[1].grade_1995, 8) << seed;
     expect_total(result.after.profile, {5.61, 5.58, 4, 4}, kVaried_um);
@@ -158,7 +160,7 @@ TEST(L300g, SmallVariationIsCompensatedWhateverItsPhases) {
 
 // --- calibration and identification
 
-// Section 3; (0.277, 0.095, 0.156) σ of Y0, Z0, R_c.
+// docs/papers/l300g.md; (0.277, 0.095, 0.156) σ of Y0, Z0, R_c.
 TEST(L300g, ProbeCalibrationIsThatOfThePaper) {
   const l300g::MandrelCalibration good = run("none").calibration;
   EXPECT_EQ(good.y.size(), 162U);
@@ -235,7 +237,7 @@ TEST(L300g, JsonHoldsEveryPromisedFigure) {
 TEST(L300g, SameSeedSameFiguresOtherSeedOthers) {
   const auto figures = [](std::uint64_t seed) {
     return l300g::l300g_figures(run("p8-variation", PathStyle::fixed_a, l300g::Origin::nominal,
-                                    TableKind::identified, seed))
+                                    host::TableKind::identified, seed))
         .dump();
   };
   EXPECT_EQ(figures(7), figures(7));

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/experiments/any_machine/campaign.hpp"
 #include "host_sim/experiments/any_machine/figures.hpp"
-#include "host_sim/experiments/any_machine/truth.hpp"
+#include "host_sim/experiments/any_machine/report.hpp"
+#include "host_sim/sim/campaign/any_axes.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
+#include "host_sim/sim/truth/drawn_machine.hpp"
+#include "tests/host_sim/host/measure/picture_of_volume.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -63,9 +65,9 @@ std::vector<any_machine::PlaceReading> sphere_of(const host::MachineFile& file,
 }
 
 TrueMachine with_location(char axis, const ErrorMotion& location) {
-  TrueMachine truth = any_machine::ideal_machine(trunnion());
+  TrueMachine truth = sim::ideal_machine(trunnion());
   const std::size_t a = trunnion().axis_index(axis);
-  any_machine::set_location(trunnion().chain.axis(a), location, truth.axis[a]);
+  sim::set_location(trunnion().chain.axis(a), location, truth.axis[a]);
   return truth;
 }
 
@@ -125,13 +127,18 @@ TEST(MachineRun, ATiltedTableShowsTheLeverOfTheBall) {
 
 // What is left is that targets are rounded to a nanometre or 2.9 nrad.
 TEST(MachineRun, WithoutErrorsNothingIsOff) {
-  const any_machine::MachineResult result = run(trunnion(), any_machine::ideal_machine(trunnion()));
+  const any_machine::MachineResult result = run(trunnion(), sim::ideal_machine(trunnion()));
   EXPECT_LT(result.after.lines_max_um(), 1e-3);
   EXPECT_LT(result.after.volume.rms_um, 1e-3);
   EXPECT_LT(result.after.sphere_um().rms_um, 1e-3);
   EXPECT_LT(result.after.tilt_max_rad(), 5e-9);
   for (const any_machine::PlaceReading& r : result.after.place)
     EXPECT_EQ(r.offset, host::Offsets{});
+}
+
+TEST(MachineRun, VolumeIsDrawnAlignedAsItsFigureIs) {
+  const any_machine::MachineResult result = run(trunnion(), draw_machine(trunnion(), 1));
+  host::expect_aligned_picture(any_machine::machine_document(result, {"test", {}}));
 }
 
 // Rotary axes elsewhere, and nothing else: all of it is in the tables.
@@ -156,7 +163,7 @@ TEST(MachineRun, WhatTablesCanHoldIsPutRightToNanometres) {
   for (const host::MachineFile* file : {&trunnion(), &fork_head()}) {
     for (const std::uint64_t seed : {1U, 2U}) {
       const any_machine::MachineResult result =
-          run(*file, smooth(any_machine::draw_machine(*file, seed)), quick(seed));
+          run(*file, smooth(sim::draw_machine(*file, seed)), quick(seed));
       EXPECT_GT(result.before.lines_max_um(), 5.0) << file->name;
       EXPECT_GT(result.before.volume.max_um, 10.0) << file->name;
       EXPECT_GT(result.before.sphere_um().max_um, 10.0) << file->name;
@@ -171,7 +178,7 @@ TEST(MachineRun, WhatTablesCanHoldIsPutRightToNanometres) {
 // Three slides cannot turn a tool: what is reported is what was there.
 TEST(MachineRun, WithoutOrientingAxesTheDirectionOfTheToolIsReported) {
   const any_machine::MachineResult result =
-      run(fork_head(), smooth(any_machine::draw_machine(fork_head(), 1)));
+      run(fork_head(), smooth(sim::draw_machine(fork_head(), 1)));
   EXPECT_GT(result.before.tilt_max_rad(), 2e-5);
   EXPECT_NEAR(result.after.tilt_max_rad(), result.before.tilt_max_rad(), 1e-8);
   EXPECT_EQ(result.before.steerable_max_rad(), 0.0);
@@ -181,7 +188,7 @@ TEST(MachineRun, WithoutOrientingAxesTheDirectionOfTheToolIsReported) {
 TEST(MachineRun, OrientingAxesHoldTheDirectionOfTheTool) {
   for (const std::uint64_t seed : {1U, 2U}) {
     const any_machine::MachineResult result =
-        run(trunnion(), smooth(any_machine::draw_machine(trunnion(), seed)), quick(seed));
+        run(trunnion(), smooth(sim::draw_machine(trunnion(), seed)), quick(seed));
     EXPECT_GT(result.before.steerable_max_rad(), 5e-5);
     EXPECT_LT(result.after.steerable_max_rad(), 0.5e-6);
     int gripped = 0;
@@ -199,8 +206,7 @@ TEST(MachineRun, OrientingAxesHoldTheDirectionOfTheTool) {
 // may turn round without its command doing so: the largest reversal, seen from the first pose.
 TEST(MachineRun, AnyMachineIsPutRight) {
   for (const host::MachineFile* file : {&trunnion(), &fork_head()}) {
-    const any_machine::MachineResult result =
-        run(*file, any_machine::draw_machine(*file, 2), quick(2));
+    const any_machine::MachineResult result = run(*file, sim::draw_machine(*file, 2), quick(2));
     EXPECT_TRUE(any_machine::machine_verdict(result).ok) << any_machine::machine_summary(result);
     EXPECT_LT(result.after.volume.max_um, 1.5) << file->name;
     EXPECT_LT(result.after.sphere_um().max_um, 2.5) << file->name;
@@ -210,8 +216,7 @@ TEST(MachineRun, AnyMachineIsPutRight) {
 TEST(MachineRun, MachinesOfThePapersRunFromTheirFiles) {
   for (const char* name : {"xyfz", "l300g", "yk7280"}) {
     const host::MachineFile file = host::read_machine_file(host::bundled_machine(name));
-    const any_machine::MachineResult result =
-        run(file, any_machine::draw_machine(file, 3), quick(3));
+    const any_machine::MachineResult result = run(file, sim::draw_machine(file, 3), quick(3));
     EXPECT_TRUE(any_machine::machine_verdict(result).ok) << any_machine::machine_summary(result);
     EXPECT_EQ(result.before.sphere.empty(), std::string(name) == "xyfz");
   }
@@ -221,7 +226,7 @@ TEST(MachineRun, RealisticInstrumentsLeaveMicrometres) {
   any_machine::MachineOptions options = quick();
   options.noise = true;
   const any_machine::MachineResult result =
-      run(trunnion(), any_machine::draw_machine(trunnion(), 1), options);
+      run(trunnion(), sim::draw_machine(trunnion(), 1), options);
   EXPECT_TRUE(any_machine::machine_verdict(result).ok) << any_machine::machine_summary(result);
   EXPECT_GT(result.after.volume.max_um, 0.5);  // more than perfect instruments would leave
 }
@@ -233,7 +238,7 @@ TEST(MachineRun, OverTheBusTheSameComesOut) {
   file.correction.tick_hz = kBusCycleOfFive_hz;
   any_machine::MachineOptions options = quick();
   options.places = 15;
-  const TrueMachine truth = any_machine::draw_machine(file, 1);
+  const TrueMachine truth = sim::draw_machine(file, 1);
   const any_machine::MachineResult beside = run(file, truth, options);
   options.make_cell = bus_cells(file, kBusCycleOfFive_hz);
   const any_machine::MachineResult on_bus = run(file, truth, options);
@@ -254,19 +259,18 @@ TEST(MachineRun, OverTheBusTheSameComesOut) {
 
 // However the values are meant, the tables are the same.
 TEST(MachineRun, ConventionAndSideOfTheFileChangeNoTable) {
-  const TrueMachine truth = any_machine::draw_machine(trunnion(), 1);
-  host::CommissionOptions how = host::tables_only(host::ModelKind::abbe_closed);
+  const TrueMachine truth = sim::draw_machine(trunnion(), 1);
+  host::BuildOptions how = host::tables_only(host::ModelKind::abbe_closed);
   how.slope = SlopeFit::keep;
-  std::unique_ptr<host::Commissioned> first;
+  std::unique_ptr<host::BuiltTables> first;
   for (const Convention convention : {Convention::relative, Convention::body}) {
     for (const Side side : {Side::moving, Side::fixed}) {
       host::MachineFile file = trunnion();
       file.convention = convention;
       file.side = side;
       Random unused(0);
-      const Campaign campaign =
-          any_machine::measure_any_machine(truth, file, no_noise(), 1, unused);
-      auto tables = host::commission(campaign.machine, campaign.runs, how);
+      const Campaign campaign = sim::measure_any_machine(truth, file, no_noise(), 1, unused);
+      auto tables = host::build_tables(campaign.machine, campaign.runs, how);
       if (!first) {
         first = std::move(tables);
         continue;
@@ -288,8 +292,8 @@ TEST(MachineRun, ConventionAndSideOfTheFileChangeNoTable) {
 
 TEST(MachineRun, AFileWithItsErrorsAtTheReferenceHoldsThePlaceOfARotaryAxis) {
   Random unused(0);
-  const Campaign campaign = any_machine::measure_any_machine(with_location('C', only(1, 0.012)),
-                                                             trunnion(), no_noise(), 1, unused);
+  const Campaign campaign = sim::measure_any_machine(with_location('C', only(1, 0.012)), trunnion(),
+                                                     no_noise(), 1, unused);
   EXPECT_NEAR(campaign.machine.axes[4].at_reference(1), 0.012, 1e-9);
   EXPECT_NEAR(campaign.machine.axes[4].at_reference(0), 0.0, 1e-9);
   EXPECT_NEAR(campaign.machine.axes[3].at_reference.norm(), 0.0, 1e-9);

@@ -1,5 +1,5 @@
-// Points of the node, read over the bus: what was touched, where and how well; and what the user is
-// told of a touch that gave none.
+// Points of the node, read over the bus: what was touched, where and how well; and what is reported
+// of a touch that gave none.
 
 #include <gtest/gtest.h>
 
@@ -20,10 +20,11 @@ constexpr double kArmLevel = -39.025 * kPi / 180.0;
 // A wall that faces +Y, and the L300G with the errors P8 in front of it.
 class Bench {
  public:
-  explicit Bench(TableKind tables, std::vector<std::int64_t> bounces_ns = {})
+  explicit Bench(host::TableKind tables, std::vector<std::int64_t> bounces_ns = {})
       : truth_(l300g::make_l300g_truth(file_, l300g::grinder_errors("p8"), 1)) {
-    const MachineTables contents = tables_of(identify_axes(truth_, file_), file_,
-                                             file_.chain.description(), tables, kDefaultKnots);
+    const MachineTables contents =
+        host::tables_of(identify_axes(truth_, file_).found, file_, file_.chain.description(),
+                        tables, kDefaultKnots);
     auto axes = std::make_unique<BusAxes>(host::bus_settings(file_, kBusCycleOfFive_hz),
                                           host::make_image(contents));
     axes_ = axes.get();
@@ -31,7 +32,7 @@ class Bench {
     cell_ = std::make_unique<MotionCell>(truth_, std::move(axes));
     cell_->place(at(1.0));
     prober_ = std::make_unique<Prober>(*cell_, *axes_, file_);
-    prober_->configure(node_probe(file_));
+    prober_->configure(host::node_probe(file_));
   }
 
   // So far from touching the wall, as the machine believes.
@@ -63,26 +64,26 @@ class Bench {
   std::unique_ptr<Prober> prober_;
 };
 
-// P8 shows the ball 52 µm too far from the axis (seed 000 section 5.4, where the arm is swung a
-// little and it is 0.4 µm less); the tables know it.
+// P8 shows the ball 52 µm too far from the axis (0.4 µm less where the arm is swung a little); the
+// tables know it.
 TEST(Points, AreCorrectedByTheTablesOfTheNode) {
-  Bench raw(TableKind::none);
+  Bench raw(host::TableKind::none);
   EXPECT_NEAR(raw.touch().workpiece.y(), kWall_mm + 0.052, 5e-4);
-  Bench corrected(TableKind::identified);
+  Bench corrected(host::TableKind::identified);
   const NodePoint point = corrected.touch();
   EXPECT_EQ(point.verdict, TouchVerdict::point);
   EXPECT_NEAR(point.workpiece.y(), kWall_mm, 1e-5);
 }
 
 TEST(Points, WithoutANormalAreTheCentreOfTheBall) {
-  Bench bench(TableKind::identified);
+  Bench bench(host::TableKind::identified);
   const NodePoint point = bench.touch(Vec3::Zero());
   EXPECT_EQ(point.verdict, TouchVerdict::centre);
   EXPECT_NEAR(point.workpiece.y(), kWall_mm + bench.file().probe->radius_mm, 1e-5);
 }
 
 TEST(Points, AreReleasedOnceRead) {
-  Bench bench(TableKind::identified);
+  Bench bench(host::TableKind::identified);
   for (std::uint32_t i = 1; i <= 40; ++i)
     EXPECT_EQ(bench.touch().sequence, i) << "more than the node has room for";
   EXPECT_EQ(bench.axes().node()->objects().probe.waiting, 0U);
@@ -90,8 +91,8 @@ TEST(Points, AreReleasedOnceRead) {
 }
 
 TEST(Points, CarryTheUncertaintyTheyWereConfiguredWith) {
-  Bench bench(TableKind::identified);
-  NodeProbe probe = node_probe(bench.file());
+  Bench bench(host::TableKind::identified);
+  host::NodeProbe probe = host::node_probe(bench.file());
   probe.radius_uncertainty = 0.3e-3;
   probe.repeatability = 0.4e-3;
   bench.prober().configure(probe);
@@ -99,16 +100,16 @@ TEST(Points, CarryTheUncertaintyTheyWereConfiguredWith) {
 }
 
 TEST(Points, ABouncingProbeHasTouchedNothing) {
-  Bench soon(TableKind::identified, {50'000});
-  soon.touch();  // the first count that the node hears of has none before it to compare with
+  Bench soon(host::TableKind::identified, {50'000});
+  soon.touch();  // the first count that the node receives has none before it to compare with
   const std::string told = soon.refusal();
   EXPECT_NE(told.find("[double_edge]"), std::string::npos) << told;
-  Bench late(TableKind::identified, {9'000'000});
+  Bench late(host::TableKind::identified, {9'000'000});
   EXPECT_EQ(late.refusal(), "touches 1 and 2: two points of feature 1");
 }
 
 TEST(Points, ARejectedTouchIsToldWithNumberAxisAndReason) {
-  Bench bench(TableKind::identified);
+  Bench bench(host::TableKind::identified);
   bench.axes().break_probe_line(2, true);
   const std::string told = bench.refusal();
   EXPECT_EQ(told.rfind("touch 1, axis B: ", 0), 0U) << told;
@@ -118,8 +119,8 @@ TEST(Points, ARejectedTouchIsToldWithNumberAxisAndReason) {
 }
 
 TEST(Points, BadSettingsAreRefusedByName) {
-  Bench bench(TableKind::identified);
-  NodeProbe probe = node_probe(bench.file());
+  Bench bench(host::TableKind::identified);
+  host::NodeProbe probe = host::node_probe(bench.file());
   probe.radius.coefficient[0] = 30.0;
   EXPECT_THROW(bench.prober().configure(probe), host::UserError);
 }

@@ -3,6 +3,7 @@
 #
 #   toolchain/with-vcan tests/system/run_all.sh vcan    the node on a CAN interface of the kernel; vcan0 must be up
 #   tests/system/run_all.sh firmware                    the node as firmware in QEMU; presets m7 and m4 must be built
+#   tests/system/run_all.sh vm                          a shell in the virtual machine of toolchain/with-vcan
 #
 # VOLCOMP_BUILD is the folder with the programs under test (default build/host). The last line is the
 # summary of ctest, for who adds up.

@@ -50,7 +50,7 @@ class Grinder {
   [[nodiscard]] Vec3 ball_at(const Pose& q) const {
     return ideal_points(file_.chain, q, file_.chain.tool_point()).work;
   }
-  // Of all drives: 280h + n and 380h + n.
+  // Latch frames of all drives: 280h + n and 380h + n.
   [[nodiscard]] int latch_frames() const { return latch_frames_; }
   // 6064h of Y at the SYNC before and at the SYNC after the latch, then its 60BAh and 60D1h.
   struct Report {
@@ -100,7 +100,7 @@ Pose at_contact(const Pose& latch) {
   return q;
 }
 
-// The plane is where the latches say it is: half a unit of every encoder (1 nm; 0.5 nm at the arm)
+// The plane is where the latches show it: half a unit of every encoder (1 nm; 0.5 nm at the arm)
 // and 11 ns of the way to it.
 TEST(TouchOnTheBus, LatchesOfAllAxesLieOnThePlane) {
   const Plane plane(60.0 * Vec3::UnitY(), kNormal);
@@ -124,7 +124,7 @@ TEST(TouchOnTheBus, EveryDriveLatchesSoLateAsItIs) {
     EXPECT_EQ(latches[a].time_ns - latches[0].time_ns, 2000U * a);
 }
 
-// 60BAh lies between the 6064h of the SYNC before and the SYNC after it, where 60D1h says.
+// 60BAh lies between the 6064h of the SYNC before and the SYNC after it, at the time of 60D1h.
 TEST(TouchOnTheBus, LatchesAndActualPositionsAreOfOneWorld) {
   const Plane plane(60.0 * Vec3::UnitY(), kNormal);
   Grinder grinder(plane);

@@ -16,7 +16,7 @@ constexpr std::array<double, 3> kWarmer_K{3.0, -2.0, 1.5};
 
 // Tables of the machine at 20 °C, with what its scales do, good until 2030.
 std::vector<std::uint8_t> growing_image() {
-  MachineTables tables = bus_machine().commissioned->tables;
+  MachineTables tables = bus_machine().built->tables;
   tables.provenance.temperature_C = 20.0F;
   tables.provenance.expires_unix_s = k2030;
   for (std::size_t a = 0; a < kBusMachineAxes; ++a)

@@ -1,10 +1,11 @@
-// The campaign of seed 001 from end to end: what the project promises of it, on the simulated
-// machine.
+// The campaign of docs/papers/xyfz.md from end to end: what the project promises of it, on the
+// simulated machine.
 
 #include <gtest/gtest.h>
 
 #include "host_sim/experiments/xyfz/report.hpp"
 #include "host_sim/experiments/xyfz/scenario.hpp"
+#include "tests/host_sim/host/measure/picture_of_volume.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -31,7 +32,7 @@ const xyfz::XyfzResult& result() {
   return r;
 }
 
-// Seed 001 section 9: the two tuned figures are the paper's.
+// The two tuned figures are the paper's (docs/papers/xyfz.md, "How to reproduce").
 TEST(Xyfz, ShowsThePapersRawAndNaiveFiguresOnPnp) {
   EXPECT_NEAR(result().mode[0].body[kPnp].max_abs_um, 41.15, 0.01);
   EXPECT_NEAR(result().mode[1].body[kPnp].max_abs_um, 16.37,
@@ -40,7 +41,6 @@ TEST(Xyfz, ShowsThePapersRawAndNaiveFiguresOnPnp) {
   EXPECT_LE(result().rate(1), 63.0);
 }
 
-// Seed 001 section 10 B.
 TEST(Xyfz, ClosedModelRemovesNearlyEverythingWithoutNoise) {
   EXPECT_GE(result().rate_on_knots(3), 99.0);
   EXPECT_GE(result().rate(3), 98.0);
@@ -51,8 +51,7 @@ TEST(Xyfz, ClosedModelReachesThePapersRateWithRealisticInstruments) {
   EXPECT_GE(result().draws_reaching(87.07), 0.95);
 }
 
-// A single diagonal certifies nothing (section 10): all of them, the faces and the volume must be
-// good.
+// A single diagonal certifies nothing: all of them, the faces and the volume must be good.
 TEST(Xyfz, ClosedModelIsGoodOnEveryDiagonalFaceAndInTheVolume) {
   const xyfz::ModeResult& closed = result().mode[3];
   for (const MeasuredDiagonal& d : closed.body)
@@ -61,8 +60,7 @@ TEST(Xyfz, ClosedModelIsGoodOnEveryDiagonalFaceAndInTheVolume) {
   EXPECT_LT(closed.volume.max_um, 1.5);
 }
 
-// Section 9: the paper's variant is fine on the paper's diagonal and ten times worse on another
-// one.
+// The paper's variant is fine on the paper's diagonal and ten times worse on another one.
 TEST(Xyfz, PapersVariantHidesItsErrorOnOneDiagonal) {
   const xyfz::ModeResult& paper = result().mode[2];
   EXPECT_GE(result().rate(2), 87.07);
@@ -84,7 +82,11 @@ TEST(Xyfz, SquarenessOfTheTruthIsNotWhatTheBallBarReads) {
   const TrueMachine truth = xyfz::make_xyfz_truth(result().machine, xyfz::kXyfzMachineSeed, tuning);
   const double difference = truth.directions[0].y() - result().machine.squareness->measured.a_xy;
   EXPECT_GT(std::abs(difference),
-            5e-6);  // section 3.6: tens of µrad, which is why the closure exists
+            5e-6);  // tens of µrad, which is why the closure exists
+}
+
+TEST(Xyfz, VolumeIsDrawnAlignedAsItsFigureIs) {
+  host::expect_aligned_picture(xyfz::xyfz_document(result(), {"test", {}}));
 }
 
 TEST(Xyfz, LeverSelfTestPasses) {

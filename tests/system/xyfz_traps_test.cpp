@@ -1,5 +1,5 @@
-// Mistakes a commissioning engineer can make (seed 001, section 10 and addendum): every one must
-// show on PNP without the closure, and the closure must repair double counting and nothing else.
+// Mistakes a commissioning engineer can make (docs/papers/xyfz.md): every one must show on PNP
+// without the closure, and the closure must repair double counting and nothing else.
 
 #include <gtest/gtest.h>
 
@@ -25,9 +25,9 @@ class XyfzTraps : public testing::Test {
   }
 
   // Reduction of the PNP maximum, machine moving, noise-free.
-  static double rate(const host::MachineFile& as_believed, host::CommissionOptions options) {
+  static double rate(const host::MachineFile& as_believed, host::BuildOptions options) {
     options.bound = false;
-    const auto tables = host::commission(as_believed, campaign->runs, options);
+    const auto tables = host::build_tables(as_believed, campaign->runs, options);
     return improvement_percent(pnp_um({}), pnp_um(host::make_image(tables->tables)));
   }
 
@@ -81,7 +81,7 @@ TEST_F(XyfzTraps, SquarenessCountedTwice) {
   EXPECT_LT(rate(campaign->machine, {host::ModelKind::abbe, SlopeFit::keep}), 87.0);
 }
 
-// Section 5.4: the closure absorbs any slope choice, so that nothing is counted twice.
+// The closure absorbs any slope choice, so that nothing is counted twice.
 TEST_F(XyfzTraps, ClosureRepairsDoubleCountingButNotTheSignOfALever) {
   const double good = rate(campaign->machine, {host::ModelKind::abbe_closed});
   EXPECT_NEAR(rate(campaign->machine, {host::ModelKind::abbe_closed, SlopeFit::keep}), good, 0.2);
@@ -93,7 +93,7 @@ TEST_F(XyfzTraps, ClosureRepairsDoubleCountingButNotTheSignOfALever) {
   EXPECT_LT(rate(wrong, {host::ModelKind::abbe_closed}), kPaper);
 }
 
-// Section 9: closure is what makes the rate robust, whatever the machine.
+// Closure is what makes the rate robust, whatever the machine.
 TEST_F(XyfzTraps, ClosureIsRobustOverMachinesThePapersVariantIsNot) {
   int closed_good = 0;
   int paper_good = 0;
@@ -108,7 +108,7 @@ TEST_F(XyfzTraps, ClosureIsRobustOverMachinesThePapersVariantIsNot) {
     const Campaign measured = perfect_campaign(other, *file);
     const auto worst_of = [&](host::ModelKind kind) {
       const auto tables =
-          host::commission(measured.machine, measured.runs, host::tables_only(kind));
+          host::build_tables(measured.machine, measured.runs, host::tables_only(kind));
       const auto cell =
           make_integrated_cell(other, file->correction, host::make_image(tables->tables));
       const DiagonalBox box = travel_box(*file);

@@ -2,7 +2,7 @@
 
 namespace volcomp::target {
 
-// Says why and ends the emulator with exit code 1: a check failed.
+// Prints why and ends the emulator with exit code 1: a check failed.
 [[noreturn]] void stop(const char* sentence);
 
 }  // namespace volcomp::target

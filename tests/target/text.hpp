@@ -1,6 +1,6 @@
 #pragma once
 // Text on the serial line of the board: what the images of this folder report with. No heap, no
-// printf (whose floating-point half allocates).
+// printf (its floating-point half allocates).
 
 #include <cstddef>
 #include <cstdint>

@@ -24,7 +24,7 @@ install(FILES firmware/embed/cpp/axis_port.hpp firmware/embed/cpp/servo_loop.hpp
   DESTINATION "${volcomp_headers}/firmware/embed/cpp" COMPONENT dev)
 install(FILES firmware/embed/c/volcomp.h DESTINATION "${volcomp_headers}" COMPONENT dev)
 # LinuxCNC's components are built on the machine they run on.
-install(FILES firmware/embed/linuxcnc/volcomp.c firmware/embed/linuxcnc/Makefile
+install(FILES firmware/embed/linuxcnc/volcomp.c firmware/embed/linuxcnc/volcomp.hal firmware/embed/linuxcnc/Makefile
   DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp/linuxcnc" COMPONENT dev)
 
 configure_package_config_file(toolchain/cmake/volcomp-config.cmake.in "${volcomp_made}/volcomp-config.cmake"
@@ -47,8 +47,8 @@ if(VOLCOMP_BUILD_HOST_SIM)
     DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp" COMPONENT tools)
 endif()
 
-# What the program says about itself, where man and shells look for it (zsh and fish: Debian's folders). Instrumented
-# programs are not installed.
+# Manual page and completions of the program, where man and shells look for them (zsh and fish: Debian's folders).
+# Instrumented programs are not installed.
 if(VOLCOMP_BUILD_HOST_SIM AND NOT VOLCOMP_SANITIZE AND NOT VOLCOMP_COVERAGE AND NOT VOLCOMP_FUZZ)
   file(MAKE_DIRECTORY "${volcomp_made}")
   add_custom_command(

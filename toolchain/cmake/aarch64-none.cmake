@@ -11,9 +11,9 @@ set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 set(CMAKE_ASM_COMPILER aarch64-linux-gnu-gcc)
 
-# The atomic read-modify-write helpers of libgcc ask the Linux kernel what the processor can do: -mno-outline-atomics.
-# Every function and object in a section of its own, so that the linker leaves out what nobody uses. -fstack-usage
-# writes the frame of every function beside its object file; -g is for the debugger.
+# The atomic read-modify-write helpers of libgcc query the Linux kernel for the processor's features:
+# -mno-outline-atomics. Every function and object in a section of its own, so that the linker leaves out what is not
+# used. -fstack-usage writes the frame of every function beside its object file; -g is for the debugger.
 set(CMAKE_CXX_FLAGS_INIT
   "-mcpu=cortex-a53 -mno-outline-atomics -fno-pie -fno-stack-protector -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage -g")
 set(CMAKE_ASM_FLAGS_INIT "-mcpu=cortex-a53 -g")

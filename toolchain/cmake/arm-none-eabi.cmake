@@ -19,9 +19,9 @@ set(CMAKE_C_COMPILER arm-none-eabi-gcc)
 set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_ASM_COMPILER arm-none-eabi-gcc)
 
-# Every function and object in a section of its own, so that the linker leaves out what nobody uses.
-# -Wno-psabi: one compiler makes the whole image, so an interface that differed before GCC 7.1 concerns nobody.
-# -fstack-usage writes the frame of every function beside its object file; -g is for the debugger and costs no flash.
+# Every function and object in a section of its own, so that the linker leaves out what is not used. -Wno-psabi: one
+# compiler makes the whole image, so an interface that differed before GCC 7.1 does not matter. -fstack-usage writes the
+# frame of every function beside its object file; -g is for the debugger and costs no flash.
 set(CMAKE_CXX_FLAGS_INIT
   "${volcomp_cpu} -ffunction-sections -fdata-sections -fno-use-cxa-atexit -fno-unwind-tables -fno-asynchronous-unwind-tables -fstack-usage -g -Wno-psabi")
 set(CMAKE_ASM_FLAGS_INIT "${volcomp_cpu} -g")

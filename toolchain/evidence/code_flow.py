@@ -10,7 +10,7 @@ import subprocess
 import instructions
 from failure import Failure
 
-WIDE = ("bl", "tbb", "tbh")  # where nothing follows that tells
+WIDE = ("bl", "tbb", "tbh")  # where no following code shows it
 LINE = re.compile(r"^\s*([0-9a-f]+):\t(\S+)(?:\t(.*))?$")
 
 
@@ -53,7 +53,7 @@ class CodeFlow:
         self._routines = {}
 
     def routine(self, entry):
-        """Of the code at an entry; each is followed once."""
+        """The routine at an entry; each is followed once."""
         if entry not in self._routines:
             self._routines[entry] = Routine(entry, returns=True)  # while a cycle is being followed
             self._routines[entry] = self._follow(entry)

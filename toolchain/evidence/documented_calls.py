@@ -35,12 +35,13 @@ class PointerCall:
 
 
 CALLS = (
-    VirtualCall(r"volcomp::canopen::Device::.*", r"volcomp::node::Node",
-                "canopen::Application: the device hands events and its own objects to the node"),
-    VirtualCall(r"volcomp::canopen::SdoServer::.*", r"volcomp::canopen::Device",
+    VirtualCall(r"volcomp::canopen::SdoServer::.*", r"volcomp::canopen::Device<volcomp::node::Node>",
                 "canopen::ObjectAccess: the SDO server reads and writes objects of the device"),
-    VirtualCall(r"volcomp::node::Node::(save|load|restore|erase)\w*\(.*", r"volcomp::node::RecordStorage<.*>",
+    VirtualCall(r"volcomp::node::StorePart::(load|save_record|erase_records)\(.*", r"volcomp::node::RecordStorage<.*>",
                 "node::Storage: tables and settings in non-volatile memory"),
-    VirtualCall(r"volcomp::node::(Preemptible::~?Preemptible|ProbePath::point_of|FlankProbe::derive_gear)\(.*", r"volcomp::node::NodeTask<.*>",
+    VirtualCall(r"volcomp::node::(Preemptible::~?Preemptible|ProbePath::point_of|FlankProbe::derive_gear|Node::reset_\w+|"
+                r"ScrubPart::read_slices|StorePart::(save_record|erase_records))\(.*", r"volcomp::node::NodeTask<.*>",
                 "node::Preemption: lets the tick in while the background works for long"),
+    PointerCall(r"volcomp::canopen::Pdo::configure\(.*", r"volcomp::node::arrival_of\(.*",
+                "canopen::Dictionary::arrival: what the values of a PDO mean to the node"),
 )

@@ -1,4 +1,4 @@
-"""What an ELF file of 32 or 64 bits, little-endian, says about itself: sections, symbols, bytes.
+"""Reads an ELF file of 32 or 64 bits, little-endian: sections, symbols, bytes.
 
 Format: System V ABI, "Object Files"; Thumb bit of function symbols: ELF for the Arm Architecture (IHI 0044), 5.5.3.
 """

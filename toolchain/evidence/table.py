@@ -1,4 +1,4 @@
-"""The figures as Markdown, for README and for reading."""
+"""The figures as Markdown, for docs/evidence.md and for reading."""
 from budgets import NODE_FLASH, SPREAD, STACK_OF_TICK, TICKS, TOUCH, TOUCHES
 
 BEGIN, END = "<!-- evidence: made by toolchain/evidence.sh --write -->", "<!-- end of evidence -->"
@@ -19,22 +19,22 @@ def limit(value):
     return "–" if value is None else number(value)
 
 
-def judged(text, value, must):
-    """Marked when it is over its must."""
-    return f"**{text}**" if must is not None and value > must else text
+def judged(text, value, budget):
+    """Marked when it is over its budget."""
+    return f"**{text}**" if budget is not None and value > budget else text
 
 
 def ticks(boards):
     body = []
-    for variant, (name, must, aim, _) in TICKS.items():
+    for variant, (name, budget, target, _) in TICKS.items():
         spans = [(boards[b]["ticks"][variant]["min"], boards[b]["ticks"][variant]["max"]) for b in BOARDS]
-        body.append([name, *[judged(f"{number(least)} … {number(most)}", most, must) for least, most in spans], limit(must), limit(aim)])
+        body.append([name, *[judged(f"{number(least)} … {number(most)}", most, budget) for least, most in spans], limit(budget), limit(target)])
     spread = [max(t["max"] - t["min"] for v, t in boards[b]["ticks"].items() if TICKS[v][1]) for b in BOARDS]
     bound, seen = ([max(t[key] for t in boards[b]["ticks"].values()) for b in BOARDS] for key in ("stack_bound", "stack_painted"))
-    body.append(["most − least of a machine with a must", *[judged(str(s), s, SPREAD) for s in spread], limit(SPREAD), "–"])
+    body.append(["most − least of a machine with a budget", *[str(s) for s in spread], "–", limit(SPREAD)])
     body.append(["stack, bytes: proven / seen", *[judged(f"{b} / {s}", b, STACK_OF_TICK) for b, s in zip(bound, seen)],
                  limit(STACK_OF_TICK), "–"])
-    return rows(["whole tick, instructions, least … most", *BOARDS.values(), "must", "aim"], body)
+    return rows(["whole tick, instructions, least … most", *BOARDS.values(), "budget", "target"], body)
 
 
 def images(evidence):
@@ -55,7 +55,7 @@ def images(evidence):
             ["node: stack, bytes: reserved", *of("node", "stack", "reserved"), "–", "–"],
             ["integrated servo loop: flash, bytes", *of("servo", "flash"), "–", "–"],
             ["integrated servo loop: RAM, bytes", *of("servo", "ram"), "–", "–"]]
-    return rows(["images", *BOARDS.values(), "Cortex-A53", "must"], body)
+    return rows(["images", *BOARDS.values(), "Cortex-A53", "budget"], body)
 
 
 def services(boards):
@@ -75,21 +75,21 @@ def services(boards):
 
 
 def touches(boards):
-    must, aim = TOUCH["m7"]
+    budget, target = TOUCH["m7"]
     body = []
     for machine, name in TOUCHES.items():
         cost = {b: boards[b]["touches"][machine] for b in BOARDS}
-        body.append([f"{name}: from the complete latch to the point", judged(number(cost["m7"]["point"]), cost["m7"]["point"], must),
-                     number(cost["m4"]["point"]), limit(must), limit(aim)])
+        body.append([f"{name}: from the complete latch to the point", judged(number(cost["m7"]["point"]), cost["m7"]["point"], budget),
+                     number(cost["m4"]["point"]), limit(budget), limit(target)])
         body.append([f"{name}: reports of the drives, cycle with an edge / without", *[f"{number(cost[b]['collect'])} / {number(cost[b]['quiet'])}"
                                                                                      for b in BOARDS], "–", "–"])
     for key, text in {"judge": "face gear: judgement of a touch on a flank, background", "derive": "face gear: its constants, background"}.items():
         body.append([text, *[number(boards[b]["touches"]["flank"][key]) for b in BOARDS], "–", "–"])
-    return rows(["touch, instructions, at most", *BOARDS.values(), "must, M7", "aim"], body)
+    return rows(["touch, instructions, at most", *BOARDS.values(), "budget, M7", "target"], body)
 
 
 def strokes(boards):
-    """Of the boards that watch strokes; the others have no memory for it."""
+    """Rows of the boards that watch strokes; the others have no memory for it."""
     def of(part, text):
         return [text(boards[b]["strokes"][part]) if boards[b]["strokes"] else "–" for b in BOARDS]
 
@@ -113,7 +113,7 @@ def markdown(evidence):
     seen = (f"{number(counted['any'])} ticks of ordinary operation each; XYFZ saw {number(counted['segment'])} ticks with a segment border, "
             f"{number(counted['reversal'])} reversals, {number(counted['clamp'])} clamps, {counted['swap']} exchanges of tables with "
             f"{number(counted['ramp'])} ticks of ramp.")
-    text = [f"{seen} Bold: over its must. {evidence['tables']}. {evidence['compiler']}, `{evidence['flags']}`; QEMU counts instructions, exactly, not cycles.",
+    text = [f"{seen} Bold: over its budget. {evidence['tables']}. {evidence['compiler']}, `{evidence['flags']}`; QEMU counts instructions, exactly, not cycles.",
             "", *ticks(boards), "", *touches(boards), "", *strokes(boards), "", *services(boards), "", *images(evidence), "",
             f"llvm-mca estimates {kernel['cycles']} cycles on a Cortex-M7 for the {kernel['instructions']} instructions of the folded kernel, "
             "memory that answers at once assumed."]

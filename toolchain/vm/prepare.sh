@@ -4,7 +4,7 @@
 # Debian's kernel package is downloaded and unpacked, never installed; that needs no root.
 
 readonly vm_folder=build/vm
-readonly vm_modules=(virtio_pci 9pnet_virtio 9p vcan can-raw can-bcm slcan)
+readonly vm_modules=(virtio_pci virtio_console 9pnet_virtio 9p vcan can-raw can-bcm slcan)
 
 # vm_image: the folder with "kernel" and "initramfs"; its name changes with the files that make it.
 vm_image() {
@@ -13,7 +13,7 @@ vm_image() {
   printf '%s/image-%s\n' "$vm_folder" "${fingerprint:0:12}"
 }
 
-# prepare_vm: returns at once if the image is there; waits if somebody else is making it.
+# prepare_vm: returns at once if the image is there; waits if another process is making it.
 prepare_vm() {
   local image
   image=$(vm_image)

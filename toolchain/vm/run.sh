@@ -2,19 +2,22 @@
 # shellcheck shell=bash
 #
 # A folder of its own, shared with the guest, holds the command, its output and its exit code, so that
-# several machines do not meet. The other side is toolchain/vm/init.
+# several machines do not meet. Input and a terminal go through a device. The other side is toolchain/vm/init.
 # shellcheck source=toolchain/vm/prepare.sh
 . toolchain/vm/prepare.sh
 
 # run_in_vm FOLDER COMMAND...: ends the script with the exit code of the command.
 run_in_vm() {
-  local limit_s=${VOLCOMP_VM_TIMEOUT:-600} ended=0
+  local limit_s ended=0
+  find_input
+  limit_s=${VOLCOMP_VM_TIMEOUT:-$([ "$input" = terminal ] && echo 86400 || echo 600)}
   [[ $limit_s =~ ^[1-9][0-9]*$ ]] || die "VOLCOMP_VM_TIMEOUT must be a whole number of seconds, not \"$limit_s\"."
   run=$(mktemp -d "$PWD/$vm_folder/run-XXXXXX")
   trap end_run EXIT
   trap 'exit 130' INT
   trap 'exit 143' TERM HUP
   write_orders "$@"
+  take_input
 
   boot_machine "$limit_s" &
   machine=$!
@@ -26,18 +29,49 @@ run_in_vm() {
   finish "$ended" "$limit_s"
 }
 
+# find_input: "terminal" for a person who types and reads, "stream" for a pipe or file, "none" where nothing can be
+# read: a closed input, or a terminal that is another's to read from or shows nothing of this.
+find_input() {
+  input=none
+  if [ -t 0 ] && [ -t 1 ] && in_foreground; then
+    input=terminal
+  elif [ -e /proc/self/fd/0 ] && [ ! -t 0 ]; then
+    input=stream
+  fi
+}
+
+# The process group of this script is the one that the terminal listens to: fields 5 and 8 of proc(5).
+in_foreground() {
+  local stat
+  read -r -a stat < "/proc/$$/stat"
+  [ "${stat[4]}" = "${stat[7]}" ]
+}
+
+# Descriptors 3 and 4 are what the machine reads and writes as its standard streams.
+take_input() {
+  exec 3< /dev/null 4> "$run/machine"
+  [ "$input" = none ] || exec 3<&0
+  if [ "$input" = terminal ]; then
+    exec 4>&1
+    terminal_settings=$(stty -g)
+  fi
+}
+
 # One file of output and errors, if they go to one place here: so their order is kept.
 write_orders() {
   printf '%s\n' "$PWD" > "$run/project"
+  printf '%s\n' "$input" > "$run/input"
+  [ "$input" != terminal ] || stty size > "$run/size"
   guest_script "$@" > "$run/command"
   : > "$run/output"
   [ /dev/stdout -ef /dev/stderr ] || : > "$run/errors"
 }
 
 guest_script() {
-  local folder=$1 name
+  local folder=$1 name terminal=dumb
   shift
-  printf 'export PATH=%q HOME=/tmp LANG=C.UTF-8 TERM=dumb\n' "/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin:$PATH"
+  [ "$input" != terminal ] || terminal=${TERM:-dumb}
+  printf 'export PATH=%q HOME=/tmp LANG=C.UTF-8 TERM=%q\n' "/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin:$PATH" "$terminal"
   for name in "${!VOLCOMP_@}"; do
     printf 'export %s=%q\n' "$name" "${!name}"
   done
@@ -51,19 +85,30 @@ share() {
   printf 'local,id=%s,path=%s,security_model=none,multidevs=remap%s' "$1" "${2//,/,,}" "${3:-}"
 }
 
-# Emulation, even where /dev/kvm exists: nested in another virtual machine it is not to be relied on.
+# Keys that mean something to a terminal, Ctrl+C above all, are the guest's.
+input_device() {
+  local device=virtserialport
+  [ "$input" != none ] || return 0
+  [ "$input" != terminal ] || device=virtconsole
+  printf '%s\n' -chardev stdio,id=input,signal=off -device virtio-serial-pci -device "$device,chardev=input"
+}
+
+# Emulation, even where /dev/kvm exists: nested in another virtual machine it is not to be relied on. On a busy
+# computer the kernel's check of its timer fails and would stop it.
 boot_machine() {
-  local image
+  local image devices
   image=$(vm_image)
-  exec timeout --kill-after=5 "$1" qemu-system-x86_64 \
+  mapfile -t devices < <(input_device)
+  # In a process group of its own it could not read the terminal.
+  exec timeout --foreground --kill-after=5 "$1" qemu-system-x86_64 \
     -nodefaults -no-user-config -no-reboot -display none -machine q35,hpet=off \
     -accel tcg,thread=multi -cpu max -smp 2 -m 1024 -serial "file:$run/console" \
     -kernel "$image/kernel" -initrd "$image/initramfs" \
-    -append 'console=ttyS0 quiet panic=-1 mitigations=off nokaslr random.trust_cpu=on tsc=reliable' \
+    -append 'console=ttyS0 quiet panic=-1 mitigations=off nokaslr random.trust_cpu=on tsc=reliable no_timer_check' \
     -fsdev "$(share host / ,readonly=on)" -device virtio-9p-pci,fsdev=host,mount_tag=host \
     -fsdev "$(share project "$PWD")" -device virtio-9p-pci,fsdev=project,mount_tag=project \
     -fsdev "$(share run "$run")" -device virtio-9p-pci,fsdev=run,mount_tag=run \
-    < /dev/null > "$run/machine" 2>&1
+    "${devices[@]}" <&3 >&4 2>> "$run/machine"
 }
 
 # Prints what the file gets until the machine has ended.
@@ -87,5 +132,7 @@ end_run() {
     kill "$machine" 2> /dev/null || true
     wait
   fi
+  # The terminal may be gone.
+  [ -z "${terminal_settings:-}" ] || stty "$terminal_settings" 2> /dev/null || true
   rm -rf "$run"
 }

@@ -1,10 +1,10 @@
 #pragma once
-// The point of a patch nearest to a given one, and the signed distance from it. Seed 002 section 6.
+// The point of a patch nearest to a given one, and the signed distance from it.
 //
-// Newton's method is the one to use. The paper's subdivision stands beside it for comparison: it
-// takes ten times as many evaluations, returns a distance without sign, and may lose the nearest
-// point: in the nodes of the paper's Table 3 it is up to 0.14 µm off with 10 × 10 cells, 20 µm with
-// 4 × 4.
+// Newton's method is the one to use. The subdivision of the paper (docs/papers/face-gear.md) stands
+// beside it for comparison: it takes ten times as many evaluations, returns a distance without
+// sign, and may lose the nearest point: in the nodes of the paper's Table 3 it is up to 0.14 µm off
+// with 10 × 10 cells, 20 µm with 4 × 4.
 
 #include "comp/metrology/faces/spline_patch.hpp"
 

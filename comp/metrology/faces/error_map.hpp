@@ -1,6 +1,6 @@
 #pragma once
 // The error map of a face-gear flank: deviations over the measuring grid, positive for excess
-// material, in the unit of the input. Cells may be missing. Seed 002 sections 7 and 9.
+// material, in the unit of the input. Cells may be missing. See docs/papers/face-gear.md.
 //
 // Rows and columns count from 0 here, from 1 in the paper's tables and in what a user reads.
 

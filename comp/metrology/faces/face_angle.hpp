@@ -1,6 +1,6 @@
 #pragma once
-// Where a face gear stands on the turntable, from one ball that touches one flank. Seed 002
-// section 5.
+// Where a face gear stands on the turntable, from one ball that touches one flank
+// (docs/papers/face-gear.md, "What we do").
 
 #include "comp/probe/face_kernel.hpp"
 

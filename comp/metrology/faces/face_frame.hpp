@@ -1,6 +1,6 @@
 #pragma once
 // The frame of a face gear from many touches: the motion that brings all balls onto their flanks,
-// least Σ(distance − radius)². Seed 002 section 5.
+// least Σ(distance − radius)² (docs/papers/face-gear.md, "What we do").
 
 #include <cstddef>
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace volcomp {
 
-// What of the frame is looked for. Only these sets of motions follow from each other to the same
-// place whatever the order; the remaining coordinates keep still.
+// Which motions of the frame are fitted. Only these sets of motions follow from each other to the
+// same place whatever the order; the remaining coordinates keep still.
 enum class FrameFreedom : std::uint8_t {
   turn,        // about the gear axis
   shift,       // x, y, z
@@ -29,7 +29,7 @@ struct FaceTouchPoint {
 
 struct FaceFrameSettings {
   FrameFreedom freedom = FrameFreedom::turn;
-  double ball_radius = 0.0;  // mm, > 0; on one side alone it cannot be told from a turn
+  double ball_radius = 0.0;  // mm, > 0; on one side alone it is indistinguishable from a turn
   bool relieved = true;      // false: leave the tip relief of the gear out
   double sigma = 0.004;      // standard deviation to expect of a touch, probe and form, mm
 };
@@ -54,8 +54,8 @@ struct FaceFrame {
 
 inline constexpr int kMaxFrameSteps = 12;
 
-// Of touches that already stand where they are in the gear frame. Refused: too_few_points (none),
-// and, with the index, what the distance of a point is refused for.
+// Observability of touches already given in the gear frame. Refused: too_few_points (none), and,
+// with the index, what the distance of a point is refused for.
 Status face_observability(const FaceGear& gear, Span<const FaceTouchPoint> points,
                           const FaceFrameSettings& settings, FaceObservability& out);
 

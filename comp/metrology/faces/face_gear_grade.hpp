@@ -1,5 +1,6 @@
 #pragma once
-// Grades of a face gear by the deviation of its profile. Seed 002 section 9.
+// Grades of a face gear by the deviation of its profile (docs/papers/face-gear.md, "What stays
+// open").
 //
 // Two limits are all the paper quotes, with GB 11365-1989 as their source; the standard was not at
 // hand, so neither they nor the definition of the deviation are checked.

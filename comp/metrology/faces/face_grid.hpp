@@ -1,6 +1,6 @@
 #pragma once
 // The points of a flank of a face gear that are measured: 7 rows from tip to root by 15 columns
-// from the inside out. Seed 002 section 3.
+// from the inside out (docs/papers/face-gear.md).
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 #pragma once
 // Two measurements of the same flanks: how far they differ, and how much of the difference is
-// only a frame that was not quite the same. Seed 002 section 10.
+// only a frame that was not quite the same (docs/papers/face-gear.md, "How to reproduce").
 
 #include <array>
 #include <cstddef>
@@ -46,10 +46,10 @@ struct FrameShare {
   double rms_before = 0.0;
   double rms_after = 0.0;
   double explained = 0.0;  // share of the sum of squares, 0…1
-  int rank = 0;            // combinations the points can tell apart
+  int rank = 0;            // combinations the points distinguish
 };
 
-// Least squares over n·t + (p × n)·w + constant of the flank. What the points cannot tell apart —
+// Least squares over n·t + (p × n)·w + constant of the flank. What the points do not distinguish —
 // a turn about the gear axis and the constants of a flank, for instance — is shared out by the
 // pseudo-inverse: the smallest motion that does it, rotations measured at the mean radius of the
 // points. `flanks`: one or two. Refused: too_few_points (count of flanks), length_mismatch (index

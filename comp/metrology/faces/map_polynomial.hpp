@@ -1,6 +1,6 @@
 #pragma once
-// A smooth surface through an error map: least-squares polynomial in row and column. Seed 002
-// section 7 (eq. 31).
+// A smooth surface through an error map: least-squares polynomial in row and column
+// (docs/papers/face-gear.md, eq. 31).
 
 #include <array>
 #include <cstddef>
@@ -23,7 +23,8 @@ inline constexpr std::size_t kMaxMapTerms = 15;  // x^i y^j with i + j ≤ kMaxM
 
 struct MapPolynomial {
   int degree = 0;
-  // Of 1, x, y, x², xy, y², x³ … with x the scaled row and y the scaled column; unit of the map.
+  // Factors of 1, x, y, x², xy, y², x³ … with x the scaled row and y the scaled column; unit of the
+  // map.
   std::array<double, kMaxMapTerms> coefficient{};
   double rms = 0.0;  // of what is left, over all cells that are there
 

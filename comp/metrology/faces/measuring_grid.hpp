@@ -1,6 +1,6 @@
 #pragma once
 // The grid of points a face-gear flank is measured in: 7 rows along the profile, 15 columns along
-// the face width. Row 1 and column 1 of a table are index 0 here. Seed 002 sections 3 and 6.
+// the face width. Row 1 and column 1 of a table are index 0 here. See docs/papers/face-gear.md.
 
 #include <array>
 #include <cstddef>

@@ -4,7 +4,7 @@
 //
 // Places run from 0 to 1. The knots inside are means of three parameters, U_(j+3) = (t_j + t_(j+1)
 // + t_(j+2))/3, so that every function has a node of its own and the collocation matrix has an
-// inverse (Schoenberg and Whitney). Seed 002 section 6.
+// inverse (Schoenberg and Whitney).
 
 #include <algorithm>
 #include <array>
@@ -80,7 +80,7 @@ class SplineBasis {
     }
   }
 
-  // Of functions of degree p, given what stands for them one degree lower.
+  // Derivatives of functions of degree p from the values one degree lower.
   [[nodiscard]] std::array<double, 4> derivative(const std::array<double, 4>& low, std::size_t s,
                                                  std::size_t p) const {
     std::array<double, 4> d{};

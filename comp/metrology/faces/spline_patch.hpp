@@ -1,10 +1,9 @@
 #pragma once
 // A flank that is known as a grid of points: bicubic, clamped B-spline patch through all of them,
-// u along the profile (rows), v along the face width (columns), both 0…1. Seed 002 section 6 and
-// its addendum.
+// u along the profile (rows), v along the face width (columns), both 0…1.
 //
-// Between the nodes of the decoded gear of the paper's Table 3 it keeps within 0.12 µm of a flank
-// without relief, and within 1.2 µm of the relieved one, whose curvature jumps.
+// Between the nodes of the decoded gear of Table 3 (docs/papers/face-gear.md) it keeps within 0.12
+// µm of a flank without relief, and within 1.2 µm of the relieved one, whose curvature jumps.
 
 #include <cstdint>
 

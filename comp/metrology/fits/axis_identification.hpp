@@ -1,7 +1,7 @@
 #pragma once
-// Error functions of one axis after the other from targets that each axis carries (seed 000 section
-// 2.2): the axis stands at its nodes, all others at a reference pose, where they are an erroneous,
-// already identified parent.
+// Error functions of one axis after the other from targets that each axis carries
+// (docs/papers/l300g.md, "What we do"): the axis stands at its nodes, all others at a reference
+// pose, where they are an erroneous, already identified parent.
 
 #include "comp/machine/machine_chain.hpp"
 #include "comp/metrology/fits/rigid_fit.hpp"
@@ -34,7 +34,7 @@ Status check_order(const MachineChain& chain, std::size_t nc_axis, std::uint32_t
 [[nodiscard]] Frame actual_frame(const MachineChain& chain, const BodyPath& path, std::size_t count,
                                  const Pose& q, const ErrorSet& errors);
 
-// Piecewise linear between nodes, held outside; `held` says that q is outside. At least one node.
+// Piecewise linear between nodes, held outside; `held`: q is outside. At least one node.
 [[nodiscard]] ErrorMotion interpolate_motion(Span<const double> nodes,
                                              Span<const ErrorMotion> motion, double q, bool& held);
 

@@ -1,9 +1,9 @@
 #pragma once
 // Circles through measured points of a plane, mm: probe calibration on a mandrel.
 //
-// The geometric fit is the answer; the algebraic ones are where it starts and what textbooks print.
-// Points are centred first: the normal equations as printed are badly conditioned far from the
-// origin (seed 000 section 3).
+// The geometric fit is the result; the algebraic ones start it and are what textbooks print. Points
+// are centred first: the normal equations printed in the paper of docs/papers/l300g.md are badly
+// conditioned far from the origin.
 
 #include <cstddef>
 
@@ -31,7 +31,7 @@ struct CircleFit {
 };
 
 // `y` and `z`: coordinates of the same points. Refused, in this order: length_mismatch,
-// too_few_points (fewer than 3), not_finite (index), coincident, collinear. Seed 000 section 3.
+// too_few_points (fewer than 3), not_finite (index), coincident, collinear.
 Status fit_circle(Span<const double> y, Span<const double> z, CircleFit& out);
 
 }  // namespace volcomp

@@ -1,6 +1,6 @@
 #pragma once
 // The effective radius of a probe's ball from the circle that its centre describes around a mandrel
-// (seed 000 section 3; the paper's eq. 9 subtracts the ball where it should subtract the mandrel).
+// (docs/papers/l300g.md; eq. 9 of the paper subtracts the ball instead of the mandrel).
 
 #include "comp/metrology/fits/circle_fit.hpp"
 

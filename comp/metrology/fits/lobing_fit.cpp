@@ -30,8 +30,19 @@ class NormalEquations {
       known |= 1U << i;
       matrix_[i][i] = std::sqrt(matrix_[i][i]);
     }
-    substitute(known, coefficient);
+    coefficient = substituted(known, right_);
     return known;
+  }
+
+  // Diagonal of the inverse, after solve().
+  [[nodiscard]] LobingTerms inverse_diagonal(std::uint32_t known) const {
+    LobingTerms diagonal{};
+    for (std::size_t i = 0; i < kLobingTerms; ++i) {
+      LobingTerms unit{};
+      unit[i] = 1.0;
+      if (has(known, i)) diagonal[i] = substituted(known, unit)[i];
+    }
+    return diagonal;
   }
 
  private:
@@ -44,16 +55,16 @@ class NormalEquations {
     if (k < i && has(known, k)) matrix_[i][k] /= matrix_[k][k];
   }
 
-  void substitute(std::uint32_t known, LobingTerms& coefficient) const {
+  [[nodiscard]] LobingTerms substituted(std::uint32_t known, const LobingTerms& right) const {
     LobingTerms y{};
     for (std::size_t i = 0; i < kLobingTerms; ++i) {
       if (!has(known, i)) continue;
-      y[i] = right_[i];
+      y[i] = right[i];
       for (std::size_t k = 0; k < i; ++k)
         y[i] -= matrix_[i][k] * y[k];
       y[i] /= matrix_[i][i];
     }
-    coefficient = {};
+    LobingTerms coefficient{};
     for (std::size_t i = kLobingTerms; i > 0; --i) {
       if (!has(known, i - 1)) continue;
       double rest = y[i - 1];
@@ -61,6 +72,7 @@ class NormalEquations {
         rest -= matrix_[k][i - 1] * coefficient[k];
       coefficient[i - 1] = rest / matrix_[i - 1][i - 1];
     }
+    return coefficient;
   }
 
   std::array<LobingTerms, kLobingTerms> matrix_{};  // lower half
@@ -101,6 +113,7 @@ Status fit_lobing(Span<const Vec3> direction, Span<const double> radius, LobingF
   LobingFit fit;
   fit.known = equations.solve(fit.map.coefficient);
   fit.rank = bits(fit.known);
+  fit.cofactor = equations.inverse_diagonal(fit.known);
   fit.map.coefficient[0] += about;
   double sum = 0.0;
   for (std::size_t i = 0; i < direction.size(); ++i) {

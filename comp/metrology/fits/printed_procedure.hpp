@@ -1,6 +1,6 @@
 #pragma once
-// The identification procedure as Yang et al. print it (their eq. 18), and what it can give: kept
-// so that a user sees why the targets of axis_identification.hpp are needed. Seed 000 section 2.1.
+// The identification procedure as Yang et al. print it (docs/papers/l300g.md, eq. 18) and what it
+// can give: it shows a user why the targets of axis_identification.hpp are needed.
 
 #include "comp/core/span.hpp"
 #include "comp/core/status.hpp"
@@ -14,8 +14,8 @@ struct ReadingFigures {
   double range = 0.0;      // peak to peak
 };
 
-// Of the differences actual − ideal of one axis, in their unit. Refused: too_few_points, not_finite
-// (index).
+// Figures of the differences actual − ideal of one axis, in their unit. Refused: too_few_points,
+// not_finite (index).
 Status reading_figures(Span<const double> difference, ReadingFigures& out);
 
 struct PrintedSolution {

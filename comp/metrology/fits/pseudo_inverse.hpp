@@ -13,7 +13,7 @@ struct LeastSquares {
 
 // The shortest x that solves normal · x = right as well as can be. `normal`: symmetric, not
 // negative; its directions below `void_share` of the largest count as rounding. By Jacobi
-// rotations: Eigen's other decompositions of this size ask for memory on boards that have no
+// rotations: Eigen's other decompositions of this size allocate memory on boards that have no
 // alloca.
 template <int N>
 LeastSquares<N> pseudo_solve(const Eigen::Matrix<double, N, N>& normal,

@@ -65,7 +65,7 @@ struct Singular {
   int rank = 3;
 };
 
-// Of the six unknowns, rotations in units of the rms radius.
+// Singular values of the six unknowns, rotations in units of the rms radius.
 Singular singular_values(const Vec3& moments, double n) {
   const double mean_square = 0.5 * moments.sum() / n;  // of the radius
   const double shift = std::sqrt(n);

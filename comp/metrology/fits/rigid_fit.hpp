@@ -3,8 +3,7 @@
 //
 // d_k = δ + ε × p_k, d_k measured displacement and p_k nominal position of target k in the moving
 // frame. Centred, the two unknowns separate: δ at the centroid is the mean of d, and ε follows from
-// the inertia of the targets, whose principal axes say what they can and cannot show (seed 000
-// section 2.2).
+// the inertia of the targets, whose principal axes show what they can and cannot determine.
 
 #include "comp/core/span.hpp"
 #include "comp/core/status.hpp"

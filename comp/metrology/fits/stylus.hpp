@@ -7,7 +7,7 @@
 namespace volcomp {
 
 // `normal`: outward normal of the part at the contact, any length, not the direction of approach
-// (seed 000 section 3). mm. Refused: not_finite, zero_normal.
+// (docs/papers/l300g.md, eq. 12). mm. Refused: not_finite, zero_normal.
 Status contact_point(const Vec3& centre, const Vec3& normal, double ball_radius, Vec3& out);
 
 }  // namespace volcomp

@@ -8,7 +8,7 @@ namespace volcomp {
 namespace {
 
 constexpr int kMostSteps = 60;
-// Of the condition divided by p; in mm, for the leads of gears, below 1e-9.
+// Tolerance of the condition divided by p; in mm, for the leads of gears, below 1e-9.
 constexpr double kOnContact = 1e-12;
 
 // The wheel point at φ in the gear frame, with its normal.

@@ -1,8 +1,8 @@
 #pragma once
 // The forward problem: where a wheel of a given profile touches the helical flank it generates, and
-// the flank it leaves behind. Seed 003 section 4, eqs. 17 and 18 with the screw parameter put in:
-// (k × r + p k) · n = 0, for the motion of wheel and gear has no component along the normal at a
-// contact.
+// the flank it leaves behind. Eqs. 17 and 18 of docs/papers/internal-helical.md with the screw
+// parameter put in: (k × r + p k) · n = 0, for the motion of wheel and gear has no component along
+// the normal at a contact.
 
 #include "comp/metrology/gears/form_wheel.hpp"
 

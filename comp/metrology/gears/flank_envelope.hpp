@@ -1,7 +1,8 @@
 #pragma once
 // The flank that a wheel on a machine with errors leaves, exactly: at every point of the flank the
-// lowest of all positions of the wheel along its stroke. No linearisation; what the first order of
-// flank_error.hpp is judged by, and what a simulated gear is ground by. Seed 003, `flank_exact`.
+// lowest of all positions of the wheel along its stroke. No linearisation: it checks the first
+// order of flank_error.hpp and grinds simulated gears (docs/papers/internal-helical.md, "What we
+// do").
 //
 // Host and commissioning: some 130 wheel positions per point.
 
@@ -21,7 +22,7 @@ namespace volcomp {
 Status wheel_gap(const WheelProfile& profile, const Frame& wheel, const SpaceFlankPoint& flank,
                  double& gap);
 
-// How far either way from the contact wheel positions are looked at, mm.
+// How far either way from the contact wheel positions are searched, mm.
 inline constexpr double kEnvelopeReach = 4.0;
 
 namespace detail {

@@ -45,7 +45,7 @@ double synchronisation_on_flank(const InternalGear& gear, double e_s) {
 
 Status contact_curvature(const InternalGear& gear, const WheelSetup& setup, FlankSide side,
                          double radius, double& kappa) {
-  constexpr double kReach = 0.2;   // of radius: the piece of profile that is looked at, mm
+  constexpr double kReach = 0.2;   // of radius: the piece of profile that is evaluated, mm
   constexpr double kAside = 0.01;  // along the stroke, mm
   constexpr std::size_t kKnots = 9;
   const double low = std::max(radius - kReach, 0.5 * (radius + gear.r_b));

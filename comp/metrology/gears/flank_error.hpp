@@ -2,8 +2,8 @@
 // What errors of the axes leave on a ground flank, by the envelope theorem: to first order the
 // envelope moves by the normal displacement of the generating surface at the contact point, so a
 // flank point shows the errors of the instant at which the wheel touches it. Replaces eq. 22 of the
-// paper, which compares points of equal parameter and so contains their slide along the flank.
-// Seed 003 section 5.
+// paper (docs/papers/internal-helical.md), which compares points of equal parameter and so contains
+// their slide along the flank.
 //
 // Lengths mm; dn > 0 is excess material. The exact envelope is in flank_envelope.hpp.
 
@@ -44,7 +44,7 @@ Status contact_instant(const InternalGear& gear, const WheelSetup& setup, const 
 Status flank_sensitivity(const MachineChain& chain, const InternalGear& gear,
                          const WheelSetup& setup, const FlankPlace& place, SensitivityRows& rows);
 
-// --- synchronism of Z and C (seed 003 section 7)
+// --- synchronism of Z and C (docs/papers/internal-helical.md, "What we do")
 
 // e_s = e_C + e_Z / p, rad; errors as actual − original command, mm and rad. The part of both that
 // does not follow the helix; a lag common to both leaves no mark.

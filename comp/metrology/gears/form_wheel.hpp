@@ -1,7 +1,7 @@
 #pragma once
 // The form wheel that grinds a given internal flank, from the inverse problem: its profile is where
-// the normals of the flank meet the axis of the wheel. The paper presupposes the profile. Seed 003
-// section 4.
+// the normals of the flank meet the axis of the wheel. The paper (docs/papers/internal-helical.md)
+// presupposes the profile.
 //
 // Wheel frame: Y along the axis, origin at the wheel centre; profile y(ρ), ρ the radius. The gear
 // sees the centre at (−x, 0, stroke) and the axis along (0, cos A, sin A).

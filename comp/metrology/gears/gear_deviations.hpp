@@ -22,7 +22,7 @@ struct EvaluationRange {
 
 // Profile (`at`: roll length) or lead (`at`: x): unweighted least-squares line through the points
 // within `range`, ends included. Refused: length_mismatch, not_finite (index), too_few_points
-// (count) for fewer than 3 in the range. Seed 000 section 4.
+// (count) for fewer than 3 in the range.
 Status evaluate_trace(Span<const double> at, Span<const double> deviation,
                       const EvaluationRange& range, TraceDeviations& out);
 

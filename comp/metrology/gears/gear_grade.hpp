@@ -1,7 +1,7 @@
 #pragma once
 // A grade with everything that decided it, so that it can be checked: edition, row, rounding.
-// Seed 003 section 11: no edition reproduces all grades of the paper, and which one was used is
-// what a grade without provenance hides.
+// No edition reproduces all grades of the paper of docs/papers/internal-helical.md, and a grade
+// without provenance hides which one was used.
 
 #include "comp/metrology/gears/gear_tolerance.hpp"
 

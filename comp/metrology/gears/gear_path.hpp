@@ -1,5 +1,5 @@
 #pragma once
-// Where the L300G stands when its ball touches a flank. Seed 000 section 4, "Paths".
+// Where the L300G stands when its ball touches a flank (docs/papers/l300g.md).
 
 #include "comp/metrology/gears/involute_gear.hpp"
 #include "comp/metrology/gears/l300g.hpp"

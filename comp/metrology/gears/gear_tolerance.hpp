@@ -2,7 +2,7 @@
 // Tolerances and grades of cylindrical gears, µm.
 //
 // The formulas, rows and rounding of both editions agree with independent public implementations;
-// the printed standards were not at hand. Seed 000 section 4 and its addendum.
+// the printed standards were not at hand (docs/papers/l300g.md, "What stays open").
 
 #include <array>
 #include <optional>

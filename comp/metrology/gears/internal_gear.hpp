@@ -2,7 +2,7 @@
 // Internal involute gear, spur or helical, in its own frame: Z along its axis, angles from +X to
 // +Y. The tooth SPACE has the outline of an external tooth; space 0 is centred on −X at z = 0,
 // where a wheel inside the bore stands (comp/metrology/gears/internal_grinder.hpp). Lengths mm,
-// angles rad. Seed 003 section 3.
+// angles rad.
 //
 // Flank side: left = +1 is the flank of a space at the larger angle, right = −1 the other. Seen
 // from +Z with the tip of a tooth upwards these are the left and right flank of a TOOTH.
@@ -70,7 +70,7 @@ struct SpaceFlankPoint {
 Status space_flank_deviation(const InternalGear& gear, FlankSide side, int space, const Vec3& point,
                              double& deviation);
 
-// --- projections of a deviation dn along the normal (seed 003 section 5)
+// --- projections of a deviation dn along the normal
 
 // In the transverse plane, where profile and helix deviations are read.
 [[nodiscard]] double transverse_of(const InternalGear& gear, double dn);

@@ -1,7 +1,7 @@
 #pragma once
 // Profile of internal gears from deviations of their flanks. What differs from external gears is
-// the sign of the slope: the tip is at the SMALL end of the roll length. Seed 003 section 5. Pitch
-// is that of all gears (pitch.hpp).
+// the sign of the slope: the tip is at the SMALL end of the roll length. Pitch is that of all gears
+// (pitch.hpp).
 
 #include "comp/metrology/gears/gear_deviations.hpp"
 

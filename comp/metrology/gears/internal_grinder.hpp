@@ -1,5 +1,5 @@
 #pragma once
-// The internal helical gear grinder of Fu, Wang and Jiang (2023; seed 003 sections 1 and 2): X
+// The internal helical gear grinder of Fu, Wang and Jiang (docs/papers/internal-helical.md): X
 // carries C and the gear, Z carries the swivel A and the wheel; a Y slide, which the text of the
 // paper names and its Table 1 leaves out, can stand on either side of Z.
 //

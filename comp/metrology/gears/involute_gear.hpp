@@ -1,6 +1,6 @@
 #pragma once
 // External involute gear in its own frame: axis along X, angles from +Y to +Z, tooth 0 centred on
-// +Y at x = 0. Lengths mm, angles rad. Seed 000 section 4.
+// +Y at x = 0. Lengths mm, angles rad.
 //
 // Everything is closed: the distance of a point from a flank needs no iteration.
 
@@ -62,11 +62,11 @@ struct FlankDistance {
   Transverse normal;  // at the foot
 };
 
-// Of a point at x from the flank. inside_base_circle: there is no involute through it.
+// Distance of a point at x from the flank. inside_base_circle: no involute passes through it.
 Status distance_from_flank(const InvoluteGear& gear, const Flank& flank, const Transverse& point,
                            double x, FlankDistance& out);
 
-// Of a point that was touched, from the flank it is meant to be on, normal to it: positive for
+// Deviation of a touched point from the flank it is meant to be on, normal to it: positive for
 // excess material. inside_base_circle, wrong_flank (deviation): more than 0.5 mm.
 Status deviation_from_flank(const InvoluteGear& gear, const Flank& flank, const Vec3& point,
                             double& deviation, double& roll_length);

@@ -1,6 +1,6 @@
 #pragma once
-// The L300G gear grinder as a measuring machine (Yang et al.; seed 000 section 0): X, Y and the
-// swing B carry the probe, A carries the gear. NC axes 0 = X, 1 = Y, 2 = B, 3 = A.
+// The L300G gear grinder as a measuring machine (docs/papers/l300g.md): X, Y and the swing B carry
+// the probe, A carries the gear. NC axes 0 = X, 1 = Y, 2 = B, 3 = A.
 //
 // Base frame: origin on the axis of A, +X along it, +Y towards the probe, +Z up. The arm points to
 // −X at B = zero and swings about +Y.
@@ -38,8 +38,8 @@ struct ArmOffset {
   double B = 0.0;  // rad
 };
 
-// What X, Y and B have to move to take away a position error in base, to first order. Refused where
-// the arm is within 6° of upright: no_z_authority (value = cosine). Seed 000 section 6.
+// What X, Y and B have to move to cancel a position error in base, to first order. Refused where
+// the arm is within 6° of upright: no_z_authority (value = cosine).
 Status arm_offset(const SwingArm& arm, double B, const Vec3& error_base, ArmOffset& out);
 
 }  // namespace volcomp

@@ -1,7 +1,7 @@
 #pragma once
-// Pitch deviations of one round of measurements, all flanks of one side: cylindrical gears (seed
-// 000 section 4) and face gears (seed 002 section 8) alike. A round is closed: the tooth before
-// the first is the last.
+// Pitch deviations of one round of measurements, all flanks of one side: cylindrical gears
+// (docs/papers/l300g.md) and face gears (docs/papers/face-gear.md, eq. 34 to 38) alike. A round is
+// closed: the tooth before the first is the last.
 //
 // `position`: how far each tooth is from where it should be, as length or as angle; NaN: not
 // measured. `scale` multiplies every result: 1 for lengths; for angles the radius of the pitch
@@ -53,8 +53,7 @@ Status evaluate_pitch(Span<const double> position, PitchDeviations& out, double 
 Status single_pitches(Span<const double> position, Span<double> out, double scale = 1.0);
 
 // F_pk: the largest sum of k pitches in a row, wherever it starts; k within 1…teeth − 1. Standards
-// look at k up to largest_pitch_span.
-// Refused as evaluate_pitch, and bad_setting 'k'.
+// evaluate k up to largest_pitch_span. Refused as evaluate_pitch, and bad_setting 'k'.
 Status cumulative_pitch(Span<const double> position, std::size_t k, double& out,
                         double scale = 1.0);
 
@@ -63,7 +62,7 @@ Status cumulative_pitch(Span<const double> position, std::size_t k, double& out,
   return teeth < 16 ? 1 : teeth / 8;
 }
 
-// What can be said although teeth are missing: pitches of neighbours that are both there.
+// Results with teeth missing: pitches of neighbours that are both there.
 struct PartialPitch {
   double single = 0.0;  // f_pt, magnitude
   double single_signed = 0.0;

@@ -1,6 +1,6 @@
 #pragma once
-// Abbe and Bryan: the same angles, seen at another point, are other displacements (seed 001 section
-// 4).
+// Abbe and Bryan: the same angles, seen at another point, are other displacements
+// (docs/papers/xyfz.md).
 
 #include "comp/machine/frame.hpp"
 

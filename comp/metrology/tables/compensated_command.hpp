@@ -1,6 +1,5 @@
 #pragma once
-// The commanded position that makes the machine stand at the wanted one: q + E(q) = p (seed 001
-// section 6).
+// The commanded position that makes the machine stand at the wanted one: q + E(q) = p.
 
 #include "comp/machine/frame.hpp"
 

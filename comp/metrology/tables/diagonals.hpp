@@ -1,6 +1,6 @@
 #pragma once
 // Body and face diagonals after ISO 230-6: e_d(s) = d · (E(p(s)) − E(p(0))), d the unit vector from
-// start to end (seed 001 section 7). The sign does not depend on the direction of travel.
+// start to end (docs/papers/xyfz.md). The sign does not depend on the direction of travel.
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,6 @@
 #pragma once
-// One-dimensional interpolation for commissioning: linear, Catmull-Rom and PCHIP cubic Hermite
-// (seed 001 section 5.6). The rule of the house: cubic off line onto a finer uniform grid, linear
-// on line.
+// One-dimensional interpolation for commissioning: linear, Catmull-Rom and PCHIP cubic Hermite. The
+// rule of the project: cubic off line onto a finer uniform grid, linear on line.
 
 #include <cstdint>
 

@@ -27,8 +27,8 @@ struct Iso230Figures {
 };
 
 // Both directions must have the same, non-zero number of targets (else too_few_points); with one
-// direction only, give it twice: B is then 0 and the caller must say that the reversal is unknown.
-// Seed 001 section 5.2.
+// direction only, give it twice: B is then 0 and the caller must report that the reversal is
+// unknown.
 Status iso230_figures(const DirectionStatistics& up, const DirectionStatistics& down,
                       Iso230Figures& out);
 

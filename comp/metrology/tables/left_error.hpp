@@ -1,7 +1,8 @@
 #pragma once
 // The error of the tool as the workpiece sees it: E = Tᵉ T⁻¹, Tᵉ and T the pose of the tool frame
 // in the frame of the workpiece holder with and without errors. It acts on the left: on points in
-// work coordinates, whatever point of the tool they belong to. Seed 003 section 2, eqs. 9 and 10.
+// work coordinates, whatever point of the tool they belong to (docs/papers/internal-helical.md,
+// eqs. 9 and 10).
 
 #include "comp/metrology/tables/volumetric.hpp"
 

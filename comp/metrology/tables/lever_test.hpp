@@ -1,5 +1,5 @@
 #pragma once
-// Lever self-test (seed 001 section 4, mandatory at commissioning): positioning measured at two
+// Lever self-test, mandatory at commissioning (docs/papers/xyfz.md): positioning measured at two
 // places differs by ε × ΔL. Regressing the difference on the measured angles must return the lever
 // difference; a wrong sign, unit (arc seconds for µrad) or order of axes cannot pass.
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a controller with one-dimensional tables only (pitch and cross tables) can represent of a
-// volumetric model: E_k ≈ const_k + Σ_j f_kj(q_j), nine functions; the rest is reported as a number
-// (seed 001 section 8).
+// volumetric model: E_k ≈ const_k + Σ_j f_kj(q_j), nine functions; the rest is reported as a
+// number.
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-// Checks of entered parameters against wrong units (seed 001, bad-input table).
+// Checks of entered parameters against wrong units.
 
 #include <array>
 

@@ -1,6 +1,5 @@
 #pragma once
-// Validation of measured runs before anything is computed from them (seed 001, bad-input table).
-// Used by build_table.
+// Validation of measured runs before anything is computed from them. Used by build_table.
 
 #include "comp/metrology/tables/table_builder.hpp"
 

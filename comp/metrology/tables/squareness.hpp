@@ -1,7 +1,7 @@
 #pragma once
-// Squareness closure (seed 001 section 5.4): what a ball bar measured minus what the straightness
-// and angle tables already say at the same place. Exact in one step; absorbs any slope convention
-// and any constant angle.
+// Squareness closure (docs/papers/xyfz.md, "What we do"): what a ball bar measured minus what the
+// straightness and angle tables already contain at the same place. Exact in one step; absorbs any
+// slope convention and any constant angle.
 
 #include "comp/core/span.hpp"
 #include "comp/machine/xyfz.hpp"

@@ -13,8 +13,6 @@ constexpr double kOutlierFactor =
     5.0 * 1.4826;                        // MAD → standard deviation of a normal distribution
 constexpr double kOutlierFloor = 0.010;  // 10 µm; angles: 10 µrad, a thousandth of it in rad
 constexpr double kSteepSlope = 200e-6;
-constexpr double kJump_mm = 0.020;
-constexpr double kJump_rad = 100e-6;
 
 double outlier_floor(Eigen::Index channel) {
   return channel < 3 ? kOutlierFloor : 1e-3 * kOutlierFloor;

@@ -1,7 +1,7 @@
 #pragma once
-// From raw measured runs to the error table of one axis (seed 001 section 5.1, in its order):
-// validate, average per direction, refer to the reference knot, remove the straightness slope,
-// transfer to the reading head, re-zero.
+// From raw measured runs to the error table of one axis (docs/papers/xyfz.md, "What we do"), in
+// this order: validate, average per direction, refer to the reference knot, remove the straightness
+// slope, transfer to the reading head, re-zero.
 
 #include <array>
 #include <optional>
@@ -50,6 +50,10 @@ enum class Warning : std::uint8_t {
   knot_jump
 };
 [[nodiscard]] const char* code(Warning warning);
+
+// Between neighbouring knots: more is a jump.
+inline constexpr double kJump_mm = 0.020;
+inline constexpr double kJump_rad = 100e-6;
 
 struct Outlier {
   const char* direction = "up";

@@ -28,9 +28,9 @@ struct VolumetricError {
 [[nodiscard]] Vec3 squareness_translation(const MachineChain& chain, const Pose& q,
                                           const DirectionErrors& directions);
 
-// Exact chain for the selected rotation model, evaluated by the deviation recursion of seed 000
-// section 1 (no difference of large products). `squareness` is added to the tool point in base. Any
-// model, any chain.
+// Exact chain for the selected rotation model, evaluated by a recursion of deviations (no
+// difference of large products). `squareness` is added to the tool point in base. Any model, any
+// chain.
 [[nodiscard]] VolumetricError exact_error(const MachineChain& chain, const Pose& q,
                                           const ErrorSet& errors, const Vec3& squareness,
                                           RotationModel model, const PointPair& points);

@@ -1,7 +1,7 @@
 #pragma once
-// From where the program came, guessed from the stack. There are no frame pointers to follow, so
-// every word is taken that is the address behind a call; one that is left over from an earlier call
-// looks the same.
+// Guesses the callers of a function from the stack. There are no frame pointers to follow, so every
+// word is taken that is the address behind a call; one that is left over from an earlier call looks
+// the same.
 
 #include <cstdint>
 

@@ -38,9 +38,9 @@ constexpr std::array<Cause, 17> kCauses = {{
     {1U << 25U, "integer division by zero"},
 }};
 
-// Where forbidden memory was touched; nullptr where the place tells nothing.
+// Names the forbidden memory that was accessed; nullptr where the address is in none of it.
 const char* forbidden_place(std::uint32_t at) {
-  constexpr std::uint32_t kLargestLeap = 1024 * 1024;  // below the guard nothing else is there
+  constexpr std::uint32_t kLargestLeap = 1024 * 1024;  // below the guard there is no other memory
   if (at >= address_of(stack_bottom) - kLargestLeap && at < address_of(stack_bottom))
     return "stack overflow: memory below the stack was touched";
   if (at < address_of(code_begin)) return "access through a null pointer";

@@ -1,5 +1,5 @@
 #pragma once
-// What the fault status registers say, in plain words.
+// Describes the content of the fault status registers.
 
 #include <cstdint>
 

@@ -1,5 +1,5 @@
-// What a person reads on UART0 when the program cannot go on. The handlers in startup.S come here
-// on a stack of their own, for a fault or the watchdog, wherever the processor was.
+// The report on UART0 when the program cannot go on. The handlers in startup.S come here on a stack
+// of their own, for a fault or the watchdog, wherever the processor was.
 //
 // Nothing is sent to the bus any more, which is the safe state: the drives keep their last offset,
 // and the missing heartbeat makes controller and drives stop the feed (1016h, 1029h).
@@ -57,7 +57,7 @@ void put_register(const char* name, std::uint32_t value) {
 }
 
 void put_headline(const char* what, const char* why) {
-  volcomp::hal::mps2::uart::start();  // nobody knows whether it was on
+  volcomp::hal::mps2::uart::start();  // it may be off
   console::put("\n");
   console::put(what);
   console::put(": ");
@@ -144,7 +144,7 @@ extern "C" [[noreturn]] void report_watchdog(const StackedRegisters* registers,
   put_headline("WATCHDOG", "nobody fed it in time, the processor is restarted");
   put_registers(registers);
   put_call_trace(registers);
-  // After a fault that nobody listened to, the fault is what the next start should know.
+  // Without a debugger the watchdog ends the report of a fault: the cause stays the fault.
   if (volcomp::boards::noted_reset_cause() != ResetCause::fault)
     volcomp::boards::note_reset_cause(ResetCause::watchdog);
   volcomp::boards::restart();

@@ -1,6 +1,6 @@
 #pragma once
-// Names that the linker script makes (sections.ld): their addresses are meant, or, where said, the
-// address is a plain number.
+// Symbols of the linker script (sections.ld): only their addresses count; where noted, the address
+// is a plain number.
 
 #include <cstdint>
 
@@ -10,6 +10,7 @@ extern std::uint8_t flash_end[];
 extern std::uint8_t flash_log2[];  // number: size of the MPU region
 extern std::uint8_t code_begin[];
 extern std::uint8_t code_end[];
+extern std::uint8_t constants_end[];  // they follow the code
 extern std::uint8_t ram_begin[];
 extern std::uint8_t ram_log2[];  // number: size of the MPU region
 extern std::uint8_t stack_guard[];

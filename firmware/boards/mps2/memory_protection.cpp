@@ -27,7 +27,7 @@ constexpr std::uint32_t kReadWrite = 3U << 24U;
 constexpr std::uint32_t kReadOnly = 6U << 24U;
 constexpr std::uint32_t kExecuteNever = 1U << 28U;
 
-// Of a region of 2^n bytes.
+// Encodes the size of a region of 2^n bytes.
 constexpr std::uint32_t size(std::uint32_t n) { return (n - 1U) << 1U; }
 
 struct Region {

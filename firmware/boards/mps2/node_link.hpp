@@ -10,8 +10,8 @@ namespace volcomp::boards {
 
 class NodeLink {
  public:
-  // The last word of the semihosting command line: "slcan"; anything else, or nobody there, pipe.
-  // False when the frame pipe cannot be opened.
+  // Reads the last word of the semihosting command line: "slcan"; anything else, or no debugger,
+  // selects the pipe. False when the frame pipe cannot be opened.
   [[nodiscard]] bool open();
 
   [[nodiscard]] bool is_pipe() const { return is_pipe_; }

@@ -1,8 +1,8 @@
 // volcomp-node: the compensation node on a board. The tick of 1 kHz is the timer interrupt, all the
 // rest the background; see firmware/node/node_task.hpp.
 //
-// When anything fails for good, nothing is sent any more: the drives keep their last offset, and
-// the missing heartbeat stops the feed. Why the processor was restarted is told by the next start.
+// After a permanent failure the node sends nothing: the drives keep their last offset, and the
+// missing heartbeat stops the feed. The next start reports the cause of the restart.
 
 #include "firmware/boards/mps2/exit_code.hpp"
 #include "firmware/boards/mps2/linker_symbols.hpp"
@@ -32,17 +32,16 @@ constexpr std::uint8_t kNodeId = 32;
 constexpr std::uint32_t kTick_us = 1000;
 
 // How long the tick and the background may be overdue.
-struct Patience {
+struct Timeouts {
   std::uint32_t bite_us;
   volcomp::node::GuardianSettings guardian;
 };
 // 20 ticks without food. Not a whole number, so that the bite falls between two ticks: inside one
 // it could leave the other end of a frame pipe without the answer to its turn.
-constexpr Patience kTurnByTurn{20'500, {}};
-// In real time the emulated processor stands still whenever the computer has something else to do,
-// but its timers do not: measured up to a second on a busy computer, and then all missed ticks come
-// at once.
-constexpr Patience kRealTime{5'000'000, {5'000'000, 5'000'000, 5'000'000}};
+constexpr Timeouts kTurnByTurn{20'500, {}};
+// In real time the emulated processor stops while the computer is busy, but its timers do not: up
+// to a second was measured, after which all missed ticks come at once.
+constexpr Timeouts kRealTime{5'000'000, {5'000'000, 5'000'000, 5'000'000}};
 
 NodeLink link;
 TickMask tick_mask;
@@ -51,7 +50,7 @@ FlashBlocks flash;
 Task* task = nullptr;  // main makes it before the interrupts start
 
 // After the link is open.
-const Patience& patience() { return link.is_pipe() ? kTurnByTurn : kRealTime; }
+const Timeouts& patience() { return link.is_pipe() ? kTurnByTurn : kRealTime; }
 
 // Function-local, because nothing is constructed before main.
 Task& make_task() {
@@ -106,13 +105,16 @@ int main() {
   if (!link.open())
     return give_up("There is no frame pipe: to_node and from_node must be where QEMU starts.");
   task = &make_task();
+  const std::size_t program_bytes =
+      volcomp::boards::address_of(constants_end) - volcomp::boards::address_of(code_begin);
+  task->watch_program({code_begin, program_bytes});
   task->power_on(volcomp::boards::take_reset_cause());
   watchdog.start(patience().bite_us);
   volcomp::hal::mps2::timer0.start(kTick_us);
   while (link.pipe().end() == PipePort::End::none) {
     const bool more = task->background_step();
-    // The pipe wants every run alike, and in the emulator's count of instructions a processor that
-    // waits loses time; see nvic.hpp.
+    // On the pipe every run must be alike, and in the emulator's count of instructions a waiting
+    // processor loses time; see nvic.hpp.
     if (!more && !link.is_pipe()) volcomp::hal::mps2::nvic::wait_for_interrupt();
   }
   return end_of_pipe(link.pipe().end());

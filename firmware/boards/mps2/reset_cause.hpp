@@ -11,7 +11,7 @@ void note_reset_cause(hal::ResetCause cause);
 // What was noted last, power_on when nothing was; the note stays.
 [[nodiscard]] hal::ResetCause noted_reset_cause();
 
-// The same, once: the note is gone.
+// The same, and clears the note.
 [[nodiscard]] hal::ResetCause take_reset_cause();
 
 // Restarts the processor with all its devices (AIRCR, DDI 0403, B3.2.6).

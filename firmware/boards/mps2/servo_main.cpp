@@ -2,6 +2,8 @@
 // encoders, half a period later the other runs the servo loop. Prints what the offsets were, which
 // a PC prints to the last bit the same (firmware/embed/cpp/servo_host.cpp).
 
+#include <atomic>
+
 #include "firmware/boards/mps2/exit_code.hpp"
 #include "firmware/boards/mps2/stack.hpp"
 #include "firmware/embed/cpp/servo_example.hpp"
@@ -30,7 +32,7 @@ struct Uart {
   static void put_hex(std::uint32_t value) { console::put_hex(value); }
 };
 
-// Made where main first asks for it: nothing is constructed before main.
+// Constructed at main's first call: no constructor runs before main.
 ServoExample& example() {
   static ServoExample the_example;
   return the_example;
@@ -40,7 +42,12 @@ InstructionCounter counter;
 volatile std::uint32_t fewest_instructions = UINT32_MAX;
 volatile std::uint32_t most_instructions = 0;
 
-bool finished() { return example().summary().periods >= ServoExample::kPeriods; }
+// Counts the periods of the summary, which only the servo interrupt writes. Atomic, because main
+// waits for it and the compiler may read a plain variable once. Released after the summary, so that
+// main prints a complete one.
+std::atomic<std::uint32_t> periods_done{0};
+
+bool finished() { return periods_done.load(std::memory_order_acquire) >= ServoExample::kPeriods; }
 
 void note_instructions(std::uint32_t count) {
   if (count < fewest_instructions) fewest_instructions = count;
@@ -70,8 +77,8 @@ void tell_cost() {
 
 }  // namespace
 
-// Of two timers that wait, the first one is served first: encoders turn in time even when a servo
-// period takes longer than it should.
+// When both timers are pending, this one is served first: encoders turn in time even when a servo
+// period takes too long.
 extern "C" void TIMER0_Handler() {
   volcomp::hal::mps2::timer0.acknowledge();
   if (!finished()) example().machine().advance();
@@ -83,6 +90,7 @@ extern "C" void TIMER1_Handler() {
   const std::uint32_t from = InstructionCounter::ticks();
   example().on_servo_interrupt();
   note_instructions(counter.between(from, InstructionCounter::ticks()));
+  periods_done.store(example().summary().periods, std::memory_order_release);
 }
 
 int main() {

@@ -7,15 +7,15 @@
 
 namespace {
 
-// Without these a fault of memory or program arrives as HardFault, less well told apart (DDI 0403,
-// B3.2.13).
+// Without these a fault of memory or program arrives as HardFault, with its cause less distinct
+// (DDI 0403, B3.2.13).
 void enable_fault_handlers() {
   constexpr std::uint32_t kSystemHandlerControl = 0xE000'ED24;
   constexpr std::uint32_t kUsageBusMemManage = 7U << 16U;
   volcomp::hal::mps2::device_register(kSystemHandlerControl) |= kUsageBusMemManage;
 }
 
-// A division by zero shall be told, not answered with 0 (DDI 0403, B3.2.8).
+// A division by zero faults instead of returning 0 (DDI 0403, B3.2.8).
 void trap_division_by_zero() {
   constexpr std::uint32_t kConfigurationControl = 0xE000'ED14;
   constexpr std::uint32_t kDivideByZeroTrap = 1U << 4U;

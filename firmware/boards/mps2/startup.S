@@ -20,8 +20,8 @@
     .word 0
     .word PendSV_Handler
     .word SysTick_Handler
-    // Interrupts of the board (Arm DAI 0385, 0386, 0500, "interrupt assignments"). Those that nobody uses end in the
-    // report of an unexpected interrupt.
+    // Interrupts of the board (Arm DAI 0385, 0386, 0500, "interrupt assignments"). Unused ones end in the report of
+    // an unexpected interrupt.
     .word UARTRX0_Handler
     .word UARTTX0_Handler
     .rept 6
@@ -93,8 +93,8 @@ fill:
     bx lr
     .size Reset_Handler, . - Reset_Handler
 
-// Faults, the watchdog's NMI and unexpected interrupts: nothing can be said about the stack they found, so the report
-// runs on one of its own, unless a report is what they interrupted.
+// Faults, the watchdog's NMI and unexpected interrupts: the interrupted stack may be unusable, so the report runs on
+// one of its own, unless they interrupt a report.
     .macro use_fault_stack
     ldr r2, =fault_stack_top
     subs r3, r2, r0
@@ -126,8 +126,8 @@ fill:
     report_handler NMI_Handler, report_watchdog
     report_handler Unexpected_Handler, report_unexpected_interrupt
 
-// A semihosting request that nobody listens to arrives here, too, and is the one fault that leaves CFSR clear: it is
-// answered with -1.
+// A semihosting request without a debugger arrives here, too, and is the one fault that leaves CFSR clear: it returns
+// -1.
     .section .text.HardFault_Handler, "ax", %progbits
     .global HardFault_Handler
     .type HardFault_Handler, %function

@@ -77,7 +77,7 @@ char* strncpy(char* __restrict to, const char* __restrict from, std::size_t coun
   return to;
 }
 
-// sincos() of an infinite number says so here; nobody reads it.
+// sincos() of an infinite number sets it; no code reads it.
 thread_local int errno;
 
 // It was compiled with a guard below its return addresses.

@@ -13,5 +13,5 @@ enum ExitCode : int {
 
 }  // namespace volcomp::boards
 
-// Tells the host and stops for good. Main returns into it, too.
+// Reports the code to the host and stops. Main returns into it, too.
 extern "C" [[noreturn]] void end_of_program(int exit_code);

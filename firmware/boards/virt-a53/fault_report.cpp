@@ -1,5 +1,5 @@
-// What a person reads on the serial line when the program cannot go on. start.S comes here on a
-// stack of its own, for a fault or the watchdog, wherever the processor was.
+// The report on the serial line when the program cannot go on. start.S comes here on a stack of its
+// own, for a fault or the watchdog, wherever the processor was.
 //
 // Nothing is sent to the bus any more, which is the safe state: the drives keep their last offset,
 // and the missing heartbeat makes controller and drives stop the feed (1016h, 1029h).
@@ -12,7 +12,7 @@
 #include "hal/virt/uart.hpp"
 
 extern "C" {
-// Made by the linker script: their addresses are meant.
+// Symbols of the linker script: only their addresses count.
 extern const char code_begin;
 extern const char constants_end;
 extern const char stack_guard;
@@ -134,7 +134,7 @@ Syndrome syndrome_register() {
 }
 
 void put_headline(const char* what, std::uint64_t vector, const char* why) {
-  uart::start();  // nobody knows whether it was on
+  uart::start();  // it may be off
   uart::put("\n");
   uart::put(what);
   uart::put(": ");

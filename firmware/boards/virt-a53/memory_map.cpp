@@ -7,7 +7,7 @@
 #include "hal/virt/registers.hpp"
 
 extern "C" {
-// Made by the linker script: their addresses are meant.
+// Symbols of the linker script: only their addresses count.
 extern const char code_begin;
 extern const char code_end;
 extern const char constants_end;

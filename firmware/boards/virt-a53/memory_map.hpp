@@ -4,8 +4,8 @@
 
 namespace volcomp::boards {
 
-// Before main, once; from then on code and constants are read-only, nothing else is executed, page
-// 0 and the guard below each stack do not exist, and the caches are on.
+// Before main, once; from then on code and constants are read-only, no other memory is executable,
+// page 0 and the guard below each stack do not exist, and the caches are on.
 void map_memory();
 
 }  // namespace volcomp::boards

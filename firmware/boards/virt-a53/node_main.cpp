@@ -11,6 +11,12 @@
 #include "hal/virt/uart.hpp"
 #include "hal/virt/watchdog.hpp"
 
+extern "C" {
+// Symbols of the linker script: only their addresses count.
+extern const std::uint8_t code_begin[];
+extern const std::uint8_t constants_end[];
+}
+
 namespace {
 
 namespace uart = volcomp::hal::virt::uart;
@@ -27,7 +33,7 @@ volcomp::hal::virt::Clock the_clock;
 volcomp::hal::virt::InterruptMask interrupts;
 volcomp::hal::virt::Watchdog watchdog;
 
-// Made when main first asks for it: no constructor runs before main.
+// Constructed at main's first call: no constructor runs before main.
 auto& the_task() {
   static volcomp::node::NodeTask task(volcomp::node::Board{can, the_clock, interrupts, watchdog},
                                       kNodeId, nullptr);
@@ -79,6 +85,7 @@ void volcomp::boards::on_tick() {
   timer.acknowledge();
   can.supervise(the_clock.now_us());
   the_task().frames_lost(can.take_losses());
+  the_task().bus_state(can.state());
   the_task().on_timer_interrupt();
 }
 
@@ -90,6 +97,7 @@ int main() {
     uart::put("volcomp-node: there is no Kvaser card with an SJA1000\n");
     return volcomp::boards::kUnusableInput;
   }
+  the_task().watch_program({code_begin, static_cast<std::size_t>(constants_end - code_begin)});
   the_task().power_on(volcomp::boards::take_reset_cause());
   watchdog.start(kBite_us);
   timer.start(kTickPeriod_us);

@@ -7,7 +7,7 @@ namespace volcomp::boards {
 
 void note_reset_cause(hal::ResetCause cause);
 
-// What was noted before the last restart, once: the next call says power_on.
+// Returns the cause noted before the last restart, once: the next call returns power_on.
 [[nodiscard]] hal::ResetCause take_reset_cause();
 
 // Restarts the processor with all its devices (PSCI SYSTEM_RESET, DEN 0022).

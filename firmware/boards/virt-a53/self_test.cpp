@@ -1,6 +1,5 @@
 // Proves the board: two SJA1000 on one bus send each other frames by interrupt while the tick runs.
-// Nothing beyond the emulator is needed. Says line by line what it found; ends with 1 if anything
-// was wrong.
+// Nothing beyond the emulator is needed. Prints a line for each check; ends with 1 if one failed.
 
 #include <array>
 #include <cstdint>

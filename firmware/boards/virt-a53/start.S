@@ -1,5 +1,5 @@
-// Start and exception vectors of an AArch64 processor (Arm Architecture Reference Manual DDI 0487). In assembly because
-// there is no stack yet, or none that can be trusted.
+// Start and exception vectors of an AArch64 processor (Arm Architecture Reference Manual DDI 0487). In assembly
+// because there is no stack yet, or none that is known to be intact.
 //
 // Three stacks: the program runs on SP_EL0, interrupts on SP_EL1, so that each has a guard page of its own; the report
 // of a fault runs on a third one.
@@ -157,7 +157,7 @@ interrupt:
 report_exception:
     fmov d30, x1
     fmov d31, x2
-    mrs x1, elr_el1                 // a semihosting request that nobody heard is answered with -1
+    mrs x1, elr_el1                 // a semihosting request without a debugger returns -1
     ldr x2, =semihosting_breakpoint
     cmp x1, x2
     b.eq unheard_request

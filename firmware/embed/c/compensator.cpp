@@ -81,7 +81,7 @@ Status stage(volcomp_compensator& c, volcomp::Span<const std::uint8_t> image,
              const double* tool_mm) {
   if (const Status s = check_image(image, volcomp::kDefaultKnots, c.tables); !s.ok()) return s;
   const std::uint32_t crc = image_crc(image);
-  // What is active goes on following temperatures and tools.
+  // Active tables continue to follow temperatures and tools.
   const bool goes_on = c.compensator.active() && crc == c.active_crc;
   if (!goes_on && volcomp::expired(c.tables.provenance.expires_unix_s, c.unix_s))
     return refuse(volcomp::Reason::expired);

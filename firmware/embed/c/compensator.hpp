@@ -1,5 +1,5 @@
 #pragma once
-// What stands behind a volcomp_compensator of volcomp.h.
+// Implementation of the volcomp_compensator of volcomp.h.
 
 #include "comp/probe/probe_corrector.hpp"
 #include "comp/tables/tables_view.hpp"
@@ -12,8 +12,8 @@ struct volcomp_compensator {
   volcomp::OrientingCompensator::Input in{};
   volcomp::OrientingCompensator::Output out{};
   volcomp::ProbeCorrector probe;
-  // Of the image given last. What it says of the machine stays good; the values of its tables lie
-  // in bytes that the caller has taken back.
+  // View of the image given last. Its description of the machine stays valid; the values of its
+  // tables lie in bytes that the caller has taken back.
   volcomp::TablesView tables{};
   volcomp_machine machine{};  // of the image accepted last
   volcomp::TemperatureInputs temperature{};

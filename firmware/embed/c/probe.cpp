@@ -14,12 +14,12 @@ using volcomp::c_interface::fine;
 using volcomp::c_interface::from;
 using volcomp::c_interface::refused;
 
-// Together less than a turn: what the chain takes beside the half turn of a latched position.
+// Together less than a turn: the chain allows half a turn beside that of a latched position.
 constexpr double kMostDelay_s = 0.05;
 constexpr double kMostVelocity = 1e13;  // units per second: 10 km, or nine turns
 static_assert(2.0 * kMostDelay_s * kMostVelocity < static_cast<double>(volcomp::kUnitsPerTurn));
-constexpr double kMostRadius_nm = 2e7;  // seed 000, limits: r_c below 20 mm
-constexpr double kMostDistance_nm = 1e13;
+static_assert(static_cast<double>(volcomp::kMaxPosition) + 2.0 * kMostDelay_s * kMostVelocity <
+              volcomp::kMaxContact_nm);
 
 static_assert(volcomp::kLobingTerms == VOLCOMP_RADIUS_TERMS);
 static_assert(static_cast<int>(Direction::forward) == VOLCOMP_FORWARD);
@@ -61,10 +61,13 @@ volcomp_status check(const volcomp_probe_settings& s) {
   if (!within({&s.delay_s, 1}, kMostDelay_s)) return refused(VOLCOMP_BAD_SETTING, "delay");
   if (!within(all(s.latch_delay_s), kMostDelay_s))
     return refused(VOLCOMP_BAD_SETTING, "latch delay");
-  if (s.radius[0] < 0.0 || !within(all(s.radius), kMostRadius_nm))
+  if (s.radius[0] < 0.0 || !within(all(s.radius), volcomp::kMaxBallRadius_nm))
     return refused(VOLCOMP_BAD_SETTING, "radius");
-  if (!within(all(s.translation), kMostDistance_nm))
+  if (!within(all(s.translation), volcomp::kMaxPart_nm))
     return refused(VOLCOMP_BAD_SETTING, "translation");
+  if (!within(single, volcomp::kMaxPart_nm) || !within(all(u.position), volcomp::kMaxPart_nm) ||
+      !within(all(u.latch_delay_s), volcomp::kMaxPart_nm))
+    return refused(VOLCOMP_BAD_SETTING, "uncertainty");
   if (!within({&u.correlation, 1}, 1.0)) return refused(VOLCOMP_BAD_SETTING, "correlation");
   if (!volcomp::is_rotation(rotation_of(s))) return refused(VOLCOMP_NOT_A_ROTATION, "rotation");
   return fine();

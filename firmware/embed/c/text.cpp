@@ -78,7 +78,7 @@ struct Text {
   const char* sentence;
 };
 
-// Of the reasons that only this interface has; else nothing.
+// Texts of the reasons that only this interface has; else empty.
 Text own_text(int reason) {
   switch (reason) {
     case VOLCOMP_NULL_POINTER:

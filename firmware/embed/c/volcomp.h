@@ -16,14 +16,14 @@
 // No heap, no operating system, no globals, no library but the one square root of a point. Two
 // contexts use a compensator: the interrupt calls volcomp_tick() and volcomp_direction(), the
 // background everything else, one call at a time. The interrupt may preempt the background anywhere
-// unless a function says "no tick may come". Two compensators know nothing of each other.
+// unless a function is marked "no tick may come". Two compensators share no state.
 //
 // Functions that can fail return a volcomp_status; where they refuse, everything is as before, and
 // the tables in use stay active; the others need good pointers. The command line tool
 // `volcomp build-tables` writes table images.
 //
-// It lies beside the other forms in firmware and not in comp: comp is C++ and knows nobody; this
-// folder knows comp and nothing else.
+// It lies beside the other forms in firmware and not in comp: comp is C++ and includes no other
+// folder; this folder includes comp only.
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -114,8 +114,7 @@ union volcomp_memory {
 // Refuses null_pointer, memory_too_small (below VOLCOMP_BYTES), memory_misaligned (as int64_t).
 struct volcomp_status volcomp_create(void* memory, size_t bytes, struct volcomp_compensator** out);
 
-// Linear: nm; rotary: 2^-32 turn; `max_step` of a rotary axis 2^-40 turn. Each per tick where it
-// says so.
+// Linear: nm; rotary: 2^-32 turn; `max_step` of a rotary axis 2^-40 turn. Rates are per tick.
 struct volcomp_axis_limits {
   int32_t limit;       // largest |offset|, 1…4 194 303
   int32_t rate;        // largest change of it per tick, 1…1e9
@@ -166,8 +165,9 @@ struct volcomp_status volcomp_activate(struct volcomp_compensator* c);
 // Corrections ramp to 0 and stay there until the next volcomp_activate().
 void volcomp_deactivate(struct volcomp_compensator* c);
 
-// Looks for bits of the active tables that have changed in memory; from time to time. Then:
-// crc_mismatch, corrections ramp to 0 and every axis shows VOLCOMP_TABLE_DAMAGED.
+// Checks active tables, machine and settings for bits that have changed in memory; call it from
+// time to time. After a change: crc_mismatch, corrections ramp to 0 and every axis shows
+// VOLCOMP_TABLE_DAMAGED.
 struct volcomp_status volcomp_scrub(struct volcomp_compensator* c);
 
 // A change waits for the next tick. / Tables are active.
@@ -176,7 +176,7 @@ bool volcomp_active(const struct volcomp_compensator* c);
 // No change waits or is being ramped in.
 bool volcomp_at_rest(const struct volcomp_compensator* c);
 
-// Of the image accepted last.
+// Describes the image accepted last.
 struct volcomp_machine {
   uint32_t machine_id;
   uint32_t sequence;   // of the image, as it was built
@@ -204,8 +204,8 @@ void volcomp_diagnose(const struct volcomp_compensator* c, struct volcomp_diagno
 
 // --- temperatures and expiry, in the background --------------------------------------------------
 
-// A machine gets warm slowly, so a tick knows nothing of it: the growth of the axes is folded into
-// the tables. When it has changed by enough, stage and activate the same image again:
+// A machine gets warm slowly, so the tick does not compute it: the growth of the axes is folded
+// into the tables. When it has changed by enough, stage and activate the same image again:
 //
 //   volcomp_take_temperature(compensation, 0, sensor_C, seconds);
 //   if (volcomp_growth_nm(compensation) > 50 && volcomp_at_rest(compensation)) {
@@ -217,12 +217,13 @@ enum volcomp_temperature {
   VOLCOMP_TEMPERATURE_UNKNOWN = 0,     // none was ever good: as at the reference of the tables
   VOLCOMP_TEMPERATURE_GOOD = 1,        //
   VOLCOMP_TEMPERATURE_STALE = 2,       // none came for too long: the last good one is used
-  VOLCOMP_TEMPERATURE_IMPLAUSIBLE = 3  // the latest was not believed: the last good one is used
+  VOLCOMP_TEMPERATURE_IMPLAUSIBLE = 3  // the latest was rejected: the last good one is used
 };
 
-// What the sensor of an input says, 0 ≤ input < VOLCOMP_TEMPERATURES, and when, in seconds of any
-// clock that only goes forward. Believed from −20 to 80 °C and where it changes by less than 2 K,
-// and 0.1 K more for every second since the last good one. Not a number: the sensor is broken.
+// Takes the reading of the sensor of an input, 0 ≤ input < VOLCOMP_TEMPERATURES, and its time, in
+// seconds of any clock that only goes forward. Accepted from −20 to 80 °C and where it changes by
+// less than 2 K, and 0.1 K more for every second since the last good one. Not a number: the sensor
+// is broken.
 void volcomp_take_temperature(struct volcomp_compensator* c, size_t input, float celsius,
                               uint32_t now_s);
 // enum volcomp_temperature; stale when none came for more than `stale_s`.
@@ -290,7 +291,7 @@ enum volcomp_direction { VOLCOMP_FORWARD = 0, VOLCOMP_BACKWARD = 1, VOLCOMP_UNKN
 // The direction in which an axis arrived where it is, 0 ≤ axis < VOLCOMP_AXES.
 int volcomp_direction(const struct volcomp_compensator* c, size_t axis);
 
-// Standard uncertainties of what goes into a point.
+// Standard uncertainties of what goes into a point, each below 1e13.
 struct volcomp_probe_uncertainty {
   double radius;                       // of the effective radius, nm
   double tool_length;                  // of the tool point along its vector from the tool frame, nm

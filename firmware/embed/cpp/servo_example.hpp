@@ -3,7 +3,7 @@
 // and the XYFZ machine compiled in. A simulated machine turns the counters, so that it runs on any
 // board and on a PC, with the same numbers to the last bit.
 //
-//   static ServoExample example;
+//   static ServoExample example;                 // in a function: no constructor runs before main
 //   example.commission(table_image);             // once, in the background
 //   timer interrupt at 10 kHz:  example.on_servo_interrupt();
 //
@@ -57,7 +57,7 @@ class SimulatedMachine {
   std::uint32_t periods_ = 0;
 };
 
-// What came out, small enough to be compared by eye.
+// The result, small enough to be compared by eye.
 struct OffsetSummary {
   std::uint32_t periods = 0;
   std::array<std::int32_t, kAxes> least_nm{};

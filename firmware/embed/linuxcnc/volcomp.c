@@ -4,13 +4,19 @@
 //   loadrt volcomp image=/etc/machine.vct
 //   addf volcomp.update servo-thread        (after motion, before the drives)
 //
+// Beside this file volcomp.hal shows the whole wiring of a machine of three axes.
+//
 // Pins of every axis of the image, for instance of X:
 //
-//   volcomp.x.position  float in   mm or degrees; what the controller commands
-//   volcomp.x.valid     bit in     the position can be relied on
-//   volcomp.x.homed     bit in     the axis is referenced
-//   volcomp.x.offset    float out  mm or degrees, to be added to the command
-//   volcomp.x.status    u32 out    VOLCOMP_VALID … of volcomp.h
+//   volcomp.x.position          float in   mm or degrees of the machine; what motion commands:
+//                                          joint.N.pos-cmd, never joint.N.motor-pos-cmd, which
+//                                          holds the joint.N.motor-offset of homing, too
+//   volcomp.x.valid             bit in     the position can be relied on
+//   volcomp.x.homed             bit in     the axis is referenced
+//   volcomp.x.offset            float out  mm or degrees, to be added to the command
+//   volcomp.x.status            u32 out    VOLCOMP_VALID … of volcomp.h
+//   volcomp.x.out-of-range      bit out    referenced and beyond its table: corrected as at its end
+//   volcomp.x.far-out-of-range  bit out    by more than half a pitch: for a message to the operator
 //
 // and of all: volcomp.enable (bit in; false: all offsets go to 0), volcomp.compensating (bit out:
 // every axis is corrected as configured), volcomp.image-crc (u32 out).
@@ -60,6 +66,8 @@ struct axis_pins {
   hal_bit_t* homed;
   hal_float_t* offset;
   hal_u32_t* status;
+  hal_bit_t* out_of_range;
+  hal_bit_t* far_out_of_range;
 };
 
 struct pins {
@@ -94,6 +102,14 @@ static bool to_units(double value, double scale, int64_t* units) {
   return true;
 }
 
+static void tell_status(const struct axis_pins* axis, unsigned status) {
+  // Before homing a position means nothing, and no correction follows from it.
+  const bool homed = (status & VOLCOMP_NOT_HOMED) == 0;
+  *axis->status = status;
+  *axis->out_of_range = homed && (status & VOLCOMP_OUT_OF_RANGE) != 0;
+  *axis->far_out_of_range = homed && (status & VOLCOMP_FAR_OUT_OF_RANGE) != 0;
+}
+
 static void update(void* unused, long period_ns) {
   struct volcomp_input in;
   struct volcomp_output out;
@@ -114,7 +130,7 @@ static void update(void* unused, long period_ns) {
   for (size_t a = 0; a < machine.axes; ++a) {
     const struct axis_pins* const axis = &pins->axis[a];
     *axis->offset = out.offset[a] / units_per_offset(a);
-    *axis->status = out.status[a];
+    tell_status(axis, out.status[a]);
     if ((out.status[a] & VOLCOMP_VALID) == 0) all_valid = false;
   }
   *pins->compensating = all_valid;
@@ -202,6 +218,12 @@ static int export_axis(size_t a) {
   if (r == 0)
     r = hal_pin_float_newf(HAL_OUT, &axis->offset, component, "volcomp.%c.offset", letter);
   if (r == 0) r = hal_pin_u32_newf(HAL_OUT, &axis->status, component, "volcomp.%c.status", letter);
+  if (r == 0)
+    r = hal_pin_bit_newf(HAL_OUT, &axis->out_of_range, component, "volcomp.%c.out-of-range",
+                         letter);
+  if (r == 0)
+    r = hal_pin_bit_newf(HAL_OUT, &axis->far_out_of_range, component, "volcomp.%c.far-out-of-range",
+                         letter);
   return r;
 }
 

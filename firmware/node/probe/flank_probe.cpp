@@ -5,7 +5,7 @@
 namespace volcomp::node {
 namespace {
 
-constexpr std::uint32_t kMost_nm = 20'000'000;  // seed 000, limits: r_c below 20 mm
+constexpr std::uint32_t kMost_nm = 20'000'000;  // largest radius of a ball
 
 // Sub-indices of 2313h.
 constexpr std::uint8_t kGear = 1;

@@ -1,6 +1,6 @@
 #pragma once
-// Touches that are meant for a flank of a face gear: the gear, the flank that was announced before
-// the touch, and what the kernel says of the touch (comp/probe/face_touch.hpp).
+// Touches of a flank of a face gear: holds the gear and the flank announced before the touch, and
+// judges the touch by the kernel (comp/probe/face_touch.hpp).
 
 #include "comp/probe/face_touch.hpp"
 #include "firmware/node/preemption.hpp"
@@ -29,15 +29,15 @@ class FlankProbe {
   // meanwhile.
   [[nodiscard]] Reason load_gear(std::uint32_t id);
 
-  // The next touches are meant for the flank of 2313h, for none with gear 0 there. Refuses with
+  // Announces the flank of 2313h for the next touches, none with gear 0 there. Refuses with
   // 2310h:05 and :06, what was announced stays: bad_gear (not the one that is loaded), bad_point
   // (side, slot, radius or gate).
   [[nodiscard]] Reason take();
 
   [[nodiscard]] bool announced() const { return announced_.gear != 0; }
 
-  // Of a touch on the announced flank. `centre_nm`: of the ball, in the workpiece frame, which is
-  // that of the gear, saturated. Bit for bit judge_touch() of these numbers in mm.
+  // Judges a touch on the announced flank. `centre_nm`: of the ball, in the workpiece frame, which
+  // is that of the gear, saturated. Equals judge_touch() of these numbers in mm bit for bit.
   [[nodiscard]] JudgedTouch judge(const std::array<std::int32_t, 3>& centre_nm) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Points that wait until somebody has read them: none is overwritten, none is dropped unnoticed.
+// FIFO of points: never overwrites, counts drops.
 
 #include <array>
 

@@ -26,7 +26,7 @@ struct FlankObjects {
   std::uint32_t gear = 0;       // :01 as 2311h:01, or 0: no flank
   std::int8_t side = 0;         // :02 ±1, as FaceFlank
   std::uint16_t slot = 0;       // :03 from 0
-  std::uint8_t row = 0;         // :04 of the measuring grid, from 0: for those who read the point
+  std::uint8_t row = 0;         // :04 of the measuring grid, from 0: copied to the point
   std::uint8_t column = 0;      // :05
   std::uint32_t radius_nm = 0;  // :06 of the ball
   std::uint32_t gate_nm = 0;    // :07 as FaceProbing
@@ -70,7 +70,7 @@ struct ProbeObjects {
   std::array<std::int32_t, 3> workpiece_nm{};  // 2401h:05…07, saturated
   std::uint32_t uncertainty_nm = 0;            // 2401h:08 largest standard uncertainty, rounded up
   std::array<std::int64_t, 3> machine_nm{};    // 2401h:09…11
-  // Of the latest point that was meant for a flank.
+  // The four below describe the latest point on an announced flank.
   std::int32_t distance_nm = kNoDistance;   // 2401h:0C λ, rounded
   std::uint8_t flank_verdict = kNotJudged;  // 2401h:0D Reason of judge_touch()
   std::uint8_t foot = kNotJudged;           // 2401h:0E Reason of its foot

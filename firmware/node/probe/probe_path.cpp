@@ -4,18 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "comp/machine/machine_limits.hpp"
+#include "firmware/node/wire_scale.hpp"
+
 namespace volcomp::node {
 namespace {
 
 constexpr double kSecondsPerNs = 1e-9;
-constexpr double kMostRadius_nm = 2e7;  // seed 000, limits: r_c below 20 mm
-
-bool finite(Span<const double> values) {
-  for (const double v : values) {  // NOLINT(readability-use-anyofallof) the library unrolls it
-    if (!std::isfinite(v)) return false;
-  }
-  return true;
-}
+// Duration of one frame at 1 Mbit/s. With shorter periods any difference is a speed beyond
+// kMaxContact_nm in the 20 ms that 2300h:02 and 2301h may add up to.
+constexpr std::uint32_t kLeastPeriod_us = 50;
+constexpr double kMostDelay_us = 20'000.0;
+static_assert(0x1p31 * kMostScale * (1.0 + kMostDelay_us / kLeastPeriod_us) < kMaxContact_nm);
 
 Frame frame_of(const std::array<double, 12>& v) {
   Frame frame;
@@ -29,14 +29,31 @@ Frame frame_of(const std::array<double, 12>& v) {
   return frame;
 }
 
-// Without a cycle period nobody knows how fast an axis was.
+Reason check_all(const ProbeObjects& o) {
+  struct Numbers {
+    const double* first;
+    std::size_t count;
+    double most;
+  };
+  const std::array<Numbers, 5> all{{
+      {o.lobing.data(), o.lobing.size(), kMaxBallRadius_nm},
+      {o.workpiece.data(), o.workpiece.size(), kMaxPart_nm},
+      {o.uncertainty.data(), o.uncertainty.size(), kMaxPart_nm},
+      {o.position_uncertainty.data(), o.position_uncertainty.size(), kMaxPart_nm},
+      {o.latch_delay_uncertainty_ns.data(), o.latch_delay_uncertainty_ns.size(), kMaxPart_nm},
+  }};
+  for (const Numbers& numbers : all) {
+    const Reason reason = check_numbers(numbers.first, numbers.count, numbers.most);
+    if (reason != Reason::ok) return reason == Reason::not_finite ? reason : Reason::bad_setting;
+  }
+  return Reason::ok;
+}
+
+// Without a cycle period the speed of an axis is unknown.
 Status check(const ProbeObjects& o, std::uint32_t period_us) {
-  if (period_us == 0) return refuse(Reason::bad_setting);
-  const bool all_finite = finite(o.lobing) && finite(o.workpiece) && finite(o.uncertainty) &&
-                          finite(o.position_uncertainty) && finite(o.latch_delay_uncertainty_ns);
-  if (!all_finite) return refuse(Reason::not_finite);
-  const bool plausible = o.lobing[0] >= 0.0 && o.lobing[0] <= kMostRadius_nm;
-  if (!plausible || std::abs(o.uncertainty[2]) > 1.0) return refuse(Reason::bad_setting);
+  if (period_us < kLeastPeriod_us) return refuse(Reason::bad_setting);
+  if (const Reason reason = check_all(o); reason != Reason::ok) return refuse(reason);
+  if (o.lobing[0] < 0.0 || std::abs(o.uncertainty[2]) > 1.0) return refuse(Reason::bad_setting);
   if (!is_rotation(frame_of(o.workpiece).R)) return refuse(Reason::not_a_rotation);
   return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How a record of settings and tables lies in flash, and what two slots in any state amount to.
+// Layout of a record of settings and tables in flash, and the meaning of two slots in any state.
 //
 // Each slot is one sector (0 and 1), little-endian, everything at multiples of 32 bytes:
 //
@@ -90,7 +90,7 @@ using RecordHeaderBytes = std::array<std::uint8_t, kRecordHeaderBytes>;
 
 // The newest valid record, or the one before it while the newest lacks its seal: 0, 1 or kNoSlot.
 [[nodiscard]] std::size_t record_to_use(const Slots& slots);
-// What load() says about slots in these states.
+// The result of load() for slots in these states.
 StoreResult verdict(const Slots& slots);
 
 }  // namespace volcomp::node

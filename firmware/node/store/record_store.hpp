@@ -1,6 +1,6 @@
 #pragma once
-// Settings and tables through a power failure: one record of two parts, kept twice in turn
-// (record_layout.hpp).
+// Keeps settings and tables through a power failure: one record of two parts, written to two slots
+// in turn (record_layout.hpp).
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,7 @@ class RecordStore {
   }
 
   // The parts of the record that load() found or save() wrote: done, nothing_stored, read_failed,
-  // buffer_too_small (nothing is read, `size` says what is needed) or damaged (since load(); `out`
+  // buffer_too_small (nothing is read, `size` is what is needed) or damaged (since load(); `out`
   // holds bytes not to be used).
   StoreResult read_parameters(Span<std::uint8_t> out, std::size_t& size) {
     return read_part(kParametersAt, header_.parameters, out, size);
@@ -55,8 +55,8 @@ class RecordStore {
     if (all_unreadable(slots)) return StoreResult::read_failed;
     const std::size_t target = slot_to_replace(slots);
     const std::size_t other = 1 - target;
-    // Nothing half erased may come back one day as the newest record, nor may a slot that does not
-    // answer, or whose header is not firm.
+    // A half-erased slot must not come back later as the newest record, nor a slot that cannot be
+    // read, nor one whose header is not sealed.
     const bool clear_first = held_ == kNoSlot && slots[other].state != SlotState::unreadable;
     const bool clear_last = !clear_first && !slots[other].sealed;
     if (clear_first && !blocks_.erase(other)) return StoreResult::erase_failed;

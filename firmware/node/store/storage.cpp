@@ -26,6 +26,8 @@ const char* sentence(StoreResult result) {
       return "The memory reported a failure while writing.";
     case StoreResult::verify_failed:
       return "The memory does not hold what was written to it.";
+    case StoreResult::read_only:
+      return "The memory can only be read.";
   }
   return "Unknown result.";
 }

@@ -11,14 +11,15 @@ namespace volcomp::node {
 // 1010h or 1011h in 2600h:0C.
 enum class [[nodiscard]] StoreResult : std::uint8_t{
     nothing_stored = 0, loaded = 1,
-    loaded_older = 2,  // beside it is what may have been a newer record
+    loaded_older = 2,  // the other slot may have been a newer record
     damaged = 3,       // there was something, none of it can be used
-    done = 4,          // saved, read or erased as asked
+    done = 4,          // saved, read or erased
     too_large = 5,      buffer_too_small = 6, read_failed = 7, erase_failed = 8, write_failed = 9,
     verify_failed = 10,  // what was read back is not what was written
+    read_only = 11,      // nothing can be written, see Storage::writable()
 };
 
-inline constexpr std::uint8_t kStoreResults = 11;
+inline constexpr std::uint8_t kStoreResults = 12;
 
 // One plain sentence for a person.
 [[nodiscard]] const char* sentence(StoreResult result);
@@ -28,18 +29,24 @@ class Storage {
   // Both parts or neither: done; anything else, and what was stored before is intact.
   virtual StoreResult save(Span<const std::uint8_t> parameters, Span<const std::uint8_t> image) = 0;
 
-  // Reads into the given memory, and the sizes become what was read: loaded or loaded_older.
-  // Anything else says why there is nothing to use. An empty `image` is not wanted.
+  // Reads into the given memory, and the sizes become what was read: loaded or loaded_older. Any
+  // other result gives the reason why there is nothing to use. An empty `image` is not read.
   virtual StoreResult load(Span<std::uint8_t>& parameters, Span<std::uint8_t>& image) = 0;
 
   // done, or why something may be left.
   virtual StoreResult erase() = 0;
 
+  // False: what is stored can be read, and save() and erase() refuse.
+  [[nodiscard]] bool writable() const { return writable_; }
+
  protected:
-  Storage() = default;
+  explicit Storage(bool writable = true) : writable_(writable) {}
   Storage(const Storage&) = default;
   Storage& operator=(const Storage&) = default;
   ~Storage() = default;
+
+ private:
+  bool writable_;
 };
 
 }  // namespace volcomp::node

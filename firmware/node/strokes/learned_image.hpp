@@ -28,20 +28,20 @@ struct LearnedTables {
   Span<const double> slot;
 };
 
-// `out` has layout.bytes(); the tables are as long as the layout says.
+// `out` has layout.bytes(); the tables have the lengths of the layout.
 void encode_learned(const LearnedLayout& layout, const LearnedTables& tables,
                     Span<std::uint8_t> out);
 
-// Whether these bytes are tables for a grinder like `mine`, whose feed is not looked at and whose
-// machine id 0 is that of any machine. Refused: bad_magic, image_truncated (also too long),
-// crc_mismatch, machine_mismatch, length_mismatch (field: what differs), bad_setting ("feed"),
-// not_finite and bound_exceeded (beyond ±most_offset) with index.
+// Whether these bytes are tables for a grinder like `mine`, whose feed is ignored and whose machine
+// id 0 matches any machine. Refused: bad_magic, image_truncated (also too long), crc_mismatch,
+// machine_mismatch, length_mismatch (field: what differs), bad_setting ("feed"), not_finite and
+// bound_exceeded (beyond ±most_offset) with index.
 Status check_learned(Span<const std::uint8_t> image, const LearnedLayout& mine, double most_offset);
 
 // Four bytes: a float, little-endian.
 void store_real(std::uint8_t* at, double value);
 
-// Of an image that was checked.
+// Both read an image that was checked.
 [[nodiscard]] std::int32_t learned_feed(Span<const std::uint8_t> image);
 [[nodiscard]] double learned_value(Span<const std::uint8_t> image, std::size_t index);
 

@@ -69,7 +69,7 @@ Status StrokeService::check_learning() {
   RunningStatistics lag;
   RunningStatistics sync;
   for (const Direction direction : kDirections) {
-    // Strokes in one direction only tell enough; the lags of the two have opposite signs.
+    // Strokes of one direction suffice; the lags of the two directions have opposite signs.
     const StrokeSpectra& seen = monitor_.totals().spectra(direction);
     if (seen.of(FlankSignal::sync).count() == 0) continue;
     lag = seen.of(FlankSignal::lag_c);

@@ -1,9 +1,9 @@
 #pragma once
 // The values behind 201Ah (what the controller grinds) and 2500h (monitor, learning and offsets of
 // a helical grinder), with their defaults. The node adds the learned offsets to those of the axis C
-// (comp/strokes/stroke_offsets.hpp). Seed 003 sections 8 and 9.
+// (comp/strokes/stroke_offsets.hpp). docs/papers/internal-helical.md, "What we do".
 //
-// Lengths in mm and angles in rad unless the name says otherwise.
+// Lengths in mm and angles in rad unless the name has another unit.
 
 #include <array>
 #include <cstdint>

@@ -141,7 +141,7 @@ inline constexpr std::array<NamedEntry, 9> kOffsetRows{{
 
 }  // namespace detail
 
-// Of a StrokeObjects at `offset` of the node's values; sorted. None where there is none.
+// Rows of a StrokeObjects at `offset` of the node's values; sorted. Empty where there is none.
 template <bool there>
 constexpr auto process_state_rows(std::size_t offset) {
   if constexpr (there)

@@ -67,8 +67,8 @@ LearningRules StrokeService::stroke_rules() const {
   return rules;
 }
 
-// Slots are not smoothed: their errors need not resemble each other, and C has come to rest before
-// the face, so there is no lag that would have to be kept out of the loop.
+// Slots are not smoothed: their errors are independent, and C has come to rest before the face, so
+// there is no lag to keep out of the loop.
 LearningRules StrokeService::slot_rules() const {
   LearningRules rules = stroke_rules();
   rules.periodic = true;

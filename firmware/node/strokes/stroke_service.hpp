@@ -1,6 +1,6 @@
 #pragma once
-// Strokes of a helical grinder: what axes and controller report goes to the monitor, what the
-// monitor has learned comes back as an offset of C (2500h). Seed 003 sections 8 and 9.
+// Strokes of a helical grinder: hands the reports of axes and controller to the monitor and returns
+// what it has learned as an offset of C (2500h). docs/papers/internal-helical.md, "What we do".
 //
 // The targets of a cycle take effect at the next SYNC, and so does the process state that comes
 // with them; the positions of a cycle were taken at its own SYNC. So positions are compared with

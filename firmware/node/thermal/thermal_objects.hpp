@@ -42,7 +42,7 @@ struct ThermalObjects {
   std::uint32_t inputs = 0;                      // that the active tables use, a bit each
 };
 
-// Of a node that follows no temperatures.
+// Stands in for the objects in a node that follows no temperatures.
 struct NoThermalObjects {};
 
 }  // namespace volcomp::node

@@ -44,7 +44,7 @@ inline constexpr std::array<canopen::NamedEntry, 10> kThermalRows{{
 
 }  // namespace detail
 
-// Of a ThermalObjects at `offset` of the node's values; sorted. None where there is none.
+// Rows of a ThermalObjects at `offset` of the node's values; sorted. Empty where there is none.
 template <bool there>
 constexpr auto time_rows(std::size_t offset) {
   if constexpr (there)

@@ -1,5 +1,5 @@
 #pragma once
-// Where a machine of any axes is looked at: along its diagonals and all over its travel.
+// Places at which a machine of any axes is measured: along its diagonals and all over its travel.
 
 #include <string>
 #include <vector>
@@ -23,11 +23,11 @@ struct LinePlan {
 // shorter than the travels, so that every point can be approached.
 [[nodiscard]] std::vector<LinePlan> diagonals_of(const host::MachineFile& file);
 
-// Random poses of all axes where the correcting ones can act. May be fewer than asked for.
+// Random poses of all axes where the correcting ones can act. May be fewer than `count`.
 [[nodiscard]] std::vector<Pose> random_poses(const host::MachineFile& file, std::size_t count,
                                              std::uint64_t seed);
 
-// What stands at a pose that the machine has gone to.
+// The reading at a pose of the machine.
 struct PlaceReading {
   Pose pose{};
   Vec3 deviation_mm = Vec3::Zero();     // that the correcting axes can reach, work frame
@@ -37,8 +37,8 @@ struct PlaceReading {
   host::Offsets offset{};               // of the compensation, run-time units
 };
 
-// Of a position error in the work frame, what the correcting axes can move; all of it where three
-// axes correct.
+// The part of a position error, in the work frame, that the correcting axes can move; all of it
+// where three axes correct.
 [[nodiscard]] Vec3 within_reach(const MachineChain& chain, const Pose& q, const Vec3& error_work);
 
 // The line in both directions, deviations along it.

@@ -118,10 +118,13 @@ json volume_chart(const MachineResult& r) {
     before.error.push_back(r.before.place[i].deviation_mm);
     after.error.push_back(r.after.place[i].deviation_mm);
   }
+  before.error = host::aligned_errors(places, before.error);
+  after.error = host::aligned_errors(places, after.error);
   return host::volume_map(
       "Error vectors all over the travel", places, {before, after},
-      "Tool point in the workpiece frame, all axes anywhere on their travels; of the "
-      "error what the correcting axes can reach.");
+      "Tool point in the workpiece frame, all axes anywhere on their travels; of the error what "
+      "the "
+      "correcting axes can reach, after aligning the workpiece frame as for the figures.");
 }
 
 host::Origins origins(const MachineResult& r) {

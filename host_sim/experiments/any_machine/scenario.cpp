@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/experiments/any_machine/campaign.hpp"
-#include "host_sim/experiments/any_machine/truth.hpp"
+#include "host_sim/sim/campaign/any_axes.hpp"
+#include "host_sim/sim/truth/drawn_machine.hpp"
 
 namespace volcomp::any_machine {
 namespace {
@@ -42,13 +42,13 @@ MachineState verify(const Verification& v, const std::vector<std::uint8_t>& imag
   return state;
 }
 
-// Slopes are kept: the place of rotary axes counts from the axes as they are, and the closure takes
-// out of the squareness what the straightness already holds.
-std::unique_ptr<host::Commissioned> build(const sim::Campaign& campaign,
-                                          const MachineOptions& options) {
-  host::CommissionOptions how = host::tables_only(host::ModelKind::abbe_closed, options.knots);
+// Slopes are kept: the place of rotary axes counts from the actual axes, and the closure subtracts
+// from the squareness what the straightness already holds.
+std::unique_ptr<host::BuiltTables> build(const sim::Campaign& campaign,
+                                         const MachineOptions& options) {
+  host::BuildOptions how = host::tables_only(host::ModelKind::abbe_closed, options.knots);
   how.slope = SlopeFit::keep;
-  return host::commission(campaign.machine, campaign.runs, how);
+  return host::build_tables(campaign.machine, campaign.runs, how);
 }
 
 template <class Visit>
@@ -120,7 +120,7 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
   const sim::NoiseClasses classes = options.noise ? sim::NoiseClasses{} : sim::no_noise();
   sim::Random random(options.seed);
   const sim::Campaign campaign =
-      measure_any_machine(truth, file, classes, options.noise ? options.runs : 1, random);
+      sim::measure_any_machine(truth, file, classes, options.noise ? options.runs : 1, random);
   const auto tables = build(campaign, options);
   result.warnings = tables->warnings;
   const std::vector<std::uint8_t> image = host::make_image(tables->tables);
@@ -145,7 +145,7 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
 MachineResult run_machine(const MachineOptions& options, const host::Progress& progress) {
   const host::MachineFile file = host::read_machine_file(options.machine);
   MachineResult result =
-      run_machine_with(file, draw_machine(file, options.seed), options, progress);
+      run_machine_with(file, sim::draw_machine(file, options.seed), options, progress);
   result.inputs.insert(result.inputs.begin(), host::hashed_file("machine file", options.machine));
   return result;
 }

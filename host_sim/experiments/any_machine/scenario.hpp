@@ -37,10 +37,10 @@ struct MachineState {
 
   [[nodiscard]] double lines_max_um() const;
   [[nodiscard]] host::VolumeFigures sphere_um() const;
-  // Of places and ball, rad: how far the axis of the tool is off in direction.
+  // Error of direction of the tool axis over places and ball, rad.
   [[nodiscard]] double tilt_max_rad() const;
   [[nodiscard]] double tilt_rms_rad() const;
-  // Of that, what the orienting axes reach.
+  // The part of it that the orienting axes reach.
   [[nodiscard]] double steerable_max_rad() const;
 };
 

@@ -65,8 +65,8 @@ double scale_step_um(const FaceGearResult& run) {
   return kUmPerMm * kScaleStep_rad * run.gear.r_pitch;
 }
 
-// Largest standard deviations of the frame that a probe of 0.5 µm leaves (seed 002 section 11), µm;
-// turns at the pitch radius.
+// Largest standard deviations of the frame that a probe of 0.5 µm leaves (docs/papers/face-gear.md,
+// "Options"), µm; turns at the pitch radius.
 json frame_figures(const FaceGearResult& run) {
   const FaceFrame& fit = *run.at(FaceStage::compensated).frame.fit;
   constexpr double kProbe_um = 0.5;

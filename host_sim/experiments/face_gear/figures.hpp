@@ -10,7 +10,8 @@
 
 namespace volcomp::face_gear {
 
-// What the paper says of its Tables 5 to 8, and what the tables say (seed 002 section 10); µm.
+// A statement of the paper about its Tables 5 to 8, beside what the tables show
+// (docs/papers/face-gear.md, "How to reproduce"); µm.
 struct PaperStatement {
   const char* key;
   const char* what;

@@ -23,7 +23,7 @@ struct GridCell {
   std::size_t row;
   std::size_t column;
 };
-// Of a flank, for the frame: its centre, and far out.
+// Cells of a flank for the frame: its centre, and four far out.
 constexpr std::array<GridCell, 5> kFrameCells{
     {{kCentreRow, kCentreColumn}, {1, 1}, {1, 13}, {5, 13}, {5, 1}}};
 

@@ -1,6 +1,6 @@
 #pragma once
-// Measuring a face gear: its frame, maps of chosen flanks, the pitch of all teeth (seed 002
-// sections 5 to 8).
+// Measuring a face gear: its frame, maps of chosen flanks, the pitch of all teeth
+// (docs/papers/face-gear.md, "What we do").
 
 #include <array>
 #include <optional>
@@ -59,8 +59,8 @@ class FaceInspector {
   FaceInspector(FaceStation& station, const FaceGear& gear, const FaceGrid& grid,
                 double ball_radius);
 
-  // The turn of the gear about its axis from one touch at the centre of a flank, everything else
-  // as believed: the paper's procedure.
+  // The paper's procedure: takes the turn of the gear about its axis from one touch at the centre
+  // of a flank, all else as assumed.
   [[nodiscard]] KnownFrame frame_from_one_ball();
   // All six coordinates from five points of both flanks of three slots.
   [[nodiscard]] KnownFrame frame_from_many();

@@ -1,5 +1,6 @@
 #pragma once
-// The error maps the paper prints: one pair of flanks, measured twice (seed 002 section 10).
+// The error maps of the paper's Tables 5 to 8: one pair of flanks, measured twice
+// (docs/papers/face-gear.md).
 
 #include <cstdint>
 

@@ -15,7 +15,8 @@
 namespace volcomp::face_gear {
 namespace {
 
-// Angle of the paper's ball: (20.34, 170.14, 47), radius 0.5 (seed 002 section 5).
+// Computes the angle of the paper's worked example: ball at (20.34, 170.14, 47). The paper prints
+// no radius; 0.5 mm gives its −81.857° (docs/papers/face-gear.md, "How to reproduce").
 double worked_example_deg(const FaceGear& gear) {
   FaceContact contact;
   FaceAngle found;
@@ -28,7 +29,7 @@ double worked_example_deg(const FaceGear& gear) {
   return found.gamma * 180.0 / kPi;
 }
 
-// Of the distance from a flank, over the grid, as at a trigger.
+// Times the distance from a flank over the grid, as at a trigger.
 double measure_kernel_ns(const FaceGear& gear, const FaceGrid& grid) {
   constexpr int kRounds = 200;
   FaceFlank flank;
@@ -76,10 +77,10 @@ MapError map_error(const std::vector<FlankMap>& maps, const FaceGearErrors& erro
 }
 
 FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStage stage,
-                       const sim::Identification& identification, const host::Progress& progress) {
-  const sim::TableKind kind =
-      stage == FaceStage::compensated ? sim::TableKind::identified : sim::TableKind::none;
-  const MachineTables tables = sim::tables_of(
+                       const host::Identification& identification, const host::Progress& progress) {
+  const host::TableKind kind =
+      stage == FaceStage::compensated ? host::TableKind::identified : host::TableKind::none;
+  const MachineTables tables = host::tables_of(
       identification, hall.file, hall.file.chain.description(), kind, run.options.knots);
   FaceStation station(hall, tables, nominal_mounting());
   FaceInspector inspector(station, run.gear, run.grid, hall.file.probe->radius_mm);
@@ -137,7 +138,7 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progres
                       options.cycle_hz,
                       options.seed};
   progress(0.0, "identification of the machine");
-  const sim::Identification identification = sim::identify_axes(hall.truth, run.machine);
+  const host::Identification identification = sim::identify_axes(hall.truth, run.machine).found;
   for (const FaceStage stage : {FaceStage::one_ball, FaceStage::frame, FaceStage::compensated}) {
     const auto s = static_cast<std::size_t>(stage);
     run.inspection[s] = inspect(hall, run, stage, identification, progress);

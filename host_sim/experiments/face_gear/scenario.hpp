@@ -1,7 +1,7 @@
 #pragma once
 // A face gear measured on the YK7280: with the frame of one ball as in the paper, with the frame of
 // thirty touches, and with the errors of the machine compensated as well. Every touch goes through
-// drives, bus and node. Seed 002.
+// drives, bus and node. docs/papers/face-gear.md.
 
 #include <filesystem>
 #include <string>

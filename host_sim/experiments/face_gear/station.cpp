@@ -33,7 +33,7 @@ FaceStation::FaceStation(const FaceHall& hall, const MachineTables& tables, cons
   auto axes =
       hall.make_axes(host::bus_settings(hall.file, hall.cycle_hz), host::make_image(tables));
   axes_ = axes.get();
-  axes_->controller().use_probe(sim::node_probe(hall.file));
+  axes_->controller().use_probe(host::node_probe(hall.file));
   cell_ = std::make_unique<sim::MotionCell>(truth_, std::move(axes));
   last_ = pose_at({hall.gear.r_pitch, 0.0, hall.gear.z_tip - kAboveTips_mm});
   cell_->place(last_);
@@ -48,7 +48,7 @@ void FaceStation::deploy_arm() {
     component += kArmRepeatability_mm / std::sqrt(3.0) * random_.uniform(-1.0, 1.0);
   host::require(MachineChain::build(description, truth_.chain), hall_.file.path);
   sim::TouchProbe::Settings probe;
-  const sim::NodeProbe described = sim::node_probe(hall_.file);
+  const host::NodeProbe described = host::node_probe(hall_.file);
   probe.radius_mm = described.radius.coefficient[0];
   probe.delay_ns = std::llround(1e3 * described.delay_us);
   axes_->mount(sim::TouchProbe(truth_, gear_, probe));
@@ -57,7 +57,7 @@ void FaceStation::deploy_arm() {
 
 void FaceStation::believe(const Frame& mounting) {
   believed_ = mounting;
-  sim::NodeProbe probe = sim::node_probe(hall_.file);
+  host::NodeProbe probe = host::node_probe(hall_.file);
   probe.workpiece = mounting;
   probe.gear_id = kGearId;
   probe.gear = hall_.gear;
@@ -73,7 +73,8 @@ Pose FaceStation::pose_at(const Vec3& in_gear) const {
   return {way.x(), way.y(), way.z(), table_};
 }
 
-// To the nearest line of the scale; where the table really comes to stand the scale does not say.
+// Turns to the nearest line of the scale; the scale does not resolve the true position of the
+// table.
 void FaceStation::turn_to(int slot) {
   const Vec3 centre =
       believed_.R * axis_rotation(Axis::z, 2.0 * kPi * slot / hall_.gear.teeth) * Vec3::UnitX();

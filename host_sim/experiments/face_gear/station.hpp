@@ -23,8 +23,9 @@ struct FaceHall {
   std::uint64_t seed = 1;
 };
 
-inline constexpr double kScaleStep_rad = 1.8 / 3600.0 * kPi / 180.0;  // of the table (seed 002)
-inline constexpr double kArmRepeatability_mm = 3e-3;                  // of the swing arm (seed 002)
+// Both are limits the paper gives (docs/papers/face-gear.md, "What stays open").
+inline constexpr double kScaleStep_rad = 1.8 / 3600.0 * kPi / 180.0;  // of the table
+inline constexpr double kArmRepeatability_mm = 3e-3;                  // of the swing arm
 
 // One flank of one slot.
 struct FlankName {
@@ -35,15 +36,16 @@ struct FlankName {
 inline constexpr std::uint32_t kGearId = 1;  // of the gear on the table, for the node
 inline constexpr double kGate_mm = 0.25;     // more than a frame is off before it was found
 
-// A touch as the node has seen it.
+// A touch as the node reports it.
 struct FaceStationTouch {
-  Vec3 ball = Vec3::Zero();  // centre, in the believed gear frame
+  Vec3 ball = Vec3::Zero();  // centre, in the assumed gear frame
   sim::FlankJudgement judgement;
 };
 
 class FaceStation {
  public:
-  // The arm is deployed once. `believed`: the gear frame in the work frame, until told otherwise.
+  // The arm is deployed once. `believed`: the assumed gear frame in the work frame, until
+  // believe().
   FaceStation(const FaceHall& hall, const MachineTables& tables, const Frame& believed);
 
   // The arm swings out and back: the ball is up to kArmRepeatability_mm from where it was, and a
@@ -55,7 +57,7 @@ class FaceStation {
   [[nodiscard]] const Frame& believed() const { return believed_; }
 
   // Turns the slot to the arm, touches this point of its flank, given for slot 0, along the normal.
-  // `row` and `column` are told to the node. Throws UserError when nothing was touched.
+  // Sends `row` and `column` to the node. Throws UserError when nothing was touched.
   [[nodiscard]] FaceStationTouch touch(const FlankName& flank, const SurfacePoint& at,
                                        std::size_t row, std::size_t column);
   void retract();

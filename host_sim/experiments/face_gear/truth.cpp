@@ -166,7 +166,8 @@ Frame nominal_mounting() {
   return face_mounting({0.0, 0.0, kHeight_mm}, kFirstSlot_rad, Vec3::Zero());
 }
 
-// Out of centre by what explains the paper's Tables 5 to 8 best (section 10), and turned by 1'.
+// Out of centre by what explains the paper's Tables 5 to 8 best (docs/papers/face-gear.md, "How to
+// reproduce"), and turned by 1'.
 Frame true_mounting() {
   constexpr double kMinute = kPi / 180.0 / 60.0;
   return face_mounting({-41.3e-3, 12e-3, kHeight_mm + 4.1e-3}, kFirstSlot_rad + kMinute,

@@ -1,6 +1,7 @@
 #pragma once
-// The YK7280 as it really is, and the face gear on it: seed 002 gives neither errors of the machine
-// nor pitch deviations, so both are chosen here.
+// The YK7280 as it really is, and the face gear on it: the paper gives neither errors of the
+// machine nor pitch deviations, so both are chosen here (docs/papers/face-gear.md, "What stays
+// open").
 
 #include <array>
 #include <cstdint>
@@ -32,7 +33,7 @@ enum class FormTruth : std::uint8_t {
 };
 inline constexpr std::array<const char*, 2> kFormTruths{"tables", "synthetic"};
 
-// What is wrong with the gear. Left flank first; µm.
+// Errors of the gear. Left flank first; µm.
 struct FaceGearErrors {
   std::array<ErrorMap, 2> form;              // of every slot
   std::array<std::vector<double>, 2> pitch;  // arc by which the flanks of a slot are displaced
@@ -45,7 +46,7 @@ struct FaceGearErrors {
 
 // The gear frame in the work frame of the machine: Z points down into the table.
 [[nodiscard]] Frame face_mounting(const Vec3& origin, double angle, const Vec3& tilt);
-// As the drawing of the clamping says, and as the gear really lies.
+// The mounting of the clamping's drawing, and the true one.
 [[nodiscard]] Frame nominal_mounting();
 [[nodiscard]] Frame true_mounting();
 

@@ -12,8 +12,8 @@
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/axis_errors.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
-#include "host_sim/sim/campaign/identification.hpp"
 
 namespace volcomp::internal_helical {
 namespace {
@@ -29,9 +29,9 @@ constexpr int kMostWaiting = 5000;
 
 // A machine that is as it was drawn.
 std::vector<std::uint8_t> image_without_errors(const host::MachineFile& machine) {
-  sim::Identification nothing;
+  host::Identification nothing;
   for (const host::AxisFile& file : machine.axes) {
-    sim::IdentifiedAxis axis;
+    host::IdentifiedAxis axis;
     axis.letter = file.letter;
     for (std::size_t t = 0; t < file.targets; ++t)
       axis.nodes.push_back(file.lo + static_cast<double>(t) * (file.hi - file.lo) /
@@ -39,8 +39,8 @@ std::vector<std::uint8_t> image_without_errors(const host::MachineFile& machine)
     axis.motion.assign(file.targets, ErrorMotion::Zero());
     nothing.axis.push_back(axis);
   }
-  return host::make_image(sim::tables_of(nothing, machine, machine.chain.description(),
-                                         sim::TableKind::none, node::kNodeKnots));
+  return host::make_image(host::tables_of(nothing, machine, machine.chain.description(),
+                                          host::TableKind::none, node::kNodeKnots));
 }
 
 bool corrects(const MachineChain& chain, std::size_t axis) {
@@ -49,7 +49,7 @@ bool corrects(const MachineChain& chain, std::size_t axis) {
   return std::find(d.correcting.begin(), end, axis) != end;
 }
 
-// What a node would refuse, said in words of the machine file.
+// Checks what a node would refuse, and names the fields of the machine file.
 void check(const host::MachineFile& machine, const host::BusSettings& settings,
            const host::WatchedStrokes& watched) {
   machine.expect_axes("XZC");

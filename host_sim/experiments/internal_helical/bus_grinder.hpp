@@ -28,7 +28,7 @@ class BusGrinder final : public GrinderControl {
   [[nodiscard]] MonitorView view() override;
   [[nodiscard]] LearnedTables tables() override;
 
-  // Why the node adds no learned offset although it has tables, in words; empty where it does.
+  // The reason why the node adds no learned offset although it has tables; empty where it does.
   [[nodiscard]] std::string feed_trouble();
 
   // An object of the node; the machine rests until it is there. `most`: bytes it may have.

@@ -1,11 +1,11 @@
 #pragma once
-// What the simulated grinder and its gear are like. Seed 003 section 9 and its addendum "Simulation
-// constants": the amplitudes are chosen there so that the sums land at what the paper prints; the
-// run shows a mechanism, it does not verify an experiment.
+// Constants of the simulated grinder and its gear. The paper publishes no error of its machine: the
+// amplitudes are chosen so that the sums reach its deviations. The run shows a mechanism, it
+// verifies no experiment (docs/papers/internal-helical.md, "What stays open").
 //
-// Read into the addendum, which gives amounts only: of the two random parts of C, 7 µrad belong to
-// the slot and 5.5 µrad to the pass, both seen by the encoder; neighbouring slots are ground in
-// opposite directions, else C learned alone could not end at f_p = 86 µm (section 7, F3).
+// Of the two random parts of C, 7 µrad belong to the slot and 5.5 µrad to the pass, both seen by
+// the encoder. Neighbouring slots are ground in opposite directions, else learning C alone could
+// not raise f_p to 86 µm.
 
 #include <cstdint>
 
@@ -36,8 +36,8 @@ struct GrindingTruth {
   double runout_mm = 7e-3;        // of the workpiece
   double wheel_form_mm = 6.2e-3;  // slope of the wheel, on the profile from tip to form circle
 
-  // Where the waves once per turn stand, slot 0 at 0. The specification gives amplitudes only; the
-  // two angles are chosen so that F_p of the two flanks differ as they do in its own simulation.
+  // Angles of the waves once per turn, slot 0 at 0: chosen so that F_p of the two flanks differ as
+  // the deviations of the paper do.
   double visible_phase = 120.0 * kRadPerDegree;  // against the invisible one
   double runout_phase = 0.0;                     // direction in the frame of the gear
 

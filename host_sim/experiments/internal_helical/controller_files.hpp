@@ -1,5 +1,6 @@
 #pragma once
-// The learned tables as files of controllers that have a place for them. Seed 003 section 10.
+// The learned tables as files of controllers that have a place for them. docs/formats.md, "What is
+// written".
 
 #include <string>
 #include <vector>

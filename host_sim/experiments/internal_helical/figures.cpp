@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 constexpr double kSyncGain = 5.0;        // by which the error must fall in six updates
-constexpr double kRegenerated_nm = 1.0;  // seed 003, tests 1 and 2
+constexpr double kRegenerated_nm = 1.0;  // limits against the exact envelope
 constexpr double kSingle_nm = 5.0;
 constexpr double kAll_nm = 10.0;
 constexpr int kSeedsForMedians = 16;
@@ -85,7 +85,7 @@ std::string measure_row(const InternalHelicalResult& run, const HelicalMeasure& 
 
 }  // namespace
 
-// The addendum of seed 003 has the specification's range widened by 25 %: half of it on each side.
+// Widens the range of the independent simulation by 25 %, half of it on each side.
 EvaluationRange HelicalMeasure::allowed() const {
   const double more = 0.125 * (specified.high - specified.low);
   return {specified.low - more, specified.high + more};

@@ -17,8 +17,8 @@ struct Spread {
   double max = 0.0;
 };
 
-// A deviation of the gear before or after: what came out, and what the simulation of the
-// specification and the paper have.
+// A deviation of the gear before or after: found here, in an independent simulation of the same
+// grinder (16 seeds), and in the paper.
 struct HelicalMeasure {
   const char* name = "";  // "Fp", "fp", "Fa"
   const char* side = "";  // "left", "right"; empty for F_α
@@ -27,7 +27,7 @@ struct HelicalMeasure {
   Spread found;                                   // µm
   EvaluationRange specified;                      // its lowest and highest of 16 seeds, µm
   double paper = 0.0;                             // µm
-  bool same_gear = true;                          // as theirs; else the two before say nothing
+  bool same_gear = true;                          // as theirs; else the two before do not apply
   [[nodiscard]] EvaluationRange allowed() const;  // for the median
   [[nodiscard]] bool ok() const;
 };

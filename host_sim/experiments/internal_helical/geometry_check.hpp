@@ -1,6 +1,6 @@
 #pragma once
-// The geometry that the simulation rests on, held against the exact envelope. Seed 003 sections 4
-// and 5.
+// Compares the geometry of the simulation with the exact envelope (docs/papers/internal-helical.md,
+// "What we do").
 
 #include "host_sim/host/machine/machine_file.hpp"
 

@@ -7,8 +7,8 @@
 namespace volcomp::internal_helical {
 namespace {
 
-// w, node spacing and passes are those of seed 003, addendum; limits keep a bad pass out and are
-// several times what the simulated machine needs.
+// Half of the error is learned per step (w = 0.5). The limits reject a bad pass and are several
+// times what the simulated machine needs.
 LearningRules stroke_rules(double pitch_mm) {
   LearningRules rules;
   rules.weight = 0.5;
@@ -20,8 +20,8 @@ LearningRules stroke_rules(double pitch_mm) {
   return rules;
 }
 
-// Slots are not smoothed: their errors need not resemble each other, and C has come to rest before
-// the face, so there is no lag that would have to be kept out of the loop.
+// Slots are not smoothed: their errors are independent, and C has come to rest before the face, so
+// there is no lag to keep out of the loop.
 LearningRules slot_rules() {
   LearningRules rules = stroke_rules(1.0);
   rules.periodic = true;

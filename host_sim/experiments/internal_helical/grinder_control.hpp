@@ -1,6 +1,6 @@
 #pragma once
-// What stands between the commands of the grinder and its axes, and learns the offsets of C:
-// monitor, learning and offsets, linked into the controller or on a node of its bus.
+// Stands between the commands of the grinder and its axes and learns the offsets of C: monitor,
+// learning and offsets, linked into the controller or on a node of its bus.
 
 #include <array>
 #include <vector>
@@ -10,10 +10,11 @@
 
 namespace volcomp::internal_helical {
 
-// How it learns: the right way and the three wrong ones of seed 003 section 9.
+// How the control learns: the right way and three wrong ones (docs/papers/internal-helical.md, "How
+// to reproduce").
 enum class LearningWay : std::uint8_t {
   right,
-  c_alone,    // looks at the lag of C and away from that of Z
+  c_alone,    // learns the lag of C, ignores that of Z
   one_table,  // for both directions
   coarse,     // nodes 1 mm apart
 };
@@ -26,7 +27,7 @@ inline constexpr std::array<double, kMostLines> kWavelengths_mm{10.0, 5.0, 2.5, 
 [[nodiscard]] host::WatchedStrokes watched_strokes(const host::GrindingFile& job,
                                                    double flank_per_x, LearningWay way);
 
-// As the monitor has seen one or more rounds; µm on the flank.
+// What the monitor has seen of one or more rounds; µm on the flank.
 struct MonitorView {
   std::array<std::vector<double>, 2> stroke;  // mean by node, by direction
   std::vector<double> slot;                   // mean by slot against that of its direction

@@ -14,8 +14,8 @@ constexpr double kWindow_mm = 3.0;
 constexpr std::size_t kCentre = 120;
 constexpr double kSpacing_mm = kWindow_mm / kCentre;
 
-// A pass looked up by the position of the wheel: the helix of an ideal motion maps onto itself, so
-// a lag common to Z and C only says when.
+// Looks a pass up by the position of the wheel: the helix of an ideal motion maps onto itself, so a
+// lag common to Z and C changes only the time.
 class ByPosition {
  public:
   explicit ByPosition(const StrokeTrace& pass) : pass_(pass) {}

@@ -1,7 +1,7 @@
 #pragma once
 // What the passes leave on the flanks at mid face: the first order at the instant of contact, cut
-// to the lower envelope over the strokes around it, for the ripple is steeper than the wheel is
-// round. Seed 003 section 5.
+// to the lower envelope over the strokes around it, because the wheel is too large to follow the
+// ripple (docs/papers/internal-helical.md, "What we do").
 
 #include "comp/metrology/gears/flank_error.hpp"
 #include "comp/metrology/tables/left_error.hpp"

@@ -42,7 +42,7 @@ class Campaign {
                               options, process_)),
         measuring_(seed + 1'000'000) {}
 
-  // `share`: told how much of it is done.
+  // `share` receives how much of it is done.
   SeedResult run(HelicalDetail* detail, const std::function<void(double)>& share) {
     SeedResult result;
     for (int update = 0; update < updates_; ++update) {
@@ -81,7 +81,7 @@ class Campaign {
     return gear;
   }
 
-  // Independent of what the compensation looks at.
+  // Independent of the signals that the compensation uses.
   void look_at_flank(const StrokeStep& step, GroundGear& gear) {
     GrinderPlant& plant = process_.plant();
     const double e_z = static_cast<double>(plant.read_z() - step.z) / kNmPerMm;

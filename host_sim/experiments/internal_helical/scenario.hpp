@@ -1,7 +1,7 @@
 #pragma once
 // Form grinding of an internal helical gear: the tracking errors of Z and C are monitored, the
 // offsets of C learned in six updates of two rounds each, and the first and last gear inspected.
-// Seed 003 section 9.
+// docs/papers/internal-helical.md.
 
 #include <filesystem>
 
@@ -14,7 +14,7 @@
 
 namespace volcomp::internal_helical {
 
-inline constexpr int kLearningUpdates = 6;  // seed 003, addendum
+inline constexpr int kLearningUpdates = 6;  // leaves 15 % of the error
 inline constexpr int kRoundsPerUpdate = 2;
 
 struct InternalHelicalOptions {
@@ -27,7 +27,7 @@ struct InternalHelicalOptions {
   sim::MachineWatch* watch = nullptr;  // of the integrated form
 };
 
-// A gear as it was ground and what was seen of it.
+// A ground gear and the monitor's view of its grinding.
 struct GroundGear {
   HelicalInspection inspection;
   double sync_rms_um = 0.0;  // of e_s in the face, on the flank
@@ -40,7 +40,7 @@ struct SeedResult {
   std::vector<double> learning_um;  // sync_rms_um of all rounds
 };
 
-// What is kept of the first seed, for looking at.
+// Curves of the first seed, for the report.
 struct HelicalDetail {
   MonitorView before;
   MonitorView after;

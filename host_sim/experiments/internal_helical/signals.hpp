@@ -1,6 +1,6 @@
 #pragma once
-// What the monitor says of the two signals that C has tables for, before and after. Seed 003
-// section 8.
+// What the monitor reports of the two signals that C has tables for, before and after
+// (docs/papers/internal-helical.md, "What we do").
 
 #include <string>
 #include <vector>
@@ -12,11 +12,11 @@
 namespace volcomp::internal_helical {
 
 // Half the range on the flank, how much of it comes back, and whether it is worth a table. A node
-// says no more than the mean of every place: of what comes back nothing is known then.
+// reports only the mean of every place: how much comes back is unknown then.
 struct SignalReport {
   const char* name = "";
   double amplitude_um = 0.0;
-  bool knows_repeats = false;  // else the two below say nothing
+  bool knows_repeats = false;  // else the two below are unset
   double ratio = 0.0;
   LearningVerdict verdict = LearningVerdict::too_small;
 };

@@ -11,7 +11,7 @@ namespace volcomp::l300g {
 struct FeedCheck {
   std::vector<double> feed_mm_min;
   std::vector<double> raw_nm;        // normal to the flank, as latched; from the mean of all
-  std::vector<double> corrected_nm;  // as the node says
+  std::vector<double> corrected_nm;  // as the node reports
 
   [[nodiscard]] double raw_spread_nm() const;
   [[nodiscard]] double corrected_spread_nm() const;

@@ -13,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-// How well the total deviations of the gear itself must be found (seed 000, addendum: what tables
-// of linear segments leave of a small variation, and some room).
+// Allowed difference of the total deviations from those of the gear: what tables of linear segments
+// leave of waves of 0.4 µm, and some room (docs/papers/l300g.md, "Options").
 constexpr double kAgreement_um = 0.4;
 constexpr double kRoundTrip = 1e-6;  // mm or rad
 constexpr double kFeedSpread_nm = 10.0;
@@ -22,7 +22,7 @@ constexpr double kLobing_um = 0.2;
 
 json or_null(const std::optional<int>& grade) { return grade ? json(*grade) : json(nullptr); }
 
-json trace_figures(const FlankTrace& trace) {
+json trace_figures(const host::FlankTrace& trace) {
   return {{"F", trace.figures.total},
           {"ff", trace.figures.form},
           {"fH", trace.figures.slope},
@@ -45,9 +45,9 @@ json gear_figures(const L300gResult& r) {
 }
 
 // F (grade) f_f f_H of both flanks.
-std::string row(const std::array<FlankTrace, 2>& trace) {
+std::string row(const std::array<host::FlankTrace, 2>& trace) {
   std::string text;
-  for (const FlankTrace& t : trace)
+  for (const host::FlankTrace& t : trace)
     text += fmt::format("{:9.2f} ({:>3}){:7.2f}{:7.2f}", t.figures.total,
                         grade_text(t.grade_1995, GearStandard::iso1328_1995), t.figures.form,
                         t.figures.slope);
@@ -55,9 +55,9 @@ std::string row(const std::array<FlankTrace, 2>& trace) {
 }
 
 // F_p (grade) f_pt.
-std::string row(const std::array<PitchRound, 2>& round) {
+std::string row(const std::array<host::PitchRound, 2>& round) {
   std::string text;
-  for (const PitchRound& p : round)
+  for (const host::PitchRound& p : round)
     text += fmt::format("{:9.2f} ({:>3}){:7.2f}{:7}", p.figures.total,
                         grade_text(p.grade_1995, GearStandard::iso1328_1995), p.figures.single, "");
   return text + "\n";
@@ -82,8 +82,8 @@ double disagreement_um(const GearInspection& found, const GearInspection& truth)
   return worst;
 }
 
-std::string grades(const std::array<FlankTrace, 2>& trace) {
-  const auto text = [](const FlankTrace& t) {
+std::string grades(const std::array<host::FlankTrace, 2>& trace) {
+  const auto text = [](const host::FlankTrace& t) {
     return grade_text(t.grade_1995, GearStandard::iso1328_1995);
   };
   const std::string left = text(trace[0]);
@@ -97,11 +97,11 @@ struct Picture {
   bool better = false;
 };
 
-Picture picture_of(const std::array<FlankTrace, 2>& before,
-                   const std::array<FlankTrace, 2>& itself) {
+Picture picture_of(const std::array<host::FlankTrace, 2>& before,
+                   const std::array<host::FlankTrace, 2>& itself) {
   Picture p;
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    const auto number = [side](const std::array<FlankTrace, 2>& trace) {
+    const auto number = [side](const std::array<host::FlankTrace, 2>& trace) {
       return trace[side].grade_1995.value_or(last_grade(GearStandard::iso1328_1995) + 1);
     };
     p.worse = p.worse || number(before) > number(itself);
@@ -110,7 +110,7 @@ Picture picture_of(const std::array<FlankTrace, 2>& before,
   return p;
 }
 
-// Does the machine turn a bad picture of a good gear into a good one, as the paper says?
+// Whether compensation takes a good gear from a bad grade to its own, as the paper reports.
 std::string claim(const L300gResult& r, bool found) {
   if (!found)
     return "the tables do not hold what is wrong with this machine: the gear is not found as it is";

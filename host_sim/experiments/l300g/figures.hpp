@@ -12,7 +12,7 @@ namespace volcomp::l300g {
 // The same for a terminal.
 [[nodiscard]] std::string l300g_summary(const L300gResult& result);
 
-// Good when the compensated machine finds the gear as it is, whatever it found before.
+// Passes when the compensated machine finds the gear as it is, whatever it found before.
 [[nodiscard]] host::Verdict l300g_verdict(const L300gResult& result);
 
 // "8", or ">12".

@@ -15,7 +15,7 @@ using nlohmann::json;
 constexpr auto kOld = GearStandard::iso1328_1995;
 constexpr auto kNew = GearStandard::iso1328_2013;
 
-using Traces = std::array<FlankTrace, 2> GearInspection::*;
+using Traces = std::array<host::FlankTrace, 2> GearInspection::*;
 
 // What distinguishes profile from lead.
 struct TraceKind {
@@ -44,11 +44,11 @@ const TraceKind& lead_kind() {
 }
 
 // The grade the gear itself has: what a band shows.
-int own_grade(const FlankTrace& truth) { return truth.grade_1995.value_or(last_grade(kOld)); }
+int own_grade(const host::FlankTrace& truth) { return truth.grade_1995.value_or(last_grade(kOld)); }
 
 // Within the range, halfway between its extremes: so a trace fits into a band as wide as its
 // tolerance exactly when it is within it.
-json trace_series(const char* name, const FlankTrace& trace) {
+json trace_series(const char* name, const host::FlankTrace& trace) {
   std::vector<double> counted;
   for (std::size_t i = 0; i < trace.at.size(); ++i) {
     if (trace.at[i] >= trace.range.low && trace.at[i] <= trace.range.high)
@@ -64,10 +64,10 @@ json trace_series(const char* name, const FlankTrace& trace) {
 }
 
 json band_series(const L300gResult& r, const TraceKind& kind, std::size_t side) {
-  const FlankTrace& truth = (r.truth.*kind.traces)[side];
+  const host::FlankTrace& truth = (r.truth.*kind.traces)[side];
   const int grade = own_grade(truth);
   const auto deviation = static_cast<std::size_t>(kind.deviation);
-  const double half = 0.5 * gear_limits(kOld, size_of(r.gear), grade).rounded[deviation];
+  const double half = 0.5 * gear_limits(kOld, host::size_of(r.gear), grade).rounded[deviation];
   const double low = truth.range.low;
   const double high = truth.range.high;
   return {{"name", fmt::format("tolerance, grade {}", grade)},
@@ -76,15 +76,15 @@ json band_series(const L300gResult& r, const TraceKind& kind, std::size_t side) 
           {"y", {low, high, nullptr, high, low}}};
 }
 
-std::string values(const char* when, const FlankTrace& t, const char* symbol) {
+std::string values(const char* when, const host::FlankTrace& t, const char* symbol) {
   return fmt::format("{}: F{} {:.1f} µm (grade {}), ff{} {:.1f}, fH{} {:.1f}. ", when, symbol,
                      t.figures.total, grade_text(t.grade_1995, kOld), symbol, t.figures.form,
                      symbol, t.figures.slope);
 }
 
 json trace_chart(const L300gResult& r, const TraceKind& kind, std::size_t side) {
-  const FlankTrace& before = (r.before.*kind.traces)[side];
-  const FlankTrace& after = (r.after.*kind.traces)[side];
+  const host::FlankTrace& before = (r.before.*kind.traces)[side];
+  const host::FlankTrace& after = (r.after.*kind.traces)[side];
   return {{"type", "lines"},
           {"id", fmt::format("{}-{}", kind.id, kSideNames[side])},
           {"title", fmt::format("{} flank", kSideNames[side])},
@@ -116,11 +116,11 @@ json pitch_chart(const L300gResult& r, std::size_t side) {
   std::vector<double> tooth;
   for (int k = 1; k <= r.gear.teeth; ++k)
     tooth.push_back(k);
-  const PitchRound& before = r.before.pitch[side];
-  const PitchRound& after = r.after.pitch[side];
+  const host::PitchRound& before = r.before.pitch[side];
+  const host::PitchRound& after = r.after.pitch[side];
   series.push_back(host::series_of("uncompensated", tooth, before.position));
   series.push_back(host::series_of("compensated", tooth, after.position));
-  const auto values = [](const char* when, const PitchRound& p) {
+  const auto values = [](const char* when, const host::PitchRound& p) {
     return fmt::format("{}: Fp {:.1f} µm, fpt {:.1f} µm (grade {}). ", when, p.figures.total,
                        p.figures.single, grade_text(p.grade_1995, kOld));
   };
@@ -133,7 +133,7 @@ json pitch_chart(const L300gResult& r, std::size_t side) {
           {"note", values("Before", before) + values("After", after)}};
 }
 
-json trace_row(const std::string& name, const FlankTrace& t) {
+json trace_row(const std::string& name, const host::FlankTrace& t) {
   return {name,
           t.figures.total,
           t.figures.form,

@@ -1,6 +1,6 @@
 #pragma once
-// The master gear as gear people look at it: left and right flank side by side, traces upright,
-// values below each.
+// The master gear in the layout of gear inspection: left and right flank side by side, traces
+// upright, values below each.
 
 #include <nlohmann/json.hpp>
 

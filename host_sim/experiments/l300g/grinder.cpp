@@ -32,14 +32,14 @@ Grinder::Grinder(const GrinderHall& hall, const MachineTables& tables) : hall_(h
   auto axes =
       hall.make_axes(host::bus_settings(hall.file, hall.cycle_hz), host::make_image(tables));
   axes_ = axes.get();
-  axes_->controller().use_probe(sim::node_probe(hall.file));
+  axes_->controller().use_probe(host::node_probe(hall.file));
   cell_ = std::make_unique<sim::MotionCell>(hall.truth, std::move(axes));
   cell_->place(clear_of_work(kFarAway_mm));
   prober_ = std::make_unique<sim::Prober>(*cell_, *axes_, hall.file);
 }
 
 void Grinder::mount(const sim::Artefact& artefact, std::function<double(const Vec3&)> lobing_mm) {
-  const sim::NodeProbe described = sim::node_probe(hall_.file);
+  const host::NodeProbe described = host::node_probe(hall_.file);
   sim::TouchProbe::Settings probe;
   probe.radius_mm = described.radius.coefficient[0];
   probe.lobing_mm = std::move(lobing_mm);

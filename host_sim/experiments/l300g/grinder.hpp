@@ -18,7 +18,7 @@ struct GrinderGeometry {
 };
 [[nodiscard]] GrinderGeometry grinder_geometry(const MachineChain& chain);
 
-// The same machine with the axis of A where the readings of the probe say it is, mm.
+// The same machine with the axis of A where the probe has found it, mm.
 [[nodiscard]] MachineDescription with_origin(const MachineChain& chain, double y0, double z0);
 
 // What all grinders of a run share; outlives them.
@@ -43,7 +43,7 @@ class Grinder {
   // Without touching.
   void go(const Pose& to, double feed) { cell_->move_to(to, feed); }
 
-  // As the node believes the machine to be.
+  // The machine as the node models it.
   [[nodiscard]] const MachineChain& chain() const { return chain_; }
   [[nodiscard]] const GrinderGeometry& geometry() const { return geometry_; }
   // Level arm, so far from the axis of A.

@@ -1,74 +1,27 @@
 #include "host_sim/experiments/l300g/inspection.hpp"
 
-#include <algorithm>
-
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::l300g {
-namespace {
-
-// A touch that was meant for the end of the range belongs to it, though encoders count nanometres.
-constexpr double kEnd_mm = 1e-5;
-
-TraceDeviations evaluated(const FlankTrace& trace, const EvaluationRange& range) {
-  TraceDeviations figures;
-  host::require(evaluate_trace(trace.at, trace.deviation,
-                               {range.low - kEnd_mm, range.high + kEnd_mm}, figures),
-                "evaluation");
-  return figures;
-}
-
-void judge_profile(const InvoluteGear& gear, FlankTrace& trace) {
-  trace.range = profile_range(gear, 0.92);
-  trace.figures = evaluated(trace, trace.range);
-  trace.grade_1995 = grade_of(GearStandard::iso1328_1995, size_of(gear), GearDeviation::profile,
-                              trace.figures.total);
-  trace.grade_2013 = grade_of(GearStandard::iso1328_2013, size_of(gear), GearDeviation::profile,
-                              evaluated(trace, profile_range(gear, 0.95)).total);
-}
-
-void judge_lead(const InvoluteGear& gear, FlankTrace& trace) {
-  trace.range = lead_range(gear);
-  trace.figures = evaluated(trace, trace.range);
-  const auto grade = [&](GearStandard standard) {
-    return grade_of(standard, size_of(gear), GearDeviation::lead, trace.figures.total);
-  };
-  trace.grade_1995 = grade(GearStandard::iso1328_1995);
-  trace.grade_2013 = grade(GearStandard::iso1328_2013);
-}
-
-void judge_pitch(const InvoluteGear& gear, PitchRound& round) {
-  host::require(evaluate_pitch(round.position, round.figures), "pitch");
-  const auto grade = [&](GearDeviation deviation, double um) {
-    return grade_of(GearStandard::iso1328_1995, size_of(gear), deviation, um);
-  };
-  const auto single = grade(GearDeviation::single_pitch, round.figures.single);
-  const auto total = grade(GearDeviation::total_pitch, round.figures.total);
-  if (single && total) round.grade_1995 = std::max(*single, *total);
-}
-
-}  // namespace
-
-GearSize size_of(const InvoluteGear& gear) { return {2.0 * gear.r, gear.module, gear.width}; }
 
 GearInspection true_gear(const InvoluteGear& gear) {
   GearInspection truth;
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    FlankTrace& profile = truth.profile[side];
+    host::FlankTrace& profile = truth.profile[side];
     for (const FlankTouch& touch : profile_touches(gear, kSides[side])) {
       profile.at.push_back(touch.roll_length);
       profile.deviation.push_back(kUmPerMm * own_deviation(touch.roll_length, 0.0));
     }
-    judge_profile(gear, profile);
-    FlankTrace& lead = truth.lead[side];
+    host::grade_profile(gear, "true profile", profile);
+    host::FlankTrace& lead = truth.lead[side];
     for (const FlankTouch& touch : lead_touches(gear, kSides[side])) {
       lead.at.push_back(touch.x);
       lead.deviation.push_back(kUmPerMm * own_deviation(touch.roll_length, touch.x));
     }
-    judge_lead(gear, lead);
+    host::grade_lead(gear, "true lead", lead);
     truth.pitch[side].position.assign(static_cast<std::size_t>(gear.teeth), 0.0);
-    judge_pitch(gear, truth.pitch[side]);
+    host::grade_pitch(gear, "true pitch", truth.pitch[side]);
   }
   return truth;
 }
@@ -111,37 +64,37 @@ GearInspector::Deviation GearInspector::deviation(const Flank& flank, const Vec3
   return d;
 }
 
-FlankTrace GearInspector::profile(FlankSide side) {
-  FlankTrace trace;
+host::FlankTrace GearInspector::profile(FlankSide side) {
+  host::FlankTrace trace;
   for (const FlankTouch& wanted : profile_touches(setup_.gear, side)) {
     const Deviation d = deviation(wanted.flank, touch(wanted, {}).workpiece);
     trace.at.push_back(d.roll_length);
     trace.deviation.push_back(kUmPerMm * d.mm);
   }
-  judge_profile(setup_.gear, trace);
+  host::grade_profile(setup_.gear, "profile", trace);
   return trace;
 }
 
-FlankTrace GearInspector::lead(FlankSide side) {
-  FlankTrace trace;
+host::FlankTrace GearInspector::lead(FlankSide side) {
+  host::FlankTrace trace;
   for (const FlankTouch& wanted : lead_touches(setup_.gear, side)) {
     const sim::NodePoint point = touch(wanted, {});
     trace.at.push_back(point.workpiece.x());
     trace.deviation.push_back(kUmPerMm * deviation(wanted.flank, point.workpiece).mm);
   }
-  judge_lead(setup_.gear, trace);
+  host::grade_lead(setup_.gear, "lead", trace);
   return trace;
 }
 
-PitchRound GearInspector::pitch(FlankSide side) {
-  PitchRound round;
+host::PitchRound GearInspector::pitch(FlankSide side) {
+  host::PitchRound round;
   for (const FlankTouch& wanted : pitch_touches(setup_.gear, side)) {
     const sim::NodePoint point = touch(wanted, {});
     retract();
     const double along_base = distance(wanted.flank, point.workpiece).distance;
     round.position.push_back(kUmPerMm * along_base * setup_.gear.r / setup_.gear.r_b);
   }
-  judge_pitch(setup_.gear, round);
+  host::grade_pitch(setup_.gear, "pitch", round);
   return round;
 }
 

@@ -1,44 +1,22 @@
 #pragma once
 // Inspecting the master gear: profile and lead of tooth 0, pitch of all teeth, both flanks, from
-// points of the node (seed 000 section 4).
+// points of the node (docs/papers/l300g.md, "What we do").
 
-#include <optional>
-#include <vector>
-
-#include "comp/metrology/gears/gear_deviations.hpp"
-#include "comp/metrology/gears/gear_tolerance.hpp"
-#include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/experiments/l300g/inspection_plan.hpp"
+#include "host_sim/host/measure/gear_inspection.hpp"
 
 namespace volcomp::l300g {
 
-struct FlankTrace {
-  std::vector<double> at;         // roll length or x, mm
-  std::vector<double> deviation;  // µm, excess positive
-  EvaluationRange range;          // of the edition of 1995
-  TraceDeviations figures;        // over it, µm
-  std::optional<int> grade_1995;  // of the total deviation; none: worse than the last
-  std::optional<int> grade_2013;
-};
-
-struct PitchRound {
-  std::vector<double> position;   // of each tooth from where it should be, µm
-  PitchDeviations figures;        // µm
-  std::optional<int> grade_1995;  // the worse of single and total pitch
-};
-
 // Traces by kSides.
 struct GearInspection {
-  std::array<FlankTrace, 2> profile;
-  std::array<FlankTrace, 2> lead;
-  std::array<PitchRound, 2> pitch;
+  std::array<host::FlankTrace, 2> profile;
+  std::array<host::FlankTrace, 2> lead;
+  std::array<host::PitchRound, 2> pitch;
   std::string program;  // that does the same (inspection_program.hpp); empty where nothing moved
 };
 
 // What a perfect machine would find.
 [[nodiscard]] GearInspection true_gear(const InvoluteGear& gear);
-
-[[nodiscard]] GearSize size_of(const InvoluteGear& gear);
 
 class GearInspector {
  public:
@@ -48,7 +26,7 @@ class GearInspector {
 
   [[nodiscard]] GearInspection inspect();
 
-  // One touch, as fast as told, from `stand_off` away. mm and mm/s, at the ball. The ball stays in
+  // A touch moves at `probing` from `stand_off` away. mm and mm/s, at the ball. The ball stays in
   // the tooth space.
   struct Speed {
     double probing = 5.0;
@@ -67,9 +45,9 @@ class GearInspector {
   void retract();
 
  private:
-  [[nodiscard]] FlankTrace profile(FlankSide side);
-  [[nodiscard]] FlankTrace lead(FlankSide side);
-  [[nodiscard]] PitchRound pitch(FlankSide side);
+  [[nodiscard]] host::FlankTrace profile(FlankSide side);
+  [[nodiscard]] host::FlankTrace lead(FlankSide side);
+  [[nodiscard]] host::PitchRound pitch(FlankSide side);
   void approach(const Pose& from);
 
   Grinder& grinder_;

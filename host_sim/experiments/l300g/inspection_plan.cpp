@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/gear_inspection.hpp"
 
 namespace volcomp::l300g {
 namespace {
@@ -13,7 +14,6 @@ constexpr int kBefore = 3;    // steps before it: errors of the machine shift th
 constexpr int kBeyond = 4;    // steps behind it, as far as the edition of 2013 goes
 constexpr double kPast_mm = 0.2;       // how far a touch may be late
 constexpr double kClearance_mm = 3.0;  // between the gear and the ball beside it
-constexpr double kLeadEnd = 0.05;      // of the width, but not more than a module
 
 std::vector<double> places(const EvaluationRange& range) {
   std::vector<double> at;
@@ -24,20 +24,11 @@ std::vector<double> places(const EvaluationRange& range) {
 
 }  // namespace
 
-EvaluationRange profile_range(const InvoluteGear& gear, double used) {
-  return {gear.roll_begin, gear.roll_begin + used * (gear.roll_end - gear.roll_begin)};
-}
-
-EvaluationRange lead_range(const InvoluteGear& gear) {
-  const double end = std::min(kLeadEnd * gear.width, gear.module);
-  return {end, gear.width - end};
-}
-
 double pitch_roll(const InvoluteGear& gear) { return gear.r * std::sin(gear.pressure_angle); }
 
 std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, FlankSide side) {
   std::vector<FlankTouch> touches;
-  for (const double s : places(profile_range(gear, 0.92)))
+  for (const double s : places(host::profile_range(gear, 0.92)))
     touches.push_back({{side, 0}, s, 0.0});
   return touches;
 }
@@ -45,7 +36,7 @@ std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, FlankSide side
 // A lead ends with the gear.
 std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, FlankSide side) {
   std::vector<FlankTouch> touches;
-  for (const double x : places(lead_range(gear))) {
+  for (const double x : places(host::lead_range(gear))) {
     if (x >= 0.0 && x <= gear.width) touches.push_back({{side, 0}, pitch_roll(gear), x});
   }
   return touches;

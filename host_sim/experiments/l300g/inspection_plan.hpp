@@ -14,9 +14,6 @@ namespace volcomp::l300g {
 inline constexpr std::array<FlankSide, 2> kSides{FlankSide::left, FlankSide::right};
 inline constexpr std::array<const char*, 2> kSideNames{"left", "right"};
 
-// Of the roll length: `used` of what lies between its ends, from the root.
-[[nodiscard]] EvaluationRange profile_range(const InvoluteGear& gear, double used);
-[[nodiscard]] EvaluationRange lead_range(const InvoluteGear& gear);
 // Roll length of the middle of the flank, where pitch and lead are taken.
 [[nodiscard]] double pitch_roll(const InvoluteGear& gear);
 

@@ -1,6 +1,7 @@
 #pragma once
-// The inspection as an NC program, before and after the geometric error chain is compensated (seed
-// 000 section 6, steps 3 and 6 of the paper): standard words of RS274, touches by G38.2.
+// The inspection as an NC program, before and after the geometric error chain is compensated
+// (docs/papers/l300g.md, "Options"; steps 3 and 6 of the paper): standard words of RS274, touches
+// by G38.2.
 
 #include <functional>
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace volcomp::l300g {
 
-// What the axes have to be told beside a pose so that the machine stands where an ideal one would.
+// What to add to a commanded pose so that the machine stands where an ideal one would.
 using OffsetFor = std::function<Pose(const Pose&)>;
 
 // None: the program before compensation.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Cholesky>
+#include <vector>
 
 #include "comp/core/units.hpp"
+#include "comp/metrology/fits/lobing_fit.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/artefacts/sphere.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
@@ -68,28 +68,6 @@ LobingMap drawn(sim::Random& random) {
   return map;
 }
 
-// Least squares over the directions in which a radius was found.
-class LobingFit {
- public:
-  void add(const Vec3& direction, double radius) {
-    const LobingTerms terms = lobing_terms(direction);
-    const Eigen::Map<const Row> row(terms.data());
-    normal_ += row * row.transpose();
-    right_ += radius * row;
-  }
-  [[nodiscard]] LobingMap solved() const {
-    LobingMap map;
-    Eigen::Map<Row>(map.coefficient.data()) = normal_.ldlt().solve(right_);
-    return map;
-  }
-
- private:
-  static constexpr int kTerms = static_cast<int>(kLobingTerms);
-  using Row = Eigen::Matrix<double, kTerms, 1>;
-  Eigen::Matrix<double, kTerms, kTerms> normal_ = Eigen::Matrix<double, kTerms, kTerms>::Zero();
-  Row right_ = Row::Zero();
-};
-
 class SphereBench {
  public:
   SphereBench(const GrinderHall& hall, const MachineTables& tables, const LobingMap& truth)
@@ -99,14 +77,17 @@ class SphereBench {
 
   // The radius that the probe has shown in each direction of the tool frame.
   LobingMap map(sim::Random& noise) {
-    use(sim::node_probe(file_).radius);
-    LobingFit fit;
+    use(host::node_probe(file_).radius);
+    std::vector<Vec3> direction;
+    std::vector<double> radius;
     for (const Vec3& n : directions(kMapped, 0.0)) {
       const sim::NodePoint centre = touch(n, Vec3::Zero());
-      const double radius = centre.workpiece.norm() - kSphere_mm + noise.normal(kNoise_mm);
-      fit.add(in_tool(centre), radius);
+      direction.push_back(in_tool(centre));
+      radius.push_back(centre.workpiece.norm() - kSphere_mm + noise.normal(kNoise_mm));
     }
-    return fit.solved();
+    LobingFit fit;
+    host::require(fit_lobing(direction, radius, fit), "lobing");
+    return fit.map;
   }
 
   // Largest distance of a point from the sphere.
@@ -120,7 +101,7 @@ class SphereBench {
 
  private:
   void use(const LobingMap& radius) {
-    sim::NodeProbe probe = sim::node_probe(file_);
+    host::NodeProbe probe = host::node_probe(file_);
     probe.radius = radius;
     grinder_.prober().configure(probe);
   }
@@ -135,7 +116,7 @@ class SphereBench {
   }
 
   sim::NodePoint touch(const Vec3& from_side, const Vec3& normal) {
-    const double touching = kSphere_mm + sim::node_probe(file_).radius.coefficient[0];
+    const double touching = kSphere_mm + host::node_probe(file_).radius.coefficient[0];
     return grinder_.prober().touch(pose_at(from_side * (touching + kAway_mm)),
                                    pose_at(from_side * (touching - kBeyond_mm)), normal, kFeeds);
   }
@@ -157,8 +138,8 @@ LobingCheck check_lobing(const host::MachineFile& file, const sim::BusAxesFactor
                          double cycle_hz, std::uint64_t seed) {
   const GrinderHall hall{file, make_l300g_truth(file, {}, seed), make_axes, cycle_hz};
   const MachineTables tables =
-      sim::tables_of(sim::identify_axes(hall.truth, file), file, file.chain.description(),
-                     sim::TableKind::none, kDefaultKnots);
+      host::tables_of(sim::identify_axes(hall.truth, file).found, file, file.chain.description(),
+                      host::TableKind::none, kDefaultKnots);
   sim::Random random(seed);
   SphereBench bench(hall, tables, drawn(random));
   const LobingMap map = bench.map(random);

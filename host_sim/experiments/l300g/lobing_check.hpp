@@ -1,6 +1,6 @@
 #pragma once
 // Whether a point depends on the direction it was touched from: a probe that gives way more in some
-// directions than in others, mapped on a sphere, then trusted on it.
+// directions than in others, mapped on a sphere, then corrected on it.
 
 #include "host_sim/experiments/l300g/grinder.hpp"
 #include "host_sim/sim/truth/noise.hpp"

@@ -15,7 +15,8 @@ constexpr double kUrad = 1e-6;
 constexpr double kDegree = kPi / 180.0;
 constexpr std::array<const char*, kGrinderAxes> kLetters{"X", "Y", "B", "A"};
 
-// Constants of 4 µm and 0.004°, signs by axis in the order EX EY EZ EA EB EC (section 5.4).
+// Constants of 4 µm and 0.004°, signs by axis in the order EX EY EZ EA EB EC (`p8` in
+// docs/papers/l300g.md, "Options").
 GrinderErrors p8() {
   constexpr std::array<std::array<int, 6>, kGrinderAxes> kSign{
       {{1, -1, 1, -1, 1, 1}, {1, -1, -1, 1, 1, 1}, {1, -1, 1, 1, -1, 1}, {1, 1, 1, 1, 0, 0}}};
@@ -27,7 +28,7 @@ GrinderErrors p8() {
   return errors;
 }
 
-// The "small variation" of the addendum.
+// The waves of `p8-variation`.
 GrinderErrors p8_with_variation() {
   constexpr std::array<double, kGrinderAxes> kPeriod{90.0, 60.0, 10.0 * kDegree, 40.0 * kDegree};
   GrinderErrors errors = p8();

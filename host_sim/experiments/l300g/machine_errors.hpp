@@ -1,6 +1,6 @@
 #pragma once
-// What is wrong with the simulated L300G: constants, slopes and waves of its 24 error motions, and
-// the length of its arm. Seed 000 sections 2.1 and 5.4.
+// Errors of the simulated L300G: constants, slopes and waves of its 24 error motions, and the
+// length of its arm (docs/papers/l300g.md, "Options").
 
 #include <array>
 #include <string>
@@ -24,7 +24,7 @@ struct AxisErrors {
 
 struct GrinderErrors {
   std::array<AxisErrors, kGrinderAxes> axis{};
-  double arm_mm = 0.0;  // true length of the arm less what the machine file says
+  double arm_mm = 0.0;  // true length of the arm less that of its file
 
   [[nodiscard]] bool waves() const;
 };

@@ -1,6 +1,6 @@
 #pragma once
 // Calibrating the probe on a mandrel: effective radius and origin from one half plane of touches
-// (seed 000 section 3, the constellation of the paper's section 2.1).
+// (docs/papers/l300g.md, "What we do"; the constellation of the paper's section 2.1).
 
 #include <vector>
 
@@ -36,16 +36,16 @@ struct MandrelCalibration {
 [[nodiscard]] MandrelCalibration calibrate_on_mandrel(Grinder& grinder,
                                                       const MandrelBudget& budget);
 
-// What the fit changes by when the machine is another than believed, mm.
+// Change of the fit when the machine differs from its model, mm.
 struct MandrelEffect {
   double radius = 0.0;
   double y0 = 0.0;
   double z0 = 0.0;
   double rms = 0.0;
 };
-// The arm is believed to be longer than it is.
+// The model has the arm longer than it is.
 [[nodiscard]] MandrelEffect effect_of_arm(const SwingArm& arm, double longer);
-// The pivot is higher than the axis of A, and nobody knows.
+// The pivot is higher than the axis of A, which the model does not have.
 [[nodiscard]] MandrelEffect effect_of_pivot(const SwingArm& arm, double higher);
 
 }  // namespace volcomp::l300g

@@ -1,6 +1,6 @@
 #pragma once
-// What the paper's own readings of an axis can give (seed 000 section 2.1), beside what targets
-// give.
+// What the paper's own readings of an axis give (docs/papers/l300g.md, "What is wrong in it", eq.
+// 18 to 21), beside what targets give.
 
 #include <array>
 

@@ -81,13 +81,13 @@ json sensitivities(const L300gResult& r) {
 
 json error_functions(const L300gResult& r) {
   std::vector<host::ErrorCurves> axes;
-  for (std::size_t a = 0; a < r.identification.axis.size(); ++a) {
-    const sim::IdentifiedAxis& identified = r.identification.axis[a];
+  for (std::size_t a = 0; a < r.identification.found.axis.size(); ++a) {
+    const host::IdentifiedAxis& identified = r.identification.found.axis[a];
     host::ErrorCurves curves{
         identified.letter, r.machine.axes[a].rotary, identified.nodes, identified.motion, {}};
     ErrorMotion half;
     for (Eigen::Index c = 0; c < half.size(); ++c)
-      half(c) = kCoverage * r.identification.spread(c);
+      half(c) = kCoverage * r.identification.found.spread(c);
     curves.half_width.assign(curves.at.size(), half);
     axes.push_back(curves);
   }
@@ -96,14 +96,14 @@ json error_functions(const L300gResult& r) {
       fmt::format("Motion of the body itself, in its moving frame. Largest difference from the "
                   "simulated truth {:.1e} mm or rad. Bands: ±{:g} standard uncertainties that "
                   "{:g} µm of each target would leave; condition of the targets {:.2f}.",
-                  r.identification.max_error(), kCoverage, kUmPerMm * sim::kTracker_mm,
-                  r.identification.condition));
+                  r.identification.max_error(), kCoverage, kUmPerMm * host::kTracker_mm,
+                  r.identification.found.condition));
 }
 
 json printed_table(const L300gResult& r) {
   json rows = json::array();
-  for (std::size_t a = 0; a < r.identification.axis.size(); ++a) {
-    const sim::IdentifiedAxis& axis = r.identification.axis[a];
+  for (std::size_t a = 0; a < r.identification.found.axis.size(); ++a) {
+    const host::IdentifiedAxis& axis = r.identification.found.axis[a];
     const bool rotary = r.machine.axes[a].rotary;
     const double scale = rotary ? kUradPerRad : kUmPerMm;
     const ReadingFigures& own = r.printed.own.at(a);
@@ -158,8 +158,8 @@ json before_after(const L300gResult& r) {
   };
   const auto traces = [&](const char* what, auto member) {
     for (std::size_t side = 0; side < kSides.size(); ++side) {
-      const FlankTrace& before = (r.before.*member)[side];
-      const FlankTrace& after = (r.after.*member)[side];
+      const host::FlankTrace& before = (r.before.*member)[side];
+      const host::FlankTrace& after = (r.after.*member)[side];
       lines.push_back({fmt::format("{}, {} flank", what, kSideNames[side]), before.figures.total,
                        after.figures.total, (r.truth.*member)[side].figures.total,
                        grade(before.grade_1995), grade(after.grade_1995)});
@@ -168,9 +168,9 @@ json before_after(const L300gResult& r) {
   traces("profile F_α", &GearInspection::profile);
   traces("lead F_β", &GearInspection::lead);
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    const PitchRound& before = r.before.pitch[side];
-    const PitchRound& after = r.after.pitch[side];
-    const PitchRound& truth = r.truth.pitch[side];
+    const host::PitchRound& before = r.before.pitch[side];
+    const host::PitchRound& after = r.after.pitch[side];
+    const host::PitchRound& truth = r.truth.pitch[side];
     lines.push_back({fmt::format("pitch F_p, {} flanks", kSideNames[side]), before.figures.total,
                      after.figures.total, truth.figures.total, grade(before.grade_1995),
                      grade(after.grade_1995)});
@@ -191,13 +191,13 @@ host::Origins origins(const L300gResult& r) {
       {"errors of the machine", o.errors},
       {"path", o.path == PathStyle::fixed_a ? "A stands still, B touches" : "generating"},
       {"origin", o.origin == Origin::nominal ? "machine file" : "fit of the mandrel"},
-      {"tables", sim::kTableKinds.at(static_cast<std::size_t>(o.tables))},
+      {"tables", host::kTableKinds.at(static_cast<std::size_t>(o.tables))},
       {"seed", fmt::format("{} (phases of waves, noise of the lobing check)", o.seed)}};
   origins.inputs = r.inputs;
   origins.instruments = {
       fmt::format("laser tracker for the error functions: {:g} µm of each target assumed for the "
                   "bands, none added",
-                  kUmPerMm * sim::kTracker_mm),
+                  kUmPerMm * host::kTracker_mm),
       "touch probe of the machine: delays and radius of the machine file, corrected by the node"};
   origins.chosen = {"amounts and signs of the errors, such that they add up"};
   origins.untouched = {"deviations and grades of the gear"};

@@ -11,26 +11,26 @@ namespace {
 struct Inspection {
   const L300gOptions& options;
   const GrinderHall& hall;
-  const sim::Identification& identification;
+  const host::Identification& identification;
   const sim::Gear& gear;
   const InvoluteGear& involute;
   double rc;  // as calibrated before anything was compensated
 };
 
-MachineTables tables_at(const Inspection& run, sim::TableKind kind,
+MachineTables tables_at(const Inspection& run, host::TableKind kind,
                         const MachineDescription& machine) {
-  return sim::tables_of(run.identification, run.hall.file, machine, kind, run.options.knots);
+  return host::tables_of(run.identification, run.hall.file, machine, kind, run.options.knots);
 }
 
-sim::NodeProbe probe_of(const host::MachineFile& file, double rc) {
-  sim::NodeProbe probe = sim::node_probe(file);
+host::NodeProbe probe_of(const host::MachineFile& file, double rc) {
+  host::NodeProbe probe = host::node_probe(file);
   probe.radius.coefficient[0] = rc;
   return probe;
 }
 
-// Where the mandrel says the axis of A is, once these tables are in force: a part of the errors
-// that is the same everywhere is found there and must not be taken away twice.
-MachineDescription zeroed_on_mandrel(const Inspection& run, sim::TableKind kind) {
+// The axis of A as found on the mandrel with these tables in force: it contains the part of the
+// errors that is the same everywhere, which must not be subtracted twice.
+MachineDescription zeroed_on_mandrel(const Inspection& run, host::TableKind kind) {
   const MachineChain& nominal = run.hall.file.chain;
   Grinder grinder(run.hall, tables_at(run, kind, nominal.description()));
   const Circle circle = calibrate_on_mandrel(grinder, {}).fit.geometric;
@@ -38,11 +38,11 @@ MachineDescription zeroed_on_mandrel(const Inspection& run, sim::TableKind kind)
 }
 
 // As an NC program: with the tables in the program instead of in the node.
-std::string program(const Inspection& run, sim::TableKind kind, const InspectionSetup& setup,
+std::string program(const Inspection& run, host::TableKind kind, const InspectionSetup& setup,
                     const MachineChain& chain) {
-  if (kind == sim::TableKind::none)
+  if (kind == host::TableKind::none)
     return inspection_program(setup, "before compensation", no_offset);
-  const sim::IdentifiedModel model(run.identification, kind, chain);
+  const host::IdentifiedModel model(run.identification, kind, chain);
   return inspection_program(
       setup, "the geometric error chain of X, Y, B and A compensated",
       [&model](const Pose& pose) { return compensation_at(model.volumetric(), pose); });
@@ -53,11 +53,11 @@ Vec3 orientation_at_pitch_point(const Inspection& run) {
   const MachineChain& chain = run.hall.file.chain;
   const InspectionSetup setup{grinder_geometry(chain), run.involute, run.options.path, run.rc};
   const FlankTouch touch{{FlankSide::left, 0}, pitch_roll(run.involute), 0.5 * run.involute.width};
-  const sim::IdentifiedModel model(run.identification, sim::TableKind::identified, chain);
+  const host::IdentifiedModel model(run.identification, host::TableKind::identified, chain);
   return model.orientation_error(flank_move(setup, touch, 0.0).contact);
 }
 
-GearInspection inspect(const Inspection& run, sim::TableKind kind, FeedCheck* feeds) {
+GearInspection inspect(const Inspection& run, host::TableKind kind, FeedCheck* feeds) {
   const MachineDescription machine = run.options.origin == Origin::nominal
                                          ? run.hall.file.chain.description()
                                          : zeroed_on_mandrel(run, kind);
@@ -73,9 +73,9 @@ GearInspection inspect(const Inspection& run, sim::TableKind kind, FeedCheck* fe
 }
 
 MandrelCalibration calibrate_first(const GrinderHall& hall,
-                                   const sim::Identification& identification, std::size_t knots) {
-  Grinder grinder(hall, sim::tables_of(identification, hall.file, hall.file.chain.description(),
-                                       sim::TableKind::none, knots));
+                                   const host::Identification& identification, std::size_t knots) {
+  Grinder grinder(hall, host::tables_of(identification, hall.file, hall.file.chain.description(),
+                                        host::TableKind::none, knots));
   return calibrate_on_mandrel(grinder, {});
 }
 
@@ -100,18 +100,18 @@ L300gResult run_l300g(const L300gOptions& options, const host::Progress& progres
   result.identification = sim::identify_axes(hall.truth, result.machine);
   result.printed = printed_procedure(result.identification, result.machine);
   progress(0.05, "probe calibration on the mandrel");
-  result.calibration = calibrate_first(hall, result.identification, options.knots);
+  result.calibration = calibrate_first(hall, result.identification.found, options.knots);
   const SwingArm arm = grinder_geometry(result.machine.chain).arm;
   result.longer_arm = effect_of_arm(arm, kLongerArm_mm);
   for (const double higher : kHigherPivots_mm)
     result.higher_pivot.push_back(effect_of_pivot(arm, higher));
 
-  const Inspection run{options, hall,        result.identification,
+  const Inspection run{options, hall,        result.identification.found,
                        gear,    result.gear, result.calibration.rc};
   result.truth = true_gear(result.gear);
   result.orientation = orientation_at_pitch_point(run);
   progress(0.2, "master gear, uncompensated");
-  result.before = inspect(run, sim::TableKind::none, nullptr);
+  result.before = inspect(run, host::TableKind::none, nullptr);
   progress(0.6, "master gear, compensated");
   result.after = inspect(run, options.tables, &result.feeds);
   progress(0.95, "lobing of the probe");

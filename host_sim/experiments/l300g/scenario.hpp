@@ -1,6 +1,6 @@
 #pragma once
 // The L300G measuring a master gear, before and after the errors of its axes are compensated: the
-// procedure of seed 000 section 6, every touch through drives, bus and node.
+// paper's procedure, every touch through drives, bus and node (docs/papers/l300g.md).
 
 #include <filesystem>
 #include <functional>
@@ -17,7 +17,7 @@
 namespace volcomp::l300g {
 
 enum class Origin : std::uint8_t {
-  nominal,  // the axis of A is where the machine file says
+  nominal,  // the axis of A is where the machine file has it
   mandrel,  // where the calibration has found it, with the same tables as the gear
 };
 
@@ -26,9 +26,9 @@ struct L300gOptions {
   std::string errors = "p8";  // machine_errors.hpp
   PathStyle path = PathStyle::fixed_a;
   Origin origin = Origin::nominal;
-  sim::TableKind tables = sim::TableKind::identified;  // of the compensation
-  std::uint64_t seed = 1;                              // of the phases of waves
-  std::size_t knots = kDefaultKnots;                   // per table: what the node has room for
+  host::TableKind tables = host::TableKind::identified;  // of the compensation
+  std::uint64_t seed = 1;                                // of the phases of waves
+  std::size_t knots = kDefaultKnots;                     // per table: what the node has room for
   double cycle_hz = sim::kBusCycleOfFive_hz;
   sim::BusAxesFactory make_axes = sim::loopback_axes();
 };

@@ -11,8 +11,8 @@
 namespace volcomp::l300g {
 namespace {
 
-// What repeats with every turn cannot rise for ever. 4/3 sin q − 1/6 sin 2q rises like q where it
-// begins: 0.13 % less at 25°, where the flank of a tooth ends.
+// An error that repeats with every turn cannot rise without end. 4/3 sin q − 1/6 sin 2q rises like
+// q where it begins: 0.13 % less at 25°, where the flank of a tooth ends.
 void let_rise_and_return(sim::ErrorFunction& f, double slope) {
   f.amplitude[1] = 4.0 / 3.0 * slope;
   f.ripple = -slope / 6.0;

@@ -16,7 +16,8 @@ namespace volcomp::l300g {
 // z = 31, m = 4, 30 mm wide, d_a = 132 (the paper's Table 3).
 [[nodiscard]] InvoluteGear master_gear();
 
-// The gear's own deviation at roll length s and x, mm (addendum): the same on every flank.
+// The gear's own deviation at roll length s and x, mm, the same on every flank: a slope and a wave
+// over s, a slope and a wave over x, chosen to be of grade 4.
 [[nodiscard]] double own_deviation(double s, double x);
 
 }  // namespace volcomp::l300g

@@ -1,5 +1,5 @@
-// The measured part of the bus load: the simulated machine on a bus whose frames take the time
-// their contents need.
+// Measures the bus load: the simulated machine on a bus whose frames take the time of their
+// contents.
 
 #include "host_sim/experiments/xyfz/bus_load_measured.hpp"
 
@@ -28,7 +28,7 @@ Workpiece prepare() {
   w.file = host::read_machine_file(host::bundled_machine("xyfz"));
   w.truth = make_xyfz_truth(w.file, kXyfzMachineSeed, {});
   const sim::Campaign campaign = sim::perfect_campaign(w.truth, w.file);
-  w.image = host::make_image(host::commission(campaign.machine, campaign.runs, {})->tables);
+  w.image = host::make_image(host::build_tables(campaign.machine, campaign.runs, {})->tables);
   return w;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/experiments/xyfz/dynamics.hpp"
+#include "host_sim/host/measure/volume_csv.hpp"
 #include "host_sim/host/report/error_functions.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/volume_map.hpp"
@@ -147,9 +148,10 @@ json positioning_charts(const XyfzResult& r) {
 json volume_chart(const XyfzResult& r) {
   return host::volume_map(
       "Error vectors over the work volume", r.volume_points,
-      {{"uncompensated", r.volume_error[0]}, {"abbe_closed", r.volume_error[1]}},
-      "From each point to where the tool really is, as measured, without aligning a workpiece "
-      "frame.");
+      {{"uncompensated", host::aligned_errors(r.volume_points, r.volume_error[0])},
+       {"abbe_closed", host::aligned_errors(r.volume_points, r.volume_error[1])}},
+      "From each point to where the tool really is, after aligning the workpiece frame as for the "
+      "figure of the volume.");
 }
 
 json error_function_charts(const XyfzResult& r) {

@@ -57,7 +57,7 @@ Trace straightness(const std::vector<double>& path, const std::vector<Vec3>& dev
 }
 
 void run_line(sim::MotionCell& cell, const host::MachineFile& machine,
-              const host::Commissioned& closed, bool compensated, Dynamics& out) {
+              const host::BuiltTables& closed, bool compensated, Dynamics& out) {
   const Diagonal line = body_diagonals(sim::travel_box(machine))[sim::kPnp];
   const Travels travels = travels_of(line.direction());
   const auto error_at = [&](const Vec3& q) {
@@ -133,7 +133,7 @@ std::int64_t random_position(const AxisTable& table, sim::Random& random) {
 }  // namespace
 
 Dynamics run_dynamics(const sim::TrueMachine& truth, const host::MachineFile& machine,
-                      const host::Commissioned& closed, const sim::CellFactory& make_cell) {
+                      const host::BuiltTables& closed, const sim::CellFactory& make_cell) {
   const DiagonalBox box = sim::travel_box(machine);
   const Vec3 centre = 0.5 * (box.lo + box.hi);
   const std::vector<std::uint8_t> image = host::make_image(closed.tables);
@@ -147,7 +147,7 @@ Dynamics run_dynamics(const sim::TrueMachine& truth, const host::MachineFile& ma
   return out;
 }
 
-double measure_tick_error_nm(const host::Commissioned& closed, int points, std::uint64_t seed) {
+double measure_tick_error_nm(const host::BuiltTables& closed, int points, std::uint64_t seed) {
   LoadedCompensator::Settings settings;
   for (AxisLimits& l : settings.axis)
     l = {4'000'000, 1'000'000'000, 1, 0, 0};

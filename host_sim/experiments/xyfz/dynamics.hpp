@@ -11,12 +11,12 @@ inline constexpr double kCircleRadius_mm = 100.0;
 
 // With and without the compensation of `closed`, noise-free.
 [[nodiscard]] Dynamics run_dynamics(const sim::TrueMachine& truth, const host::MachineFile& machine,
-                                    const host::Commissioned& closed,
+                                    const host::BuiltTables& closed,
                                     const sim::CellFactory& make_cell);
 
 // Integer tick against the same first-order model in double at random integer positions, inside the
 // tables, at their knots and ends, and beyond; nm.
-[[nodiscard]] double measure_tick_error_nm(const host::Commissioned& closed, int points,
+[[nodiscard]] double measure_tick_error_nm(const host::BuiltTables& closed, int points,
                                            std::uint64_t seed);
 
 }  // namespace volcomp::xyfz

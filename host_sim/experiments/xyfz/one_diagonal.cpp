@@ -46,8 +46,8 @@ OneDiagonal run_one_diagonal(const XyfzOptions& options, const host::Progress& p
                         sim::travel_box(machine)};
   const sim::Campaign campaign = sim::perfect_campaign(setting.truth, machine);
   const auto tables =
-      host::commission(campaign.machine, campaign.runs,
-                       host::tables_only(host::ModelKind::abbe_closed, options.knots));
+      host::build_tables(campaign.machine, campaign.runs,
+                         host::tables_only(host::ModelKind::abbe_closed, options.knots));
   OneDiagonal result;
   progress(0.1, "diagonal PNP, uncompensated");
   result.uncompensated = measure(setting, {});

@@ -17,7 +17,7 @@ struct OneDiagonal {
   [[nodiscard]] bool ok() const;      // as much as the whole scenario demands
 };
 
-// Noise-free. Of the options it takes machine, machine_seed and make_cell. Throws UserError.
+// Noise-free. Uses the options machine, machine_seed and make_cell. Throws UserError.
 [[nodiscard]] OneDiagonal run_one_diagonal(const XyfzOptions& options,
                                            const host::Progress& progress);
 

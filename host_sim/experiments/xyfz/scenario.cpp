@@ -28,7 +28,7 @@ struct Bench {
   std::filesystem::path folder;
 };
 
-// The road of a user's own data: the runs go through files.
+// Writes the runs to files and reads them back, as with a user's own data.
 sim::Campaign through_files(const sim::Campaign& campaign, const std::filesystem::path& folder) {
   host::create_folder(folder);
   sim::Campaign reread{campaign.machine, {}};
@@ -69,7 +69,7 @@ double measure_pnp(const sim::TrueMachine& truth, const Bench& bench,
 }
 
 // The files behind the tables that the report shows, while they are there.
-void note_inputs(const sim::Campaign& campaign, const host::Commissioned& tables,
+void note_inputs(const sim::Campaign& campaign, const host::BuiltTables& tables,
                  XyfzResult& result) {
   result.inputs = {host::hashed_file("machine file", result.options.machine)};
   for (const host::RunsFile& runs : campaign.runs)
@@ -96,8 +96,8 @@ DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
   DrawResult out;
   out.raw_um = measure_pnp(at_check, bench, {}, setup, random);
   for (std::size_t m = 0; m < kModels.size(); ++m) {
-    auto tables = host::commission(campaign.machine, campaign.runs,
-                                   host::tables_only(kModels[m], bench.options.knots));
+    auto tables = host::build_tables(campaign.machine, campaign.runs,
+                                     host::tables_only(kModels[m], bench.options.knots));
     out.residual_um[m] =
         measure_pnp(at_check, bench, host::make_image(tables->tables), setup, random);
     const bool keep = draw == 0 && kModels[m] == host::ModelKind::abbe_closed;
@@ -112,7 +112,7 @@ DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
   return out;
 }
 
-PerAxisRemainder per_axis_remainder(const host::Commissioned& closed) {
+PerAxisRemainder per_axis_remainder(const host::BuiltTables& closed) {
   const auto error_at = [&](const Vec3& q) {
     return closed.model.first_order({q.x(), q.y(), q.z()}, kUnknownTravels, Beyond::stand_at_end);
   };
@@ -126,8 +126,8 @@ PerAxisRemainder per_axis_remainder(const host::Commissioned& closed) {
   return {tables.residual_max * kUmPerMm, tables.residual_rms * kUmPerMm};
 }
 
-// Where a customer looks, before and after.
-void look_closer(const Bench& bench, const host::Commissioned& closed, XyfzResult& result) {
+// Measures what an acceptance test measures, before and after.
+void look_closer(const Bench& bench, const host::BuiltTables& closed, XyfzResult& result) {
   const sim::NoiseClasses classes;
   sim::Random random(bench.options.seed);
   const sim::InterferometerSetup setup{0.0, classes.repeatability_mm,
@@ -146,20 +146,20 @@ void look_closer(const Bench& bench, const host::Commissioned& closed, XyfzResul
 }
 
 // Modes verified without noise; returns the closed model for what follows.
-std::unique_ptr<host::Commissioned> run_noise_free(const Bench& bench,
-                                                   const host::Progress& progress,
-                                                   XyfzResult& result) {
+std::unique_ptr<host::BuiltTables> run_noise_free(const Bench& bench,
+                                                  const host::Progress& progress,
+                                                  XyfzResult& result) {
   const sim::Campaign campaign =
       through_files(sim::perfect_campaign(bench.truth, bench.machine), bench.folder / "noise_free");
   progress(0.0, "uncompensated machine");
   result.mode[0] = verify_mode(bench, {});
-  std::unique_ptr<host::Commissioned> closed;
+  std::unique_ptr<host::BuiltTables> closed;
   for (std::size_t m = 0; m < kModels.size(); ++m) {
     progress(0.05 * static_cast<double>(m + 1), fmt::format("verifying {}", kModeNames[m + 1]));
-    host::CommissionOptions options;
+    host::BuildOptions options;
     options.model = kModels[m];
     options.knots = bench.options.knots;
-    auto tables = host::commission(campaign.machine, campaign.runs, options);
+    auto tables = host::build_tables(campaign.machine, campaign.runs, options);
     result.mode[m + 1] = verify_mode(bench, host::make_image(tables->tables));
     result.mode[m + 1].model_bound_nm = tables->model_bound_nm;
     closed = std::move(tables);
@@ -219,7 +219,7 @@ XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) 
                     make_xyfz_truth(result.machine, options.machine_seed, result.tuning),
                     sim::travel_box(result.machine),
                     options.campaign.empty() ? temporary.path() : options.campaign};
-  std::unique_ptr<host::Commissioned> closed = run_noise_free(bench, progress, result);
+  std::unique_ptr<host::BuiltTables> closed = run_noise_free(bench, progress, result);
   progress(0.2, "line and circle");
   result.dynamics = run_dynamics(bench.truth, bench.machine, *closed, options.make_cell);
   look_closer(bench, *closed, result);

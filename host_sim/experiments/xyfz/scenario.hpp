@@ -1,6 +1,6 @@
 #pragma once
-// The whole campaign of seed 001 in one call: measure, build tables, compensate at tick rate,
-// measure again.
+// Runs the whole campaign of docs/papers/xyfz.md: measures, builds tables, compensates at tick
+// rate, measures again.
 
 #include <filesystem>
 #include <string>
@@ -17,7 +17,7 @@
 
 namespace volcomp::xyfz {
 
-// The default machine: on PNP the paper's own variant does as well as the paper says, on other
+// The default machine: on PNP the paper's own variant does as well as the paper reports, on other
 // diagonals it does not.
 inline constexpr std::uint64_t kXyfzMachineSeed = 14;
 
@@ -89,7 +89,7 @@ struct XyfzResult {
   std::vector<Iso230Figures> positioning;  // of the first noisy campaign, mm
   std::vector<sim::LeverCheck> levers;     // realistic instruments
   std::vector<std::string> warnings;
-  std::unique_ptr<host::Commissioned>
+  std::unique_ptr<host::BuiltTables>
       example;  // abbe_closed of the first noisy campaign (noise-free without draws)
   std::vector<host::Positioning> positioning_check;  // of the axes before, then after
   std::vector<Vec3> volume_points;                   // mm, a grid

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ SquarenessLines lines_of(const host::SquarenessFile& file,
 // Largest deviation on PNP, mean of both directions, µm: measured − predicted where a model is
 // given.
 double pnp_um(const sim::TrueMachine& machine, const host::MachineFile& file,
-              const host::Commissioned* predicted) {
+              const host::BuiltTables* predicted) {
   const DiagonalBox box = sim::travel_box(file);
   std::vector<double> deviation(sim::kDiagonalPoints);
   DiagonalFigures figures;
@@ -61,8 +62,8 @@ double naive_residual_um(const host::MachineFile& file, std::uint64_t phase_seed
                          const XyfzTuning& tuning) {
   const sim::TrueMachine machine = make_xyfz_truth(file, phase_seed, tuning);
   const sim::Campaign campaign = sim::perfect_campaign(machine, file);
-  const auto naive =
-      host::commission(campaign.machine, campaign.runs, host::tables_only(host::ModelKind::naive));
+  const auto naive = host::build_tables(campaign.machine, campaign.runs,
+                                        host::tables_only(host::ModelKind::naive));
   return pnp_um(machine, file, naive.get());
 }
 
@@ -99,8 +100,8 @@ double root_between(Sample lo, Sample hi, double tolerance, const Function& f) {
   return std::abs(lo.f) < std::abs(hi.f) ? lo.x : hi.x;
 }
 
-// The root nearest to `start` on a grid of equal steps, then refined; throws if there is none.
-double nearest_root(double start, double step, int steps, const Function& f) {
+// The root nearest to `start` on a grid of equal steps, then refined; nothing if there is none.
+std::optional<double> nearest_root(double start, double step, int steps, const Function& f) {
   const double tolerance = 1e-8 * step;  // far below what one rounded reading changes
   Sample up{start, f(start)};
   Sample down = up;
@@ -112,8 +113,43 @@ double nearest_root(double start, double step, int steps, const Function& f) {
     up = above;
     down = below;
   }
-  throw host::UserError(
-      "this phase seed has no machine with the paper's figures; try another --machine-seed");
+  return std::nullopt;
+}
+
+std::optional<XyfzTuning> find_tuning(const host::MachineFile& file, std::uint64_t phase_seed) {
+  XyfzTuning tuning;
+  constexpr int kRounds = 2;  // the two figures hardly influence each other
+  for (int round = 0; round < kRounds; ++round) {
+    const bool first = round == 0;
+    const auto scale =
+        nearest_root(tuning.angle_scale, first ? 0.1 : 0.01, first ? 25 : 50, [&](double s) {
+          return naive_residual_um(file, phase_seed, {s, tuning.scale_error}) - kPaperNaive_um;
+        });
+    if (!scale) return std::nullopt;
+    tuning.angle_scale = *scale;
+    const auto slope = nearest_root(tuning.scale_error, 2e-6, 150, [&](double s) {
+      return raw_um(file, phase_seed, {tuning.angle_scale, s}) - kPaperRaw_um;
+    });
+    if (!slope) return std::nullopt;
+    tuning.scale_error = *slope;
+  }
+  if (tuning.angle_scale <= 0.0) return std::nullopt;
+  return tuning;
+}
+
+// The chain that the paper's figures are of: X and Y under the work, Z with the tool, and its
+// laser.
+bool has_chain_of_paper(const host::MachineFile& file) {
+  if (!file.squareness || file.axes.size() != 3) return false;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const Joint& joint = file.chain.axis(a);
+    const Branch branch = a < 2 ? Branch::work : Branch::tool;
+    if (branch == Branch::work && file.axes[a].sensed.kappa != 1) return false;
+    if (file.axes[a].letter != "XYZ"[a] || index(joint.axis) != a || joint.branch != branch ||
+        joint.sign != static_cast<int>(branch_sign(branch)))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -133,7 +169,7 @@ sim::TrueMachine make_xyfz_truth(const host::MachineFile& file, std::uint64_t ph
   }
   machine.axis[0].channel[0].linear += tuning.scale_error * (file.axes[0].hi - file.axes[0].lo);
 
-  // A ball bar on this machine must read what the machine file says: unit gain, so one step is
+  // A ball bar on this machine must read the value of the machine file: unit gain, so one step is
   // exact.
   const std::array<std::vector<double>, 3> line{file.squareness->line(0), file.squareness->line(1),
                                                 file.squareness->line(2)};
@@ -144,23 +180,17 @@ sim::TrueMachine make_xyfz_truth(const host::MachineFile& file, std::uint64_t ph
 }
 
 XyfzTuning tune_xyfz(const host::MachineFile& file, std::uint64_t phase_seed) {
-  XyfzTuning tuning;
-  constexpr int kRounds = 2;  // the two figures hardly influence each other
-  for (int round = 0; round < kRounds; ++round) {
-    const bool first = round == 0;
-    tuning.angle_scale =
-        nearest_root(tuning.angle_scale, first ? 0.1 : 0.01, first ? 25 : 50, [&](double scale) {
-          return naive_residual_um(file, phase_seed, {scale, tuning.scale_error}) - kPaperNaive_um;
-        });
-    tuning.scale_error = nearest_root(tuning.scale_error, 2e-6, 150, [&](double slope) {
-      return raw_um(file, phase_seed, {tuning.angle_scale, slope}) - kPaperRaw_um;
-    });
-  }
-  if (tuning.angle_scale <= 0.0) {
-    throw host::UserError(
-        "this phase seed has no machine with the paper's figures; try another --machine-seed");
-  }
-  return tuning;
+  if (const auto tuning = find_tuning(file, phase_seed)) return *tuning;
+  throw host::UserError(
+      "this phase seed has no machine with the paper's figures; try another --machine-seed");
+}
+
+std::optional<sim::TrueMachine> xyfz_truth(const host::MachineFile& file,
+                                           std::uint64_t phase_seed) {
+  if (!has_chain_of_paper(file)) return std::nullopt;
+  const auto tuning = find_tuning(file, phase_seed);
+  if (!tuning) return std::nullopt;
+  return make_xyfz_truth(file, phase_seed, *tuning);
 }
 
 }  // namespace volcomp::xyfz

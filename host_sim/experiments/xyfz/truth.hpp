@@ -1,6 +1,8 @@
 #pragma once
-// The XYFZ machine as it really is (seed 001, addendum): amplitudes by class, phases from a seed,
-// two quantities tuned.
+// The true XYFZ machine: amplitudes by class, phases from a seed, two quantities tuned
+// (docs/papers/xyfz.md, "What stays open").
+
+#include <optional>
 
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/sim/truth/true_machine.hpp"
@@ -24,5 +26,10 @@ inline constexpr double kPaperNaive_um = 16.37;
 
 // Finds the tuning for a phase seed; throws UserError if this seed cannot show the paper's figures.
 [[nodiscard]] XyfzTuning tune_xyfz(const host::MachineFile& file, std::uint64_t phase_seed);
+
+// The tuned machine of a phase seed, where the file has the paper's chain and travels with which
+// that seed can show the paper's figures.
+[[nodiscard]] std::optional<sim::TrueMachine> xyfz_truth(const host::MachineFile& file,
+                                                         std::uint64_t phase_seed);
 
 }  // namespace volcomp::xyfz

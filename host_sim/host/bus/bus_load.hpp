@@ -24,7 +24,7 @@ struct ComputedLoad {
 };
 
 // Per cycle SYNC and, for each axis, RPDO1, TPDO1 and TPDO4 of the drive and its RPDO2; per second
-// ten heartbeats of everybody and ten status PDOs of the node.
+// ten heartbeats of every node and ten status PDOs of the compensation node.
 [[nodiscard]] ComputedLoad compute_bus_load(std::size_t axes, double cycle_hz);
 
 struct MeasuredLoad {

@@ -159,7 +159,7 @@ void BusMonitor::take_sync(std::uint64_t time_us, const hal::CanFrame& frame) {
       s.lost += static_cast<std::uint64_t>((counter - expected + most_counter_) % most_counter_);
     last_counter_ = counter;
   }
-  // A cycle ends: who was there in an earlier one and is not in this?
+  // A cycle ends: marks what an earlier one had and this one lacks.
   for (Axis& axis : axis_) {
     bool lost = false;
     for (Cyclic& c : axis.cyclic) {

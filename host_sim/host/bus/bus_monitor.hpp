@@ -1,6 +1,6 @@
 #pragma once
-// What can be seen of a machine by listening to its bus: who lives, what every axis does, what the
-// node adds, what went wrong. Nothing is ever sent.
+// Follows a machine by listening to its bus: which nodes are alive, what every axis does, what the
+// node adds, which errors occur. Never sends.
 //
 // Messages and signals are those of device_files/bus_messages.hpp.
 
@@ -28,7 +28,7 @@ struct StationSeen {
   bool silent = false;                     // no heartbeat for longer than it used to take
 };
 
-// Of one axis; what was never seen is empty. Positions and offsets in the unit of the axis.
+// State of one axis; what was never seen is empty. Positions and offsets in the unit of the axis.
 struct AxisSeen {
   char letter = '\0';
   std::uint8_t drive = 0;
@@ -82,7 +82,7 @@ class BusMonitor {
 
   // In the order of time.
   void take(std::uint64_t time_us, const hal::CanFrame& frame);
-  // What was seen since the last call, as of now; a new period begins.
+  // Returns what was seen since the last call; a new period begins.
   [[nodiscard]] BusSnapshot snapshot(std::uint64_t now_us);
 
  private:

@@ -1,4 +1,4 @@
-// What was seen of a bus, for people and for programs.
+// The state of a bus as text for people and for programs.
 
 #include <fmt/format.h>
 

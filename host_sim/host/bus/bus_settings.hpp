@@ -1,6 +1,5 @@
 #pragma once
-// How a machine is wired to its CAN bus: who has which node id, how drive units read, how fast the
-// cycle is.
+// The CAN bus of a machine: node ids, units of the drives, cycle rate.
 
 #include <cstdint>
 #include <optional>
@@ -27,7 +26,7 @@ struct BusAxis {
   std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
   std::int32_t highest = 0;
   std::int64_t latch_delay_ns = 0;  // of the touch probe input
-  // How the drive counts where that is not what the controller has been told.
+  // The units of the drive where they differ from those of the controller.
   std::optional<DriveScale> counts_otherwise;
 };
 
@@ -42,14 +41,16 @@ struct BusSettings {
   std::uint32_t machine_id = 0;
   std::vector<BusAxis> axes;
   // A controller that was given no tables waits until the node compensates with those it has
-  // itself, stored or from a service tool; a node without any is accepted as it is.
+  // itself, stored or from a service tool; a node without any is accepted, too.
   bool node_brings_tables = false;
+  // By TPDO. Otherwise a client writes the held offsets to 2206h when the node starts.
+  bool drives_report_offsets = true;
   bool probes = false;  // the drives latch the rising edges of a touch probe and report them
   CompensatorSettings<LoadedCompensator::kAxes> limits{};  // per cycle of this period
   std::optional<WatchedStrokes> strokes;  // the axes X, Z and C grind a helical gear
 };
 
-// Node ids, units and software limits as the machine file says.
+// Node ids, units and software limits from the machine file.
 [[nodiscard]] BusSettings bus_settings(const MachineFile& machine, double cycle_hz);
 
 }  // namespace volcomp::host

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdio>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -93,30 +94,67 @@ std::optional<LoggedFrame> parse_log_line(Text line, const std::string& name, st
   return logged;
 }
 
-std::uint64_t latest_time(const LoggedFrame& logged, std::uint64_t last_us,
-                          const std::string& name) {
-  if (logged.time_us + kMostDisorder_us < last_us)
-    throw UserError(fmt::format("{}:{}: time runs backwards", name, logged.line));
-  return std::max(last_us, logged.time_us);
+std::uint64_t SteadyTime::of(const LoggedFrame& logged) {
+  const std::uint64_t time_us = logged.time_us + set_back_us_;
+  if (time_us + kMostDisorder_us < last_us_) set_back_us_ += last_us_ - time_us;
+  last_us_ = std::max(last_us_, logged.time_us + set_back_us_);
+  return last_us_;
 }
+
+namespace {
+
+// Whether the frame there is older than the one before only because that came too early.
+bool out_of_order(const std::vector<LoggedFrame>& log, std::size_t at, std::uint64_t set_back_us,
+                  std::uint64_t last_us) {
+  constexpr std::size_t kMostLate = 3;  // lines
+  if (log[at].time_us + set_back_us + kMostDisorder_us < last_us) return false;
+  const std::size_t end = std::min(at + 1 + kMostLate, log.size());
+  for (std::size_t i = at + 1; i < end; ++i) {
+    const std::uint64_t time_us = log[i].time_us + set_back_us;
+    if (time_us >= last_us) return time_us - last_us <= kMostDisorder_us;
+  }
+  return end == log.size();
+}
+
+// Frames of one identifier come from one sender: they never change places.
+void undo_clock_set(std::vector<LoggedFrame>& log) {
+  std::map<std::uint16_t, std::uint64_t> last_of_id_us;
+  std::uint64_t last_us = 0;
+  std::uint64_t spacing_us = 0;
+  std::uint64_t set_back_us = 0;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    LoggedFrame& logged = log[i];
+    std::uint64_t time_us = logged.time_us + set_back_us;
+    std::uint64_t& own_us = last_of_id_us[logged.frame.id];
+    const bool old = time_us < last_us;
+    if (time_us < own_us || (old && !out_of_order(log, i, set_back_us, last_us))) {
+      const std::uint64_t by_us = last_us + spacing_us - time_us;
+      set_back_us += by_us;
+      time_us += by_us;
+      logged.clock_set_us = -static_cast<std::int64_t>(by_us);
+    }
+    logged.time_us = own_us = time_us;
+    if (time_us < last_us) continue;
+    if (i > 0) spacing_us = time_us - last_us;
+    last_us = time_us;
+  }
+}
+
+}  // namespace
 
 std::vector<LoggedFrame> parse_can_log(Text text, const std::string& name) {
   std::vector<LoggedFrame> log;
-  std::uint64_t last_us = 0;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const Text line = text.substr(0, end);
+    const std::optional<LoggedFrame> parsed = parse_log_line(text.substr(0, end), name, number);
     text.remove_prefix(std::min(end + 1, text.size()));
-    const std::optional<LoggedFrame> parsed = parse_log_line(line, name, number);
-    if (!parsed) continue;
-    const LoggedFrame& logged = *parsed;
-    last_us = latest_time(logged, last_us, name);
-    log.push_back(logged);
+    if (parsed) log.push_back(*parsed);
   }
+  if (log.empty()) throw UserError(fmt::format("{}: holds no frames", name));
+  undo_clock_set(log);
   std::stable_sort(log.begin(), log.end(), [](const LoggedFrame& a, const LoggedFrame& b) {
     return a.time_us < b.time_us;
   });
-  if (log.empty()) throw UserError(fmt::format("{}: holds no frames", name));
   return log;
 }
 

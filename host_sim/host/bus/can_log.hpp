@@ -17,15 +17,19 @@
 namespace volcomp::host {
 
 struct LoggedFrame {
-  std::uint64_t time_us = 0;  // the log's own clock
-  std::size_t line = 0;       // in the file, from 1
+  std::uint64_t time_us = 0;      // the log's own clock, without its settings
+  std::size_t line = 0;           // in the file, from 1
+  std::int64_t clock_set_us = 0;  // before this frame, by so much
   hal::CanFrame frame{};
 };
 
-// The frames of a log in the order of their time stamps: the kernel takes those when a frame is
-// sent, but may hand two frames to a listener the other way round. Frames a CANopen network does
-// not use are left out: 29-bit identifiers, remote requests, error reports. Throws UserError naming
-// `name` and line for what is no log line, and where time runs backwards by more than 0.1 s.
+// The frames of a log. The kernel takes the time stamp when a frame is sent, but may hand two
+// frames to a listener the other way round: a frame up to 0.1 s older than the line before it goes
+// to its place when one of the next three lines is as new again and it overtakes none of its
+// identifier. Otherwise the clock was set back there (NTP does): the lines keep their order, and
+// time goes on with the spacing of the two frames before. Frames a CANopen network does not use are
+// left out: 29-bit identifiers, remote requests, error reports. Throws UserError naming `name` and
+// line for what is no log line.
 [[nodiscard]] std::vector<LoggedFrame> parse_can_log(std::string_view text,
                                                      const std::string& name);
 [[nodiscard]] std::vector<LoggedFrame> read_can_log(const std::filesystem::path& path);
@@ -36,10 +40,16 @@ struct LoggedFrame {
                                                         const std::string& name,
                                                         std::size_t number);
 
-// The latest time so far, `last_us` or that of `logged`, which may be 0.1 s earlier at most. Throws
-// as parse_can_log.
-[[nodiscard]] std::uint64_t latest_time(const LoggedFrame& logged, std::uint64_t last_us,
-                                        const std::string& name);
+// Time that never runs backwards, for readers that do not wait for the next lines: after a clock
+// was set back by more than 0.1 s it continues from there.
+class SteadyTime {
+ public:
+  [[nodiscard]] std::uint64_t of(const LoggedFrame& logged);
+
+ private:
+  std::uint64_t last_us_ = 0;
+  std::uint64_t set_back_us_ = 0;  // so far
+};
 
 // One line, without its end.
 [[nodiscard]] std::string log_line(std::uint64_t time_us, std::string_view interface,

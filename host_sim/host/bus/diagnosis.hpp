@@ -1,5 +1,5 @@
 #pragma once
-// Everything a compensation node can say about itself, collected over SDO and put into words.
+// Reads the state of a compensation node over SDO and describes it in plain sentences.
 
 #include <array>
 #include <optional>
@@ -66,11 +66,11 @@ struct Diagnosis {
 [[nodiscard]] std::string describe(const Diagnosis& diagnosis);
 [[nodiscard]] nlohmann::json to_json(const Diagnosis& diagnosis);
 
-// One field of 1003h: what happened, and to whom.
+// One field of 1003h: the error and its source.
 [[nodiscard]] std::string describe_error(std::uint32_t field);
-// What is going on with an axis; "corrected" when nothing is.
+// Describes the conditions of an axis; "corrected" when there are none.
 [[nodiscard]] std::string describe_status(std::uint16_t status);
-// What a drive says of itself in 6041h (CiA 402-2).
+// Describes the state of a drive from 6041h (CiA 402-2).
 [[nodiscard]] std::string describe_drive(std::uint16_t status_word);
 
 }  // namespace volcomp::host

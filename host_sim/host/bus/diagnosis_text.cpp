@@ -1,4 +1,4 @@
-// A diagnosis in words, for people and for programs.
+// A diagnosis as text for people and for programs.
 
 #include <fmt/format.h>
 
@@ -186,6 +186,9 @@ std::string describe_error(std::uint32_t field) {
     case ErrorCode::no_authority:
     case ErrorCode::offset_not_confirmed:
       where = fmt::format("axis {}: ", source);
+      break;
+    case ErrorCode::memory_damaged:
+      if (source != 0) where = fmt::format("axis {}: ", source);
       break;
     case ErrorCode::store_failed:
     case ErrorCode::parameters_lost:

@@ -15,7 +15,7 @@
 
 namespace volcomp::host {
 
-// The node said no. The text names the object and the reason.
+// The node refused. The text names the object and the reason.
 struct NodeRefused : std::runtime_error {
   NodeRefused(const std::string& text, canopen::AbortCode abort)
       : std::runtime_error(text), code(abort) {}

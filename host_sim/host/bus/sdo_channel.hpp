@@ -32,13 +32,13 @@ class SdoChannel {
   // `most`: bytes the value may have.
   void read(canopen::ObjectId object, std::size_t most, std::string what, OnRead done);
 
-  // After a failure the rest of the queue is dropped; failure() says what went wrong.
+  // After a failure the rest of the queue is dropped; failure() gives the reason.
   [[nodiscard]] bool idle() const { return jobs_.empty() && !outgoing_; }
   [[nodiscard]] const std::string& failure() const { return failure_; }
   [[nodiscard]] canopen::AbortCode abort_code() const { return abort_code_; }
-  // Whether the node said no; otherwise this side did, to an answer that is none or too long.
+  // Whether the node refused; otherwise this side did, for a missing or too long answer.
   [[nodiscard]] bool refused() const { return refused_; }
-  // Whose transfer the last failure was.
+  // The object of the last failed transfer.
   [[nodiscard]] canopen::ObjectId failed() const { return failed_; }
   // Forgets everything queued and any failure; a block download that is running is aborted.
   void clear();

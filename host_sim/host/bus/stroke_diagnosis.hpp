@@ -1,6 +1,6 @@
 #pragma once
-// What a node of a helical grinder says of the strokes it watches and of what it has learned from
-// them (firmware/node/strokes/stroke_objects.hpp), in words.
+// Describes the strokes that a node of a helical grinder watches and what it has learned from them
+// (firmware/node/strokes/stroke_objects.hpp).
 
 #include <array>
 #include <optional>

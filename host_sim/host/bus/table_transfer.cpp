@@ -18,7 +18,7 @@ using node::TableCommand;
 
 namespace {
 
-// The node's reason says more than the abort code, where there is one.
+// Prefers the node's reason, which is more specific than the abort code.
 void command(NodeClient& client, TableCommand what, const char* name) {
   try {
     client.write(node::kTableCommand, {static_cast<std::uint8_t>(what)}, name);
@@ -91,7 +91,8 @@ ActiveTables active_tables(NodeClient& client) {
 
 std::string refusal(NodeClient& client) {
   static constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
-  if (client.read_value<std::uint8_t>(table_verdict(2), "reason") == 0) return {};
+  const auto reason = client.read_value<std::uint8_t>(table_verdict(2), "reason");
+  if (reason == 0) return {};
   const auto axis = client.read_value<std::uint8_t>(table_verdict(3), "axis of the refusal");
   const auto index = client.read_value<std::int16_t>(table_verdict(4), "place of the refusal");
   // -1, as all bits set, is beyond every channel.
@@ -100,8 +101,8 @@ std::string refusal(NodeClient& client) {
   if (axis != 0) place.push_back(fmt::format("axis {}", static_cast<char>(axis)));
   if (index >= 0) place.push_back(fmt::format("entry {}", index + 1));
   if (channel < kChannels.size()) place.push_back(fmt::format("channel {}", kChannels[channel]));
-  const std::string text =
-      client.read_text(table_verdict(6), node::kMostReasonText, "reason in words");
+  std::string text = client.read_text(table_verdict(6), node::kMostReasonText, "reason in words");
+  if (text.empty()) text = sentence(static_cast<Reason>(reason));  // of a board, which has none
   return place.empty() ? text : fmt::format("{}: {}", fmt::join(place, ", "), text);
 }
 

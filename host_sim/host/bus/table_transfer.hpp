@@ -35,7 +35,7 @@ struct ActiveTables {
 };
 [[nodiscard]] ActiveTables active_tables(NodeClient& client);
 
-// What 2112h says about the last refusal, place first: "axis X, knot 4, channel EA: …". Empty
+// The last refusal as 2112h describes it, place first: "axis X, knot 4, channel EA: …". Empty
 // without one.
 [[nodiscard]] std::string refusal(NodeClient& client);
 

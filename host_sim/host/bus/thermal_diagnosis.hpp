@@ -1,5 +1,5 @@
 #pragma once
-// What a node says about temperatures, expansion of the axes and the expiry of its tables (2700h).
+// Reads temperatures, expansion of the axes and the expiry of its tables from a node (2700h).
 
 #include <array>
 #include <optional>
@@ -13,7 +13,7 @@
 namespace volcomp::host {
 
 struct TemperatureDiagnosis {
-  double latest_C = 0.0;  // as it came, believed or not
+  double latest_C = 0.0;  // as received, accepted or not
   bool connected = false;
   TemperatureState state{};
 };
@@ -23,7 +23,7 @@ struct ThermalDiagnosis {
   double behind_um = 0.0;
   std::uint32_t followed = 0;  // times the tables did
   std::array<TemperatureDiagnosis, kTemperatureInputs> input{};
-  std::uint32_t unix_s = 0;          // 0: the node was not told
+  std::uint32_t unix_s = 0;          // 0: the node has no date
   std::uint32_t expires_unix_s = 0;  // 0: never
   bool expired = false;
 };
@@ -34,7 +34,7 @@ struct ThermalDiagnosis {
 [[nodiscard]] std::string describe(const ThermalDiagnosis& diagnosis);
 [[nodiscard]] nlohmann::json to_json(const ThermalDiagnosis& diagnosis);
 
-// A date in words, UTC: "2030-01-01 00:00:00".
+// A date as text, UTC: "2030-01-01 00:00:00".
 [[nodiscard]] std::string date_text(std::int64_t unix_s);
 
 }  // namespace volcomp::host

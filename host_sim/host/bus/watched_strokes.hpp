@@ -1,5 +1,5 @@
 #pragma once
-// What the compensation of a helical grinder is told of gear and strokes, wherever it runs.
+// Settings of gear and strokes for the compensation of a helical grinder, on a node or integrated.
 
 #include "comp/strokes/helix_monitor.hpp"
 #include "comp/strokes/learning_choice.hpp"
@@ -16,7 +16,7 @@ struct WatchedStrokes {
   LearningTarget target = LearningTarget::synchronisation;
 };
 
-// The controller's own word of what it does at the targets of a cycle.
+// The process state that the controller sends with the targets of a cycle.
 struct ProcessState {
   std::uint16_t slot = 0;
   Direction stroke = Direction::unknown;

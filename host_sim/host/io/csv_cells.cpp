@@ -93,6 +93,18 @@ void CsvLines::fail(const std::string& text) const {
   throw UserError(fmt::format("{}:{}: {}", name_, line_, text));
 }
 
+// As a spreadsheet saves it where the comma is the decimal point, and what is copied from one.
+std::vector<std::string_view> CsvLines::header_cells(std::string_view line) const {
+  const auto count = [&](char c) { return std::count(line.begin(), line.end(), c); };
+  const auto refuse = [&](const char* separator) {
+    fail(fmt::format("the header is separated by {}; columns must be separated by commas",
+                     separator));
+  };
+  if (count(';') > count(',')) refuse("semicolons");
+  if (count('\t') > count(',')) refuse("tabs");
+  return cells_of(line);
+}
+
 double CsvLines::number(std::string_view cell, const std::string& what) const {
   double value = 0.0;
   const char* begin = cell.data();

@@ -41,6 +41,9 @@ class CsvLines {
   // Throws UserError("NAME:LINE: text").
   [[noreturn]] void fail(const std::string& text) const;
 
+  // The cells of a header. Fails with the name of the separator where it is not the comma.
+  [[nodiscard]] std::vector<std::string_view> header_cells(std::string_view line) const;
+
   // A cell as a number, "nan" and "inf" among them; fails with `what` before the cell.
   [[nodiscard]] double number(std::string_view cell, const std::string& what = {}) const;
 

@@ -26,7 +26,7 @@ bool is_link_to_descriptor(const fs::path& link) {
   return fs::weakly_canonical(link.parent_path(), ignored).string().rfind("/proc/", 0) == 0;
 }
 
-// root may write everything: a file without any permission to write stays as it is all the same.
+// root may write everything, but a file without any permission to write stays unchanged.
 bool may_be_taken(const fs::path& place, const fs::file_status& there) {
   constexpr fs::perms kAnyWrite =
       fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
@@ -48,8 +48,8 @@ fs::path name_beside(const fs::path& place, int attempt) {
   return name;
 }
 
-// A new file and no other: who may write into the folder, /tmp for instance, could have put a link
-// to something of ours there. Of an earlier run with the same process id the name is taken, too.
+// Creates a new file only: another user with write access to the folder, /tmp for instance, could
+// have put a link there. The name may also be left from an earlier run with the same process id.
 int create_beside(const fs::path& place, mode_t mode, fs::path& name) {
   for (int attempt = 0; attempt < kMostNames; ++attempt) {
     name = name_beside(place, attempt);

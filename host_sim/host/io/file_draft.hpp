@@ -22,7 +22,7 @@ namespace volcomp::host {
 // what takes long is not done in vain.
 void require_place(const std::filesystem::path& path);
 
-// Written beside its place with the mode of the file that is there; gone unless it was put in
+// Written beside its place with the mode of the file that is there; removed unless it was put in
 // place, also when a signal ends the program. All throw UserError naming the file, also where it
 // may not be written.
 class FileDraft {
@@ -49,7 +49,7 @@ class FileDraft {
   void open_beside();
   void discard();
 
-  std::filesystem::path path_;       // as the user says it
+  std::filesystem::path path_;       // as the user wrote it
   std::filesystem::path place_;      // without links
   std::filesystem::path temporary_;  // empty: written directly, or put in place
   std::unique_ptr<RemovedBySignal> removal_;

@@ -1,5 +1,5 @@
 #pragma once
-// What a run has read, so that a report can say from which data its figures come.
+// Records the inputs of a run, so that a report can name the data of its figures.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +21,7 @@ struct HashedInput {
 
 // Throws UserError naming the file when it cannot be read.
 [[nodiscard]] HashedInput hashed_file(const std::string& what, const std::filesystem::path& path);
-// Of something that was made, not read.
+// Hashes data that was made, not read.
 [[nodiscard]] HashedInput hashed_bytes(const std::string& what, const std::string& name,
                                        const std::vector<std::uint8_t>& bytes);
 

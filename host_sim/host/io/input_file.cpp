@@ -11,7 +11,7 @@
 namespace volcomp::host {
 namespace {
 
-// What has been read from a pipe is gone.
+// A pipe can be read only once.
 void take_standard_input() {
   static bool taken = false;
   if (taken) throw UserError("only one file can come from standard input (-)");

@@ -26,11 +26,16 @@ void end_program(int signal) {
   for (const std::atomic<const char*>& path : removed) {
     if (const char* const name = path.load(); name != nullptr) static_cast<void>(::unlink(name));
   }
+  // Folders lose their files first, and an inner one has been registered after the outer one.
+  for (std::size_t slot = removed.size(); slot > 0; --slot) {
+    const char* const name = removed.at(slot - 1).load();
+    if (name != nullptr) static_cast<void>(::rmdir(name));
+  }
   static_cast<void>(std::signal(signal, SIG_DFL));
   static_cast<void>(std::raise(signal));
 }
 
-// The second one ends the program at once: whoever should look may be stuck.
+// The second signal ends the program at once: the code that checks may be blocked.
 void note(int signal) {
   noted = signal;
   static_cast<void>(std::signal(signal, end_program));
@@ -70,7 +75,7 @@ Interruption::~Interruption() {
     static_cast<void>(std::signal(each.signal, each.before == SIG_DFL ? end_program : each.before));
 }
 
-// Members, so that nobody asks without having asked for it.
+// Members, so that only the owner of an Interruption can query it.
 // NOLINTBEGIN(readability-convert-member-functions-to-static)
 bool Interruption::asked() const { return noted != 0; }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Signals that ask the program to end, noticed by whoever looks: so that what was started can be
-// ended, and what was made be removed.
+// Signals that end the program, noted until the code checks them: so that it can stop what it has
+// started and remove what it has made.
 
 #include <csignal>
 #include <cstddef>
@@ -16,9 +16,9 @@ struct Interrupted : std::runtime_error {
   int signal;
 };
 
-// While one lives, SIGINT, SIGTERM and SIGHUP are only noted, each once: the second of a kind ends
-// the program as ever. SIGHUP stays ignored where it was (nohup). One inside another is fine: both
-// see them.
+// While one exists, SIGINT, SIGTERM and SIGHUP are only noted, each once: the second of a kind ends
+// the program as usual. SIGHUP stays ignored where it was (nohup). They may nest: both see the
+// signals.
 class Interruption {
  public:
   Interruption();
@@ -32,8 +32,9 @@ class Interruption {
   void check() const;
 };
 
-// While one lives, its file is removed when a signal ends the program at once: nobody looks while
-// the program waits for a slow reader of its output. For up to 64 files, of more the first.
+// While one exists, its file or empty folder is removed when a signal ends the program at once: no
+// code checks for signals while the program waits for a slow reader of its output. Holds for the
+// first 64; a folder in another is registered after it.
 class RemovedBySignal {
  public:
   explicit RemovedBySignal(const std::filesystem::path& path);

@@ -7,9 +7,9 @@
 
 namespace volcomp::host {
 
-// The word that two insertions, deletions or exchanges of a letter at most make of `typed`
-// (Levenshtein's distance), the nearest first; empty when there is none. Of short words fewer: two
-// of three letters are another word.
+// Returns the nearest word within two insertions, deletions or exchanges of a letter of `typed`
+// (Levenshtein's distance); empty when there is none. Short words allow fewer: with two of three
+// letters changed it is another word.
 [[nodiscard]] std::string nearest_word(std::string_view typed,
                                        const std::vector<std::string>& words);
 

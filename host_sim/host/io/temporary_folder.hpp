@@ -8,7 +8,7 @@
 
 namespace volcomp::host {
 
-// A folder that is gone when its owner is.
+// A folder that is removed with its owner.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kLargestToml = 1U << 20U;
 
-// A newline is never a part of a longer sequence: lines can be asked one by one.
+// A newline is never a part of a longer sequence, so the lines are checked one by one.
 void refuse_other_encodings(std::string_view text, const std::string& name) {
   for (int number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
@@ -27,7 +27,7 @@ std::string text_of_file(const std::filesystem::path& path) {
   return InputFile(path).beginning(kLargestToml + 1);
 }
 
-void refuse_monsters(const std::string& text, const std::string& name) {
+void check_toml_limits(const std::string& text, const std::string& name) {
   constexpr int kDeepest = 32;
   if (text.size() > kLargestToml)
     throw UserError(name + ": larger than 1 MiB, this is not a machine file");

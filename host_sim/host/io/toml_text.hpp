@@ -13,17 +13,18 @@
 
 namespace volcomp::host {
 
-// Of one that refuse_monsters will find too large, not more than it takes to see that.
+// The whole file, or as much as check_toml_limits needs to refuse one that is too large.
 [[nodiscard]] std::string text_of_file(const std::filesystem::path& path);
 
-// The TOML library recurses once per bracket and copies freely; no file of ours comes near these
-// limits. Of a key in quotes that is not UTF-8 it reads beyond the end (toml11 3.7).
-void refuse_monsters(const std::string& text, const std::string& name);
+// Throws UserError for a text that the TOML library cannot take: it recurses once per bracket and
+// copies freely, and reads beyond the end of a key in quotes that is not UTF-8 (toml11 3.7). No
+// machine file comes near these limits.
+void check_toml_limits(const std::string& text, const std::string& name);
 
 // What `read` makes of the top table.
 template <class Read>
 auto read_toml(const std::string& text, const std::string& name, const Read& read) {
-  refuse_monsters(text, name);
+  check_toml_limits(text, name);
   try {
     std::istringstream stream(text);
     return read(toml::parse(stream, name));

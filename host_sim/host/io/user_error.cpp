@@ -19,7 +19,10 @@ std::vector<std::string> places(const Where& w) {
   if (w.target >= 0) parts.push_back(fmt::format("target {}", w.target + 1));
   if (w.index >= 0) parts.push_back(fmt::format("entry {}", w.index + 1));
   if (w.channel >= 0)
-    parts.push_back(fmt::format("channel {}", kChannels.at(static_cast<std::size_t>(w.channel))));
+    parts.push_back(
+        w.axis == '\0'
+            ? fmt::format("channel {}", kChannels.at(static_cast<std::size_t>(w.channel)))
+            : fmt::format("{}{}", kChannels.at(static_cast<std::size_t>(w.channel)), w.axis));
   if (w.count >= 0) parts.push_back(fmt::format("{} found", w.count));
   if (w.has_value) parts.push_back(fmt::format("value {:.6g}", w.value));
   if (w.has_deviation) parts.push_back(fmt::format("off by {:.6g}", w.deviation));

@@ -13,8 +13,7 @@ struct UserError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What a refusal of the library means, in words: place first, then the reason. Runs and targets
-// count from 1.
+// A refusal of the library as text: place first, then the reason. Runs and targets count from 1.
 [[nodiscard]] std::string describe(const Status& status);
 
 // Throws UserError("SUBJECT: …") unless the status is ok.

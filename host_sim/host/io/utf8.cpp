@@ -6,7 +6,8 @@
 namespace volcomp::host {
 namespace {
 
-// A first byte says how many follow; of those only the first is restricted further.
+// The first byte gives the number of bytes that follow; only the first of those is restricted
+// further.
 struct Sequence {
   unsigned first_from, first_to;
   std::size_t following;

@@ -40,6 +40,8 @@ void WholeFiles::add_folder(const fs::path& path) {
     made.push_back(p);
   new_folders_.insert(new_folders_.begin(), made.begin(), made.end());
   create_folder(path);
+  for (auto folder = made.rbegin(); folder != made.rend(); ++folder)
+    removals_.push_back(std::make_unique<RemovedBySignal>(*folder));
 }
 
 void WholeFiles::add(const fs::path& path, std::string_view text) {
@@ -55,6 +57,7 @@ void WholeFiles::add(const fs::path& path, std::string_view text) {
 void WholeFiles::put_in_place() {
   for (const Direct& direct : direct_)
     write_whole_file(direct.path, direct.text);
+  removals_.clear();
   for (FileDraft& draft : drafts_)
     draft.put_in_place();
   new_folders_.clear();

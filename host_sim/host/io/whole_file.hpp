@@ -2,6 +2,7 @@
 // Files appear whole or not at all.
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,8 @@ struct NamedText {
   std::string text;
 };
 
-// Several files: none is put in place before all are written. What was not put in place is gone,
-// with the folders made for it. All throw UserError naming the file or the folder.
+// Several files: none is put in place before all are written. Files that were not put in place are
+// removed, with the folders made for them. All throw UserError naming the file or the folder.
 class WholeFiles {
  public:
   WholeFiles() = default;
@@ -45,6 +46,7 @@ class WholeFiles {
   std::vector<FileDraft> drafts_;
   std::vector<Direct> direct_;                      // nothing of these can be taken back
   std::vector<std::filesystem::path> new_folders_;  // innermost first
+  std::vector<std::unique_ptr<RemovedBySignal>> removals_;
 };
 
 // Throws UserError naming the folder where none could be made, or nothing be written into it,

@@ -1,6 +1,6 @@
 #pragma once
-// The kinematic chain as one writes it down: "w-X-Y-b-Z-t" is a machine whose bed b carries Y,
-// which carries X with the workpiece w, and Z with the tool t.
+// The kinematic chain as a string: "w-X-Y-b-Z-t" is a machine whose bed b carries Y, which carries
+// X with the workpiece w, and Z with the tool t.
 
 #include <string>
 
@@ -19,7 +19,7 @@ struct ChainLetters {
 // other. Returns what is wrong with it, empty if nothing is; `out` is then filled in.
 [[nodiscard]] std::string parse_chain(const std::string& text, ChainLetters& out);
 
-// The letter says along or about what an axis moves: X, A and U belong to X.
+// The letter gives the direction along or about which an axis moves: X, A and U belong to X.
 [[nodiscard]] Axis axis_of_letter(char letter);
 [[nodiscard]] bool is_rotary_letter(char letter);  // A B C
 

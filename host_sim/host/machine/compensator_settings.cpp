@@ -8,7 +8,7 @@
 namespace volcomp::host {
 namespace {
 
-// What a machine file says about the correction of one axis: mm or rad.
+// The correction of one axis in a machine file: mm or rad.
 struct AxisCorrection {
   double limit;
   double rate_per_s;
@@ -29,7 +29,7 @@ AxisLimits in_units(const AxisCorrection& c, bool rotary, double period_s, doubl
   l.rate = std::max(1, offset(c.rate_per_s * period_s));
   l.soft_rate = std::max(1, std::min(l.rate, offset(c.limit * period_s / ramp_s)));
   l.hysteresis = offset(c.hysteresis);
-  // seed 001, bad input: a jump beyond v_max·Δt·2
+  // A jump beyond v_max·Δt·2 is implausible.
   l.max_step = to_units(2.0 * c.max_speed_per_s * period_s, position_units);
   return l;
 }

@@ -114,7 +114,7 @@ void read_list(const Section& top, MachineFile& file, MachineDescription& d) {
 // --- a chain
 
 // An axis that carries the workpiece counts the tool against it (ISO 841). Builders of rotary
-// tables do so or count the table itself: nobody can know which.
+// tables do so or count the table itself, so the file must state which.
 std::int8_t sign_in_chain(const Section& s, const AxisFile& axis, bool work) {
   if (s.has("sign")) return read_sign(s);
   if (!work) return 1;

@@ -70,6 +70,14 @@ void read_software_limits(const TomlSection& s, const AxisFile& axis, DriveFile&
   drive.software_limits_mm = limits;
 }
 
+double read_cycle(const TomlSection& s) {
+  const double hz = s.number("cycle_hz");
+  if (!(hz >= kLeastCycle_hz && hz <= kMostCycle_hz))
+    s.complain("cycle_hz", fmt::format("'cycle_hz' must be between {:g} and {:g}", kLeastCycle_hz,
+                                       kMostCycle_hz));
+  return hz;
+}
+
 }  // namespace
 
 const std::vector<std::string>& drive_fields() {
@@ -100,10 +108,12 @@ DriveFile read_drive(const TomlSection& s, const AxisFile& axis, std::size_t num
 void read_bus(const TomlSection& top, MachineFile& file) {
   if (top.has("bus")) {
     const TomlSection s = top.table("bus");
-    s.allow_only({"node_id", "controller_id"});
+    s.allow_only({"node_id", "controller_id", "cycle_hz"});
+    file.bus.stated = true;
     file.bus.node = static_cast<std::uint8_t>(s.integer_or("node_id", file.bus.node, 1, kLastNode));
     file.bus.controller =
         static_cast<std::uint8_t>(s.integer_or("controller_id", file.bus.controller, 1, kLastNode));
+    if (s.has("cycle_hz")) file.bus.cycle_hz = read_cycle(s);
   }
   std::map<int, std::string> owner{{file.bus.node, "the compensation node"}};
   const auto claim = [&](int id, const std::string& who) {

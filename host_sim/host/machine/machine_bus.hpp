@@ -1,11 +1,14 @@
 #pragma once
-// What a machine file says of the CAN bus: who has which node id, and in which units the drives
-// count. Throws UserError.
+// Reads the CAN bus of a machine file: node ids and units of the drives. Throws UserError.
 
 #include "host_sim/host/io/toml_section.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 
 namespace volcomp::host {
+
+// Rates of SYNC that a node keeps up with.
+inline constexpr double kLeastCycle_hz = 50.0;
+inline constexpr double kMostCycle_hz = 1000.0;
 
 // Fields of an [[axis]].
 [[nodiscard]] const std::vector<std::string>& drive_fields();

@@ -114,8 +114,8 @@ std::vector<std::string> motion_errors(char letter) {
   return names;
 }
 
-// ISO 230-1, 3.6: of a linear axis two directions, of a rotary one also two coordinates. Where its
-// own coordinate is zero is a matter of the encoder.
+// ISO 230-1, 3.6: of a linear axis two directions, of a rotary one also two coordinates. The
+// encoder defines the zero of its own coordinate.
 std::vector<std::string> location_errors(const Joint& joint) {
   constexpr const char* kLinear = "XYZ";
   constexpr const char* kRotary = "ABC";

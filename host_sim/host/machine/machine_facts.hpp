@@ -15,17 +15,18 @@ struct LeastAuthority {
   Pose at{};           // mm, rad
   double greatest = 0.0;
 };
-// Of the correcting axes over a position error. Below kMinAuthority the run time does not correct.
+// Authority of the correcting axes over a position error. Below kMinAuthority the run time does not
+// correct.
 [[nodiscard]] LeastAuthority least_authority(const MachineFile& machine);
 // Throws UserError when they cannot correct anywhere.
 void require_authority(const MachineFile& machine);
 
 [[nodiscard]] std::vector<std::size_t> rotary_axes(const MachineChain& chain);
-// Of these axes over the direction of the tool axis, Z of the tool frame: how much it turns in
-// the worst direction, rad/rad. 0 where one direction is out of reach.
+// Authority of these axes over the direction of the tool axis, Z of the tool frame: how much it
+// turns in the worst direction, rad/rad. 0 where one direction is out of reach.
 [[nodiscard]] LeastAuthority least_turning(const MachineFile& machine,
                                            const std::vector<std::size_t>& rotary);
-// Those that orient the tool, by the file.
+// The axes that orient the tool, by the file.
 [[nodiscard]] std::vector<std::size_t> orienting_axes(const MachineChain& chain);
 
 // Names by ISO 230-1 of the six error motions of an axis, and of where it is and how it lies.

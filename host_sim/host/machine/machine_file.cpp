@@ -83,7 +83,7 @@ std::vector<std::uint8_t> read_letters(const Section& s, const char* key, std::s
   return axes;
 }
 
-// Of axes that are not among the correcting ones.
+// Reads the orienting axes, none of which may be a correcting one.
 std::vector<std::uint8_t> read_orienting(const Section& s, const MachineFile& file,
                                          const std::vector<std::uint8_t>& correcting) {
   if (!s.has("orienting")) return {};

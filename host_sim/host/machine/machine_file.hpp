@@ -24,10 +24,12 @@ struct DriveFile {
   std::optional<std::array<double, 2>> software_limits_mm;  // 607Dh
 };
 
-// Everybody else on the bus.
+// The other devices on the bus.
 struct BusFile {
+  bool stated = false;     // the file has a [bus]
   std::uint8_t node = 32;  // that compensates
   std::uint8_t controller = 127;
+  std::optional<double> cycle_hz;  // rate of SYNC
 };
 
 struct AxisFile {
@@ -40,8 +42,8 @@ struct AxisFile {
   SensedPoint sensed;
   double latch_delay_us = 0.0;  // of the touch probe input of its drive
   DriveFile drive;
-  // Its error where the runs count as zero, in the convention and on the side of the file. Of a
-  // rotary axis: where it is and how it lies.
+  // Its error where the runs count as zero, in the convention and on the side of the file. For a
+  // rotary axis: its position and tilt.
   ErrorMotion at_reference = ErrorMotion::Zero();
 
   [[nodiscard]] bool full_turn() const;  // rotary, from anywhere once round

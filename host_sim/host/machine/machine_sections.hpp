@@ -12,7 +12,7 @@ void read_correction_values(const TomlSection& s, CorrectionFile& c);
 
 [[nodiscard]] SquarenessFile read_squareness(const TomlSection& s);
 
-// Of a machine whose axes and chain are known.
+// Needs the axes and the chain of the machine.
 [[nodiscard]] ThermalFile read_thermal(const TomlSection& s, const MachineFile& machine);
 
 [[nodiscard]] ProbeFile read_probe(const TomlSection& s);
@@ -23,7 +23,7 @@ void read_correction_values(const TomlSection& s, CorrectionFile& c);
 // Six numbers in mm and rad: where a body or an axis is and how it lies.
 [[nodiscard]] ErrorMotion read_error(const TomlSection& s, const std::string& key);
 
-// 0…1000; 0 where nothing is said.
+// 0…1000; 0 where the field is missing.
 [[nodiscard]] double read_delay_us(const TomlSection& s, const std::string& key);
 
 }  // namespace volcomp::host

@@ -62,7 +62,7 @@ json body_facts(const MachineFile& m) {
   return bodies;
 }
 
-// Units of the drive in one mm or turn, as the file would say it.
+// Units of the drive in one mm or turn, as written in a machine file.
 double units_of_drive(const AxisFile& axis) {
   const double inside = axis.rotary ? static_cast<double>(kUnitsPerTurn) : kNmPerMm;
   return inside * axis.drive.scale_denominator / axis.drive.scale_numerator;

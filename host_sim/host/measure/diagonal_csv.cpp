@@ -76,7 +76,7 @@ class DiagonalsReader {
 
   void read_header(std::string_view line) {
     std::array<bool, kColumns> seen{};
-    for (const std::string_view cell : cells_of(line)) {
+    for (const std::string_view cell : lines_.header_cells(line)) {
       const Column column = column_of(cell);
       if (seen.at(column)) lines_.fail(fmt::format("column {} occurs twice", quoted(cell)));
       seen.at(column) = true;

@@ -91,7 +91,8 @@ Surface nominal_flank(const CompareOptions& options, const FaceGrid& grid, int s
 
 void look_for_frames(FlankComparison& c) {
   GearChoice choice = choose_face_gear(c.options.gear);
-  // Relief turns a few normals a little; the figures of seed 002 are for generated flanks.
+  // Relief turns a few normals a little; the figures of docs/papers/face-gear.md are for generated
+  // flanks.
   choice.gear.relief = {};
   require(derive(choice.gear), c.options.gear);
   FaceGrid grid;

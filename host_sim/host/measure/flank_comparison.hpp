@@ -1,9 +1,9 @@
 #pragma once
-// Two measurements of a face gear, for instance on the machine and on a gear measuring centre: how
-// far they differ, by rows and columns, and how much of that is only their frames. Seed 002
-// sections 9 and 10.
+// Compares two measurements of a face gear, for instance of the machine and of a gear measuring
+// centre: their difference by rows and columns, and how much of it is due to their frames
+// (docs/papers/face-gear.md, "How to reproduce").
 //
-// What the paper's tables leave open is an option here and is said with every result.
+// What the paper's tables leave open is an option here and is printed with every result.
 
 #include <array>
 #include <filesystem>
@@ -23,7 +23,7 @@ enum class Zeroing { as_given, centre, mean };
 struct CompareOptions {
   std::vector<std::string> files;  // first and second map of the left flank, then of the right
   std::array<std::string, 2> names{"first", "second"};
-  std::string gear = "table3";    // whose flanks (gear_choice.hpp); empty: frames are left out
+  std::string gear = "table3";    // the gear (gear_choice.hpp); empty: frames are left out
   int left_side = 1;              // which side of the slot is called left
   bool plus_is_metal = true;      // the sign of the maps; results are + = excess material
   bool row_1_is_tip = true;       // else root

@@ -22,7 +22,7 @@ std::vector<std::string> column_names() {
 void check_header(CsvLines& lines) {
   std::string line;
   if (!lines.next(line)) throw UserError(lines.name() + ": the file is empty");
-  const std::vector<std::string_view> cells = cells_of(line);
+  const std::vector<std::string_view> cells = lines.header_cells(line);
   const std::vector<std::string> wanted = column_names();
   if (!std::equal(cells.begin(), cells.end(), wanted.begin(), wanted.end()))
     lines.fail("the first line must be row,c1,...,c15");

@@ -35,26 +35,11 @@ Diagonal diagonal_of(const DiagonalBox& box, const std::string& name) {
   return d;
 }
 
-// The id is a number that somebody typed, so it does not say that the machine is the same.
-void require_same_machine(const MachineTables& tables, const std::string& image,
-                          const MachineFile& machine) {
-  if (tables.provenance.machine_id != machine.id)
-    throw UserError(fmt::format("{}: tables of machine {}, {} describes machine {}", image,
-                                tables.provenance.machine_id, machine.path, machine.id));
-  if (!same_chain(make_runtime_chain(tables.machine),
-                  make_runtime_chain(machine.chain.description())))
-    throw UserError(fmt::format(
-        "{}: tables of another chain of bodies than {} describes: axes, senses, offsets or what "
-        "corrects differ",
-        image, machine.path));
-}
-
 }  // namespace
 
 TablesModel::TablesModel(const MachineFile& machine, const std::filesystem::path& image,
                          DiagonalBox box)
-    : box_(std::move(box)),
-      axis_{machine.axis_index('X'), machine.axis_index('Y'), machine.axis_index('Z')} {
+    : box_(std::move(box)), axes_(machine) {
   const std::unique_ptr<MachineTables> tables = read_tables_file(image);
   require_same_machine(*tables, shown_name(image), machine);
   tables_ = table_model(*tables, shown_name(image));
@@ -63,6 +48,7 @@ TablesModel::TablesModel(const MachineFile& machine, const std::filesystem::path
 std::vector<double> TablesModel::deviations_um(const std::string& diagonal,
                                                const std::vector<double>& distance_mm) const {
   const Diagonal d = diagonal_of(box_, diagonal);
+  const Vec3 direction = axes_.in_base(d.end - d.start).normalized();
   if (distance_mm.back() > d.length() + kLengthTolerance_mm || distance_mm.front() < 0.0)
     throw UserError(fmt::format(
         "diagonal {} is {:.3f} mm long between the corners of the box, measured were {:g} to {:g} "
@@ -71,13 +57,10 @@ std::vector<double> TablesModel::deviations_um(const std::string& diagonal,
   const VolumetricModel& model = tables_.model;
   const bool rotary = model.chain.has_rotary();
   const auto error_along = [&](double distance) {
-    const Vec3 p = d.at(distance / d.length());
-    Pose q{};
-    for (std::size_t k = 0; k < 3; ++k)
-      q.at(axis_.at(k)) = p(static_cast<Eigen::Index>(k));
+    const Pose q = axes_.pose(d.at(distance / d.length()));
     const Vec3 error = rotary ? model.second_order(q, kUnknownTravels, Beyond::stand_at_end)
                               : model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
-    return kUmPerMm * d.direction().dot(error);
+    return kUmPerMm * direction.dot(error);
   };
   std::vector<double> deviations;
   deviations.reserve(distance_mm.size());
@@ -85,16 +68,6 @@ std::vector<double> TablesModel::deviations_um(const std::string& diagonal,
   for (const double distance : distance_mm)
     deviations.push_back(error_along(distance) - first);
   return deviations;
-}
-
-DiagonalBox travel_of(const MachineFile& machine) {
-  DiagonalBox box;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const AxisFile& axis = machine.axes.at(machine.axis_index(static_cast<char>('X' + k)));
-    box.lo(k) = axis.lo;
-    box.hi(k) = axis.hi;
-  }
-  return box;
 }
 
 }  // namespace volcomp::host

@@ -1,5 +1,5 @@
 #pragma once
-// What the tables in a node say a diagonal should show once they compensate it.
+// Predicts from the tables in a node what a diagonal shows once they compensate it.
 
 #include <filesystem>
 #include <memory>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "comp/metrology/tables/diagonals.hpp"
-#include "host_sim/host/machine/machine_file.hpp"
+#include "host_sim/host/machine/xyz_axes.hpp"
 #include "host_sim/host/tables/table_model.hpp"
 
 namespace volcomp::host {
@@ -24,19 +24,16 @@ class TablesModel {
   TablesModel& operator=(const TablesModel&) = delete;
   ~TablesModel() = default;
 
-  // Deviation that the machine has without compensation as far as the tables know, µm, relative to
-  // the first distance. Throws UserError when the diagonal is not as long as the box says.
+  // Deviation of the machine without compensation by the model of the tables, µm, relative to the
+  // first distance. Throws UserError when the diagonal does not have the length of the box.
   [[nodiscard]] std::vector<double> deviations_um(const std::string& diagonal,
                                                   const std::vector<double>& distance_mm) const;
 
  private:
   DiagonalBox box_;
-  std::array<std::size_t, 3> axis_{};  // of X, Y and Z
+  XyzAxes axes_;
   TableModel tables_;
 };
-
-// Corners of the travel of X, Y and Z.
-[[nodiscard]] DiagonalBox travel_of(const MachineFile& machine);
 
 struct PredictedDiagonal {
   std::vector<double> after_um;    // measured before, less the model

@@ -23,7 +23,7 @@ struct UncertaintyStatement {
   std::optional<double> eve_um;     // range of a drift test as long as the measurement
   std::optional<double> volume_um;  // expanded (k = 2), of an error vector in the volume
 
-  // `other` where it says something, else what is here.
+  // Values of `other` where it has them, else those of this.
   [[nodiscard]] UncertaintyStatement overridden_by(const UncertaintyStatement& other) const;
 };
 
@@ -57,7 +57,7 @@ enum class FigureKind : std::uint8_t {
   repeatability,  // R
 };
 
-// Of one figure; those not stated are not among them.
+// Contributions to one figure; those not stated are left out.
 [[nodiscard]] std::vector<Contribution> contributions(const UncertaintyStatement& statement,
                                                       const Repetition& repetition,
                                                       FigureKind figure);
@@ -65,7 +65,7 @@ enum class FigureKind : std::uint8_t {
 // k = 2; nothing without contributions.
 [[nodiscard]] std::optional<double> expanded_um(const std::vector<Contribution>& contributions);
 
-// What was left out, in words with the name of the key.
+// The contributions left out, each as a text with the name of its key.
 [[nodiscard]] std::vector<std::string> left_out(const UncertaintyStatement& statement,
                                                 bool repeated);
 

@@ -89,7 +89,7 @@ json systematic_bars(const VerificationResult& r) {
            {{{"name", "before"}, {"values", before}}, {{"name", "after"}, {"values", after}}}}};
 }
 
-// Every so many of them that they can be told apart.
+// Draws every n-th point, at most kMostArrows, so that the arrows stay distinct.
 json volume_chart(const VerificationInput& input) {
   constexpr std::size_t kMostArrows = 500;
   const std::vector<VolumePoint> before = aligned_by_place(*input.volume_before);

@@ -1,4 +1,4 @@
-// A verification in words, as a table and as JSON.
+// A verification as text, as a table and as JSON.
 
 #include <fmt/format.h>
 

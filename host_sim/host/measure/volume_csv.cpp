@@ -39,7 +39,7 @@ struct Header {
 Header read_header(const CsvLines& lines, std::string_view line) {
   Header h;
   std::array<bool, 6> seen{};
-  for (const std::string_view cell : cells_of(line)) {
+  for (const std::string_view cell : lines.header_cells(line)) {
     std::string_view label;
     const double factor = length_unit(lines, cell, label);
     const auto* const found = std::find(kColumnNames.begin(), kColumnNames.end(), label);
@@ -178,6 +178,18 @@ std::vector<VolumePoint> aligned(std::vector<VolumePoint> points) {
 
 VolumeFigures aligned_volume_figures(std::vector<VolumePoint> points) {
   return volume_figures(aligned(std::move(points)));
+}
+
+std::vector<Vec3> aligned_errors(const std::vector<Vec3>& at_mm,
+                                 const std::vector<Vec3>& error_mm) {
+  if (at_mm.empty()) return {};
+  std::vector<VolumePoint> points;
+  for (std::size_t i = 0; i < at_mm.size(); ++i)
+    points.push_back({at_mm[i], error_mm.at(i)});
+  std::vector<Vec3> errors;
+  for (const VolumePoint& p : aligned(std::move(points)))
+    errors.push_back(p.error_mm);
+  return errors;
 }
 
 std::vector<VolumePoint> aligned_by_place(const VolumeFile& file) {

@@ -46,6 +46,9 @@ struct VolumeFigures {
 // set-up does. Places in a line or fewer than three are taken as they are.
 [[nodiscard]] std::vector<VolumePoint> aligned(std::vector<VolumePoint> points);
 [[nodiscard]] VolumeFigures aligned_volume_figures(std::vector<VolumePoint> points);
+// Errors at these places, aligned.
+[[nodiscard]] std::vector<Vec3> aligned_errors(const std::vector<Vec3>& at_mm,
+                                               const std::vector<Vec3>& error_mm);
 // In the order of their places: two files of the same places in the same order.
 [[nodiscard]] std::vector<VolumePoint> aligned_by_place(const VolumeFile& file);
 

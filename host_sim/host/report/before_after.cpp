@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-// Below this the change of a figure says nothing.
+// Below this the change of a figure is not significant.
 constexpr double kNothing = 1e-9;
 
 json change(const BeforeAfter& line) {

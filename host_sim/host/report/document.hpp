@@ -1,7 +1,6 @@
 #pragma once
-// One design for the reports of all scenarios: what stands in them, in which order, below which
-// heading. docs/report.md says how to read them, host_sim/host/report/page/README.md what a section
-// may be.
+// One design for the reports of all scenarios: contents, order and headings. docs/report.md
+// explains how to read them, host_sim/host/report/page/README.md the kinds of sections.
 //
 // A scenario fills ReportParts from its result and hands it to report_document():
 //
@@ -15,12 +14,13 @@
 //   parts.provenance = provenance(run, my_origins(result));
 //   return report_document(std::move(parts));
 //
-// Parts for everybody are beside this file: before_after, positioning (ISO 230-2), error_functions,
-// volume, tick_tables, provenance; ../report_parts.hpp has the small ones. Every number comes from
-// the result: a text that names one is made with fmt. The command (cli/run_options.hpp) gives
-// RunContext: a RunView is the MachineWatch of every machine of the run, `watched()` of
-// controller/bus_axes.hpp and `watched_integrated_cells()` show machines to it; write_pages() ends
-// the run. Who has no control periods leaves `ticks` out, and the report its statistics.
+// Parts for all scenarios are beside this file: before_after, positioning (ISO 230-2),
+// error_functions, volume, tick_tables, provenance; ../report_parts.hpp has the small ones. Every
+// number comes from the result: a text that names one is made with fmt. The command
+// (cli/run_options.hpp) gives RunContext: a RunView is the MachineWatch of every machine of the
+// run, `watched()` of controller/bus_axes.hpp and `watched_integrated_cells()` show machines to it;
+// write_pages() ends the run. A scenario without control periods leaves `ticks` out, and the report
+// has no statistics.
 
 #include <functional>
 #include <optional>

@@ -11,16 +11,15 @@
 #include "comp/tick/instances.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
+#include "host_sim/host/tables/build_warnings.hpp"
 
 namespace volcomp::host {
 namespace {
 
 constexpr int kBoundSteps = 7;
 
-// Of a slope that was removed: less is the flatness of the reference.
-constexpr double kSlopeToSay_mm = 1e-3;
-
-// More between the ends of a turn is not drift: a lost count, a wrong file, a table that is loose.
+// A larger gap between the ends of a turn is no drift but a lost count, a wrong file or a loose
+// table.
 constexpr TurnGap kMostDrift{5e-3, 50e-6};
 
 const RunsFile& runs_of(const std::vector<RunsFile>& runs, const MachineFile& machine,
@@ -50,87 +49,6 @@ int reference_target(const RunsFile& runs, const AxisFile& axis) {
   }
   return static_cast<int>(std::find(runs.positions.begin(), runs.positions.end(), closest) -
                           runs.positions.begin());
-}
-
-// Beyond the targets the value of the end is used: that nearly all of the travel is beyond them is
-// a wrong unit, not a choice.
-void check_targets(const RunsFile& runs, const AxisFile& axis, std::vector<std::string>& warnings) {
-  constexpr double kBeyond = 0.01;
-  constexpr double kAll = 0.95;
-  constexpr double kUnitSuspected = 0.05;
-  const auto [low, high] = std::minmax_element(runs.positions.begin(), runs.positions.end());
-  const double travel = axis.hi - axis.lo;
-  const double covered = (*high - *low) / travel;
-  const std::string found = fmt::format(
-      "{}: targets of {} from {:g} to {:g}, but it travels from {:g} to {:g} {}", runs.name,
-      axis.letter, *low, *high, axis.lo, axis.hi, axis.rotary ? "rad" : "mm");
-  const bool outside = *low < axis.lo - kBeyond * travel || *high > axis.hi + kBeyond * travel;
-  if (outside || covered < kUnitSuspected) throw UserError(found + " [unit_suspected]");
-  if (covered < kAll) warnings.push_back(found + ": beyond them the value of the end is used");
-}
-
-// "EXX": the motion (X to C) and the axis that moves, as in the header of the file.
-std::string channel_name(int channel, char axis) {
-  return fmt::format("E{}{}", "XYZABC"[channel], axis);
-}
-
-std::string outlier_words(const AxisFile& axis, const BuiltTable& built) {
-  const Outlier& o = built.outlier[0];
-  const double q = built.positions.at(static_cast<std::size_t>(o.target));
-  const bool angle = o.channel >= 3;
-  const double scale = angle ? 1e6 : 1e3;
-  return fmt::format(
-      "{} of {} readings lie far from the median of their target and are kept in the mean; the "
-      "first is {} at {:g} {}, run {} {}: {:.3f} {} instead of {:.3f}",
-      built.outlier_count, axis.letter, channel_name(o.channel, axis.letter), q,
-      axis.rotary ? "rad" : "mm", o.run + 1, o.direction, scale * o.value, angle ? "urad" : "um",
-      scale * o.median);
-}
-
-std::string warning_words(Warning warning, const RunsFile& runs, const AxisFile& axis,
-                          const BuiltTable& built) {
-  switch (warning) {
-    case Warning::positions_reversed:
-      return fmt::format("the targets of {} are in descending order", axis.letter);
-    case Warning::one_direction:
-      return fmt::format("{} was measured in one direction only, its reversal is unknown",
-                         axis.letter);
-    case Warning::run_count_differs:
-      return fmt::format("{} has {} runs up but {} down", axis.letter, runs.up.size(),
-                         runs.down.size());
-    case Warning::outlier:
-      return outlier_words(axis, built);
-    case Warning::steep_slope:
-      return fmt::format("a straightness of {} has a steep slope", axis.letter);
-    case Warning::knot_jump:
-      return fmt::format("the errors of {} jump between neighbouring targets", axis.letter);
-  }
-  return code(warning);
-}
-
-void note_warnings(const RunsFile& runs, const AxisFile& axis, const BuiltTable& built,
-                   std::vector<std::string>& out) {
-  for (std::size_t i = 0; i < built.warning_count; ++i) {
-    const Warning warning = built.warning[i];
-    out.push_back(fmt::format("{}: {} [{}]", runs.name, warning_words(warning, runs, axis, built),
-                              code(warning)));
-  }
-}
-
-// The place of the travel farthest from the reference, and what the line is worth there.
-void note_slopes(const RunsFile& runs, const AxisFile& axis, const BuiltTable& built,
-                 std::vector<std::string>& out) {
-  const double end = axis.reference - axis.lo > axis.hi - axis.reference ? axis.lo : axis.hi;
-  for (std::size_t c = 0; c < built.removed_slope.size(); ++c) {
-    const double slope = built.removed_slope[c];
-    const double there_mm = slope * (end - axis.reference);
-    if (std::abs(there_mm) < kSlopeToSay_mm) continue;
-    out.push_back(fmt::format(
-        "{}: a slope of {:.1f} urad was removed from {}, which is {:.1f} um at {:g} mm: it is "
-        "corrected only as far as squareness stands in the machine file",
-        runs.name, 1e6 * slope, channel_name(static_cast<int>(c), axis.letter), 1e3 * there_mm,
-        end));
-  }
 }
 
 // What the builder has taken away at the reference, where the machine file knows it.
@@ -174,7 +92,7 @@ std::optional<TurnGap> close_turn(const RunsFile& runs, const AxisFile& axis, co
 }
 
 void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
-                const CommissionOptions& options, Commissioned& out) {
+                const BuildOptions& options, BuiltTables& out) {
   const AxisFile& axis = machine.axes[a];
   const Joint& joint = machine.chain.axis(a);
   check_targets(runs, axis, out.warnings);
@@ -193,7 +111,7 @@ void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
   measured.reference = reference_target(runs, axis);
   measured.slope = options.slope;
   measured.allow_resampling = options.allow_resampling;
-  require(build_table(measured, *out.built[a]), runs.name);
+  require_runs(build_table(measured, *out.built[a]), runs);
   note_warnings(runs, axis, *out.built[a], out.warnings);
   if (!machine.squareness) note_slopes(runs, axis, *out.built[a], out.warnings);
 
@@ -217,7 +135,7 @@ std::array<std::size_t, 3> linear_axes(const MachineFile& machine) {
   return {machine.axis_index('X'), machine.axis_index('Y'), machine.axis_index('Z')};
 }
 
-void close_loop(const MachineFile& machine, Commissioned& out) {
+void close_loop(const MachineFile& machine, BuiltTables& out) {
   const SquarenessFile& s = *machine.squareness;
   const std::array<std::size_t, 3> axis = linear_axes(machine);
   const auto error_at = [&](const Vec3& p) {
@@ -241,8 +159,7 @@ bool has_three_slides(const MachineFile& machine) {
   });
 }
 
-void apply_squareness(const MachineFile& machine, const CommissionOptions& options,
-                      Commissioned& out) {
+void apply_squareness(const MachineFile& machine, const BuildOptions& options, BuiltTables& out) {
   if (!machine.squareness || options.model == ModelKind::naive) return;
   close_loop(machine, out);
   const XyfzSquareness& measured = machine.squareness->measured;
@@ -286,8 +203,8 @@ double model_bound_nm(const VolumetricModel& model) {
   return kNmPerMm * first_order_distance(model, steps);
 }
 
-// As a node will do it: what it would refuse is refused here, where somebody can mend it.
-void require_usable(const Commissioned& c, const std::string& path) {
+// Folds as a node does: what a node would refuse is refused here, where it can be corrected.
+void require_usable(const BuiltTables& c, const std::string& path) {
   const RuntimeChain chain = make_runtime_chain(c.tables.machine);
   if (chain.axes > OrientingCompensator::kAxes) return;  // only for a controller of its own
   for (std::size_t a = 0; a < chain.axes; ++a) {
@@ -299,11 +216,11 @@ void require_usable(const Commissioned& c, const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<Commissioned> commission(const MachineFile& machine,
-                                         const std::vector<RunsFile>& runs,
-                                         const CommissionOptions& options) {
+std::unique_ptr<BuiltTables> build_tables(const MachineFile& machine,
+                                          const std::vector<RunsFile>& runs,
+                                          const BuildOptions& options) {
   require_authority(machine);
-  auto out = std::make_unique<Commissioned>();
+  auto out = std::make_unique<BuiltTables>();
   out->chain = options.model == ModelKind::naive ? naive_chain(machine) : machine.chain;
   out->model.chain = out->chain;
   out->model.tool_point = out->chain.tool_point();

@@ -1,6 +1,5 @@
 #pragma once
-// From a machine file and measured runs to the tables of the machine: the road of a user's own
-// data.
+// Builds tables from a machine file and measured runs.
 
 #include <memory>
 #include <optional>
@@ -15,26 +14,25 @@
 
 namespace volcomp::host {
 
-// Which model of the paper the tables are for (seed 001 section 2.1).
+// Which model of the paper the tables are for (docs/papers/xyfz.md, "How to reproduce").
 enum class ModelKind : std::uint8_t {
   naive,        // no Abbe offsets, measured values as they are, squareness as rotations
   abbe,         // reading heads and sensed points, squareness as measured
   abbe_closed,  // the same with the squareness closure: the product's model
 };
 
-struct CommissionOptions {
+struct BuildOptions {
   ModelKind model = ModelKind::abbe_closed;
   SlopeFit slope = SlopeFit::least_squares;
   bool allow_resampling = true;
-  std::size_t refine = 0;             // 0: as the machine file says
+  std::size_t refine = 0;             // 0: that of the machine file
   std::size_t knots = kDefaultKnots;  // per table: what the node has room for; refines less
   bool bound = true;                  // compute model_bound_nm: dearer than all the rest together
 };
 
-// For callers that want the tables of a model and nothing else.
-[[nodiscard]] inline CommissionOptions tables_only(ModelKind model,
-                                                   std::size_t knots = kDefaultKnots) {
-  CommissionOptions options;
+// For callers that need only the tables of a model.
+[[nodiscard]] inline BuildOptions tables_only(ModelKind model, std::size_t knots = kDefaultKnots) {
+  BuildOptions options;
   options.model = model;
   options.knots = knots;
   options.bound = false;
@@ -49,7 +47,7 @@ struct TurnGap {
 };
 
 // Owns everything its parts refer to: the model points at the tables beside it.
-struct Commissioned {
+struct BuiltTables {
   MachineChain chain;                                // of the chosen model
   std::vector<std::unique_ptr<BuiltTable>> built;    // by NC axis, as measured and averaged
   std::vector<std::unique_ptr<ErrorTable>> refined;  // internal convention, what is quantised
@@ -59,14 +57,14 @@ struct Commissioned {
   XyfzSquareness parameters;  // what goes into the model
   MachineTables tables;
   double model_bound_nm = 0.0;        // first-order run-time model against the exact chain, 0 if
-                                      // not asked for
+                                      // not computed
   std::vector<std::string> warnings;  // in words
 };
 
 // One run file per axis of the machine. Throws UserError naming file and place.
-[[nodiscard]] std::unique_ptr<Commissioned> commission(const MachineFile& machine,
-                                                       const std::vector<RunsFile>& runs,
-                                                       const CommissionOptions& options);
+[[nodiscard]] std::unique_ptr<BuiltTables> build_tables(const MachineFile& machine,
+                                                        const std::vector<RunsFile>& runs,
+                                                        const BuildOptions& options);
 
 [[nodiscard]] std::vector<std::uint8_t> make_image(const MachineTables& tables);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The tables of a machine with three linear axes as files of controllers. Every format says its
-// units and its sign, and how much of the model it cannot hold is measured, not guessed.
+// The tables of a machine with three linear axes as files of controllers. Units and sign of every
+// format are printed, and the part of the model that it cannot hold is measured, not estimated.
 //
 //   siemens   $AA_ENC_COMP (axis on itself) and $AN_CEC (axis on the other two), nine files
 //   linuxcnc  screw compensation, one file per axis, both directions
@@ -21,7 +21,7 @@ struct ExportOptions {
   std::vector<std::string> axis_names{"X1", "Y1", "Z1"};  // machine axes of the Siemens control
   std::vector<int> axis_numbers{1, 2, 3};                 // kopf.log_achs_nr
   int first_table = 0;                                    // t of the first $AN_CEC
-  int cec_sign = 1;                                       // −1 where the dial gauge says so
+  int cec_sign = 1;                                       // −1 where the dial gauge shows so
   int comp_type = 1;                                      // COMP_FILE_TYPE
 };
 

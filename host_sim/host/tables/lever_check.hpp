@@ -16,7 +16,7 @@ struct LeverAngle {
   double found_mm = 0.0;
   double allowed_mm = 0.0;
   bool good = true;
-  std::string hint;  // what such a ratio looks like; empty if nothing known
+  std::string hint;  // likely cause of such a ratio; empty if unknown
 };
 
 struct LeverVerdict {

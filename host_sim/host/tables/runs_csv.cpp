@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -26,6 +25,12 @@ struct Column {
   enum class Kind { target, run, direction, channel } kind = Kind::run;
   std::size_t channel = 0;
   double factor = 1.0;
+};
+
+// With its line in the file, which every reading has, so 0 is none.
+struct Placed {
+  ErrorMotion value = ErrorMotion::Zero();
+  std::size_t line = 0;
 };
 
 struct Reading {
@@ -75,26 +80,16 @@ class RunsReader {
     return {Column::Kind::channel, channel, unit.factor};
   }
 
-  // Of the slots of read_header; "EY?" where no channel has named the axis.
+  // Column names of the slots of read_header; "EY?" where no channel has named the axis.
   [[nodiscard]] std::string column_name(std::size_t slot) const {
     static constexpr std::array<const char*, 3> kOthers{"target", "run", "direction"};
     if (slot < kOthers.size()) return kOthers.at(slot);
     return fmt::format("E{}{}", "XYZABC"[slot - kOthers.size()], letter_ == '\0' ? '?' : letter_);
   }
 
-  // As a spreadsheet saves it where the comma is the decimal point, and what is copied from one.
-  void refuse_other_separators(std::string_view line) const {
-    if (line.find(',') != std::string_view::npos) return;
-    if (line.find(';') != std::string_view::npos)
-      fail("the header is separated by semicolons; columns must be separated by commas");
-    if (line.find('\t') != std::string_view::npos)
-      fail("the header is separated by tabs; columns must be separated by commas");
-  }
-
   void read_header(std::string_view line) {
-    refuse_other_separators(line);
     std::array<int, 9> seen{};  // target, run, direction, six channels
-    for (const std::string_view cell : cells_of(line)) {
+    for (const std::string_view cell : lines_.header_cells(line)) {
       Column column;
       if (cell == "run") {
         column.kind = Column::Kind::run;
@@ -166,9 +161,9 @@ class RunsReader {
     auto& run = runs_[{r.up, r.run}];
     if (runs_.size() > kMaxRuns) fail(fmt::format("more than {} runs", kMaxRuns));
     if (run.size() <= it->second) run.resize(it->second + 1);
-    if (run[it->second])
+    if (run[it->second].line != 0)
       fail(fmt::format("run {} {} has target {} twice", r.run, r.up ? "up" : "down", r.target));
-    run[it->second] = r.value;
+    run[it->second] = {r.value, lines_.line()};
   }
 
   RunsFile finish() const {
@@ -178,8 +173,11 @@ class RunsReader {
     file.positions = positions_;
     for (const auto& [key, values] : runs_) {
       RunValues run;
-      for (const auto& value : values) {
-        if (value) run.push_back(*value);
+      RunLines at;
+      for (const Placed& placed : values) {
+        if (placed.line == 0) continue;
+        run.push_back(placed.value);
+        at.push_back(placed.line);
       }
       if (run.size() != positions_.size()) {
         throw UserError(fmt::format("{}: run {} {} has {} of {} targets [run_length]",
@@ -187,6 +185,7 @@ class RunsReader {
                                     run.size(), positions_.size()));
       }
       (key.first ? file.up : file.down).push_back(run);
+      (key.first ? file.up_lines : file.down_lines).push_back(at);
     }
     return file;
   }
@@ -197,7 +196,7 @@ class RunsReader {
   std::vector<Column> columns_;
   std::vector<double> positions_;
   std::map<long, std::size_t> target_index_;
-  std::map<std::pair<bool, long>, std::vector<std::optional<ErrorMotion>>> runs_;
+  std::map<std::pair<bool, long>, std::vector<Placed>> runs_;
 };
 
 }  // namespace
@@ -207,6 +206,12 @@ RunViews::RunViews(const RunsFile& file) {
     up.emplace_back(run.data(), run.size());
   for (const RunValues& run : file.down)
     down.emplace_back(run.data(), run.size());
+}
+
+std::string RunsFile::place_of(bool upwards, std::size_t run, std::size_t target) const {
+  const std::vector<RunLines>& lines = upwards ? up_lines : down_lines;
+  if (run >= lines.size() || target >= lines[run].size()) return name;
+  return fmt::format("{}:{}", name, lines[run][target]);
 }
 
 RunsFile read_runs(std::istream& stream, const std::string& name) {

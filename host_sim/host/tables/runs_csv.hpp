@@ -19,6 +19,7 @@
 namespace volcomp::host {
 
 using RunValues = std::vector<ErrorMotion>;  // by target, mm and rad
+using RunLines = std::vector<std::size_t>;   // of the readings of a run, by target
 
 struct RunsFile {
   std::string name;
@@ -26,6 +27,11 @@ struct RunsFile {
   std::vector<double> positions;  // mm or rad, in the order of the file
   std::vector<RunValues> up;      // towards increasing coordinate
   std::vector<RunValues> down;
+  std::vector<RunLines> up_lines;  // empty where the runs are not from a file
+  std::vector<RunLines> down_lines;
+
+  // "runs_X.csv:17" of a reading; the name alone where its line is not known.
+  [[nodiscard]] std::string place_of(bool upwards, std::size_t run, std::size_t target) const;
 };
 
 // Views for the table builder; the file must outlive them.

@@ -1,5 +1,9 @@
 #include "host_sim/host/tables/table_model.hpp"
 
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "comp/metrology/tables/quantise.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/table_set.hpp"
@@ -8,20 +12,6 @@
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
-namespace {
-
-// A node takes tables over by folding them, which bounds what they can ask for. Done here with room
-// for any machine and any table.
-void require_foldable(const MachineTables& tables, const std::string& name) {
-  const auto view = std::make_unique<TablesView>();
-  require(view_tables(tables, *view), name);
-  const RuntimeChain chain = make_runtime_chain(tables.machine);
-  const auto set = std::make_unique<TableSet<kMaxAxes, kTableKnots>>();
-  FoldReport report;
-  require(fold_tables(*view, chain, view->chain.tool_point(), TableSetView(*set), report), name);
-}
-
-}  // namespace
 
 TableModel table_model(const MachineTables& tables, const std::string& name) {
   TableModel out;
@@ -36,12 +26,43 @@ TableModel table_model(const MachineTables& tables, const std::string& name) {
   return out;
 }
 
+// With room for any machine and any table.
+void require_foldable(const MachineTables& tables, const std::string& name) {
+  const auto view = std::make_unique<TablesView>();
+  require(view_tables(tables, *view), name);
+  const RuntimeChain chain = make_runtime_chain(tables.machine);
+  const auto set = std::make_unique<TableSet<kMaxAxes, kTableKnots>>();
+  FoldReport report;
+  require(fold_tables(*view, chain, view->chain.tool_point(), TableSetView(*set), report), name);
+}
+
+// The id is typed by a person, so an equal one does not prove that the machine is the same.
+void require_same_machine(const MachineTables& tables, const std::string& image,
+                          const MachineFile& machine) {
+  if (tables.provenance.machine_id != machine.id)
+    throw UserError(fmt::format("{}: tables of machine {}, {} describes machine {}", image,
+                                tables.provenance.machine_id, machine.path, machine.id));
+  if (!same_chain(make_runtime_chain(tables.machine),
+                  make_runtime_chain(machine.chain.description())))
+    throw UserError(fmt::format(
+        "{}: tables of another chain of bodies than {} describes: axes, senses, offsets or what "
+        "corrects differ",
+        image, machine.path));
+}
+
+TableImage read_table_image(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> bytes = read_image_file(path);
+  const Span<const std::uint8_t> span(bytes.data(), bytes.size());
+  TableImage image{shown_name(path), bytes.size(), image_crc(span),
+                   std::make_unique<MachineTables>()};
+  require(decode_image(span, kTableKnots, *image.tables), image.name);
+  return image;
+}
+
 std::unique_ptr<MachineTables> read_tables_file(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> image = read_image_file(path);
-  auto tables = std::make_unique<MachineTables>();
-  require(decode_image({image.data(), image.size()}, kTableKnots, *tables), shown_name(path));
-  require_foldable(*tables, shown_name(path));
-  return tables;
+  TableImage image = read_table_image(path);
+  require_foldable(*image.tables, image.name);
+  return std::move(image.tables);
 }
 
 }  // namespace volcomp::host

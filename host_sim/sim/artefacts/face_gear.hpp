@@ -18,7 +18,7 @@ class FaceGearOnTable final : public Artefact {
   // `gear` as derive() has left it; `mounting`: of the gear frame in the work frame of the machine.
   FaceGearOnTable(const FaceGear& gear, Frame mounting, FaceDeviation deviation = {});
 
-  // The table stands so far from where its scale reads, rad.
+  // Difference of the table from the reading of its scale, rad.
   void turn_table(double angle) { turned_ = angle; }
 
   // Exact where a flank or the plane of the tips is nearest; across an edge never more than the

@@ -8,7 +8,7 @@
 namespace volcomp::sim {
 namespace {
 
-// Of what has to be passed by both, the nearer to the ball counts least.
+// An intersection takes the larger distance, a union the smaller.
 void intersect(Gap& material, const Gap& with) {
   if (with.mm > material.mm) material = with;
 }

@@ -21,7 +21,7 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr int kCouldNotStart = 127;  // what a shell says
+constexpr int kCouldNotStart = 127;  // exit code of a shell
 
 // What the child needs, made before the fork: after it nothing may be allocated.
 struct Plan {
@@ -92,10 +92,10 @@ bool ChildProcess::running() {
 }
 
 bool ChildProcess::await_end(int timeout_ms) {
-  constexpr int kLook_ms = 10;
-  for (int waited_ms = 0; running(); waited_ms += kLook_ms) {
+  constexpr int kPollInterval_ms = 10;
+  for (int waited_ms = 0; running(); waited_ms += kPollInterval_ms) {
     if (waited_ms >= timeout_ms) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(kLook_ms));
+    std::this_thread::sleep_for(std::chrono::milliseconds(kPollInterval_ms));
   }
   return true;
 }

@@ -15,7 +15,7 @@ namespace volcomp::sim {
 
 class ChildProcess {
  public:
-  // Runs in `folder`, reads nothing, writes all it says to the file `output`. Signals from the
+  // Runs in `folder`, reads nothing, writes its output to the file `output`. Signals from the
   // terminal do not reach it. Throws UserError when the system refuses.
   ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& folder,
                const std::filesystem::path& output);

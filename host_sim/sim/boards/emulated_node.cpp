@@ -131,7 +131,7 @@ void EmulatedNode::start(const std::vector<std::string>& words) {
   qemu_ = std::make_unique<ChildProcess>(words, folder_.path(), output());
 }
 
-// The image is told to exchange its frames by the pipes in its folder.
+// Makes the image exchange its frames by the pipes in its folder.
 void EmulatedNode::join_by_pipe(const std::filesystem::path& image) {
   const Words words = command(board_, {"-M", board_.machine}, ",arg=pipe", image);
   host::make_frame_pipes(folder_.path());

@@ -1,8 +1,8 @@
 #pragma once
-// The compensation node as firmware, really executed: its image on a board that QEMU emulates.
+// The compensation node as firmware: executes its image on a board that QEMU emulates.
 //
 // Boards without a CAN controller are joined by a frame pipe: the processor stands still while this
-// process works, so a run repeats itself bit for bit. The controller of the others is joined to a
+// process works, so a run repeats bit for bit. The controller of the others is joined to a
 // SocketCAN interface by QEMU.
 
 #include <array>
@@ -50,15 +50,15 @@ class EmulatedNode {
   // Ends QEMU.
   ~EmulatedNode() = default;
 
-  // Throws UserError when the firmware has ended, and Interrupted when this process is asked to
-  // end.
+  // Throws UserError when the firmware has ended, and Interrupted at a signal that ends this
+  // process.
   [[nodiscard]] host::FrameLink& link();
   // Boards without a CAN controller only.
   [[nodiscard]] host::PipeLink& pipe() { return *pipe_; }
-  // Asks the firmware to end, where there is a way. Throws UserError when it has not ended well.
+  // Ends the firmware, where there is a way. Throws UserError when it has not ended well.
   void finish();
 
-  // Does the work; what goes wrong in it is told together with what the firmware said last.
+  // Does the work; adds the last output of the firmware to the message of an error.
   template <class Work>
   auto with_last_words(Work&& work) {
     try {
@@ -67,7 +67,7 @@ class EmulatedNode {
       throw host::UserError(error.what() + last_words());
     }
   }
-  // The end of what the firmware has said, as the end of a message; empty when it said nothing.
+  // The end of the firmware's output, as the end of a message; empty without output.
   [[nodiscard]] std::string last_words() const;
 
   [[nodiscard]] pid_t process_id() const { return qemu_->id(); }

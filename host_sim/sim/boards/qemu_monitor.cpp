@@ -25,7 +25,7 @@ std::uint64_t QemuMonitor::instructions() {
   return answer.at("icount").get<std::uint64_t>();
 }
 
-// QEMU also tells of events in between.
+// QEMU also sends events in between.
 nlohmann::json QemuMonitor::ask(const char* command) {
   const std::string text = nlohmann::json{{"execute", command}}.dump() + "\n";
   if (socket_.write(text) != text.size()) fail("takes no more commands");

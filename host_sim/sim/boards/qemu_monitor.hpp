@@ -1,5 +1,5 @@
 #pragma once
-// How far the processor of a running QEMU has come, asked over its machine protocol (QMP).
+// Reads the progress of the processor of a running QEMU over its machine protocol (QMP).
 
 #include <cstdint>
 #include <string>
@@ -13,7 +13,7 @@ namespace volcomp::sim {
 class QemuMonitor {
  public:
   // `socket`: the Unix socket on which QEMU listens (-qmp). Throws UserError naming it, here and
-  // later, when nobody answers or not as QEMU does.
+  // later, when there is no answer or none of QEMU.
   explicit QemuMonitor(const std::string& socket);
 
   // Executed since the start. QEMU counts with -icount only. It answers in its main loop, each turn

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "comp/metrology/tables/diagonals.hpp"
+#include "host_sim/host/machine/xyz_axes.hpp"
 #include "host_sim/host/measure/volume_csv.hpp"
 #include "host_sim/sim/controller/motion_cell.hpp"
 #include "host_sim/sim/truth/noise.hpp"
@@ -37,22 +38,24 @@ struct DiagonalPass {
   std::vector<double> up;
   std::vector<double> down;
 };
-[[nodiscard]] DiagonalPass pass_along(MotionCell& cell, const Diagonal& diagonal,
-                                      std::size_t points,
+[[nodiscard]] DiagonalPass pass_along(MotionCell& cell, const host::XyzAxes& axes,
+                                      const Diagonal& diagonal, std::size_t points,
                                       const std::function<double(double)>& reading_error);
 
 // Both directions of a line of that length, its points evenly spaced.
 [[nodiscard]] MeasuredDiagonal mean_of_directions(const std::string& name, double length_mm,
                                                   const DiagonalPass& pass);
 
+// First three axes: X, Y and Z.
 [[nodiscard]] MeasuredDiagonal measure_diagonal(MotionCell& cell, const Diagonal& diagonal,
                                                 std::size_t points,
                                                 const InterferometerSetup& setup, Random& random);
 
-// Error vectors at random places of the box.
-[[nodiscard]] std::vector<host::VolumePoint> visit_volume(MotionCell& cell, const DiagonalBox& box,
-                                                          int points, std::uint64_t seed);
-// The same as figures, aligned.
+// Error vectors at random places of the travel, both in the work frame.
+[[nodiscard]] std::vector<host::VolumePoint> visit_volume(MotionCell& cell,
+                                                          const host::XyzAxes& axes, int points,
+                                                          std::uint64_t seed);
+// Figures of error vectors at random places of the box, aligned. First three axes: X, Y and Z.
 [[nodiscard]] host::VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box,
                                                  int points, std::uint64_t seed);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The machine measured where a customer looks: positioning of every axis after ISO 230-2, and the
-// error vector on a grid over the work volume. It moves, with whatever compensation it has.
+// Measures the machine as an acceptance test does: positioning of every axis after ISO 230-2, and
+// the error vector on a grid over the work volume. It moves, with whatever compensation it has.
 
 #include "host_sim/host/report/positioning.hpp"
 #include "host_sim/sim/campaign/campaign.hpp"

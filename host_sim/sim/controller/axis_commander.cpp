@@ -1,5 +1,7 @@
 #include "host_sim/sim/controller/axis_commander.hpp"
 
+#include "host_sim/host/bus/cia402_status.hpp"
+
 namespace volcomp::sim {
 namespace {
 
@@ -44,7 +46,7 @@ void AxisCommander::step(std::int32_t path) {
   }
   const bool enabled = (status_ & 0x6FU) == 0x27U;
   const bool fault = (status_ & 0x4FU) == 0x08U;
-  const bool referenced = (status_ & kReferencedBit) != 0;
+  const bool referenced = (status_ & host::kStatusReferenced) != 0;
   if (fault) {
     // Reset works on a rising edge.
     control_ = ++waited_ % kRetry == 0 ? kFaultReset : kShutdown;

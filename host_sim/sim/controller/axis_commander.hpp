@@ -11,12 +11,9 @@ namespace volcomp::sim {
 inline constexpr std::int8_t kHomingMode = 6;
 inline constexpr std::int8_t kCyclicPosition = 8;
 
-// Referenced: bit 8 of the status word, manufacturer specific in CiA 402.
-inline constexpr std::uint16_t kReferencedBit = 0x0100;
-
 class AxisCommander {
  public:
-  // --- what the drive says
+  // --- reports of the drive
   void actual(std::int32_t position, std::uint16_t status_word) {
     actual_ = position;
     status_ = status_word;

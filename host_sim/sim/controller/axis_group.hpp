@@ -1,6 +1,6 @@
 #pragma once
-// The axes of a machine under compensation, moved one control period at a time. What carries the
-// targets to the drives, a servo interrupt or a bus, is the matter of the implementation.
+// The axes of a machine under compensation, moved one control period at a time. The implementation
+// decides what carries the targets to the drives: a servo interrupt or a bus.
 
 #include <string>
 
@@ -38,7 +38,7 @@ class AxisGroup {
   [[nodiscard]] virtual Approach approach() const = 0;
   // Largest distance between an axis and its target plus offset: nm, or 2^-31 turn.
   [[nodiscard]] virtual double following_error() const = 0;
-  // None where nobody looks after a probe.
+  // None where no probe is mounted.
   [[nodiscard]] virtual Latches latches() const { return {}; }
   // A ramp of the compensation is running: offsets change while the targets stand still.
   [[nodiscard]] virtual bool ramping() const = 0;
@@ -49,7 +49,7 @@ class AxisGroup {
  protected:
   // To be called at the end of every period.
   void show();
-  // What is not seen from outside: states of drives, node and bus.
+  // Internal states of drives, node and bus.
   virtual void add_states(MachineSnapshot& /*snapshot*/) const {}
 
  private:

@@ -25,7 +25,7 @@ host::AxisKinds kinds_of(const host::BusSettings& settings) {
   return kinds;
 }
 
-// 60A8h of a drive whose unit is so many nanometres: metres where it is a power of ten.
+// 60A8h of a drive whose unit has `nm` nanometres: metres where that is a power of ten.
 std::uint32_t position_unit(double nm) {
   const double power = std::log10(nm);
   if (std::abs(power - std::round(power)) > 1e-9) return host::kIncrement;
@@ -33,14 +33,14 @@ std::uint32_t position_unit(double nm) {
   return std::uint32_t{prefix} << 24U | (host::kNanometre & 0x00FF'0000U);
 }
 
-// What a drive has in its units, in those of this axis: the machine behind it is the same.
-void count_as(const host::BusAxis& axis, Cia402Drive::Settings& s) {
+// Converts the settings of a drive to the units of this axis; the machine stays the same.
+void apply_drive_units(const host::BusAxis& axis, Cia402Drive::Settings& s) {
   const host::DriveScale scale = axis.counts_otherwise.value_or(
       host::DriveScale{axis.scale_numerator, axis.scale_denominator});
   const std::uint32_t usual = axis.rotary ? 512 : 1;
   if (scale.numerator == usual && scale.denominator == 1) return;
   const double size = static_cast<double>(scale.numerator) / scale.denominator;
-  const double more = usual / size;  // units of the drive in a usual one
+  const double more = usual / size;  // units of the drive in a default one
   const auto scaled = [more](std::uint32_t value) {
     return static_cast<std::uint32_t>(std::clamp(std::round(value * more), 1.0, 4294967295.0));
   };
@@ -72,7 +72,7 @@ BusAxes::BusAxes(const host::BusSettings& settings, const std::vector<std::uint8
       controller_(settings, image),
       node_(std::make_unique<node::Node>(settings.node, nullptr)) {
   build(settings);
-  node_port_ = &bus_.attach(*node_, "node");
+  node_port_ = &bus_.attach(node_->device(), "node");
   node_->power_on(0);
 }
 
@@ -95,7 +95,7 @@ void BusAxes::build(const host::BusSettings& settings) {
     s.period_s = period_s();
     s.time_constant_s = kDriveTimeConstant_s;
     s.latch_delay_ns = axis.latch_delay_ns;
-    count_as(axis, s);
+    apply_drive_units(axis, s);
     attach(s, fmt::format("drive {}", axis.letter));
   }
 }

@@ -31,7 +31,7 @@ class BusAxes final : public AxisGroup {
 
   // Only before the first cycle.
   void stand_at(const Pose& pose) override;
-  // Throws UserError when the machine stops: somebody went silent, was refused or lost a reference.
+  // Throws UserError when the machine stops: a node went silent, was refused or lost its reference.
   void cycle(const host::Targets& target) override;
   [[nodiscard]] double period_s() const override { return period_us_ * 1e-6; }
 
@@ -53,7 +53,7 @@ class BusAxes final : public AxisGroup {
   [[nodiscard]] const node::Node* node() const { return node_.get(); }
 
   // Puts a probe on the tool, instead of any other; its signal reaches every drive. The drives
-  // latch it only when the settings say that the machine probes.
+  // latch it only when the settings have `probes`.
   void mount(TouchProbe probe);
   // The line from the probe to one drive is broken, or whole again.
   void break_probe_line(std::size_t a, bool broken) { line_broken_.at(a) = broken; }
@@ -61,6 +61,8 @@ class BusAxes final : public AxisGroup {
   // Without power: off the bus until it comes back, then as after any power-on.
   void power_drive(std::size_t a, bool on);
   void power_node(bool on);
+  // While full, the port of the node takes nothing.
+  void fill_node_port(bool full) { node_port_->refuse(full); }
   [[nodiscard]] std::uint64_t cycles() const { return cycles_; }
 
   // One cycle whatever the state of the machine: targets, answers, SYNC.

@@ -43,10 +43,11 @@ void BusController::load_tables(std::vector<std::uint8_t> image) {
   if (node.phase == Station::Phase::running && !image_.empty()) queue_tables(node.channel);
 }
 
-void BusController::use_probe(const NodeProbe& probe) {
+void BusController::use_probe(const host::NodeProbe& probe) {
   node_probe_ = probe;
   Station& node = stations_.back();
-  if (node.phase == Station::Phase::running) queue_probe(node.channel, probe);
+  if (node.phase == Station::Phase::running)
+    host::queue_plan(node.channel, host::probe_plan(probe));
 }
 
 void BusController::command(NmtCommand what, std::uint8_t node) {
@@ -108,7 +109,7 @@ void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t
   }
   if (s.boots == 0) return;  // has not heeded our reset yet
   if (s.phase == Station::Phase::absent) {
-    // Back without a boot: whatever it was told is still there.
+    // Back without a boot: its configuration is still there.
     s.phase = Station::Phase::running;
     s.not_started = 0;
     s.retry_us = 0;
@@ -117,7 +118,7 @@ void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t
   s.not_started = heeds ? 0 : s.not_started + 1;
   if (s.not_started < kUnheededStarts) return;
   s.not_started = 0;
-  // Whoever is PRE-OPERATIONAL may have booted without our hearing of it.
+  // A node that is PRE-OPERATIONAL may have booted without a boot-up received here.
   if (s.state == NmtState::pre_operational) {
     configure(s);
   } else {
@@ -162,12 +163,12 @@ void BusController::supervise(Station& s, std::uint64_t now_us) {
   } else if (s.phase == Station::Phase::running && !is_drive(s)) {
     retry_tables(s, now_us);
   } else if (s.phase == Station::Phase::absent) {
-    call_back(s, now_us);
+    reset_silent(s, now_us);
   }
 }
 
-// Whoever has booted without our hearing of it was never told to send heartbeats.
-void BusController::call_back(Station& s, std::uint64_t now_us) {
+// Resets a silent node: one that has booted unnoticed has not been configured to send heartbeats.
+void BusController::reset_silent(Station& s, std::uint64_t now_us) {
   if (s.retry_us == 0 || now_us < s.retry_us) return;
   s.retry_us = now_us + kResetPause_us;
   command(NmtCommand::reset_communication, s.id);
@@ -187,7 +188,8 @@ void BusController::retry_tables(Station& s, std::uint64_t now_us) {
 
 // --- out
 
-// What has not left yet is out of date: sent in a burst, it would be cycles nobody has asked for.
+// Replaces a frame that has not left yet: it is out of date, and a burst would count as extra
+// cycles.
 void BusController::send_latest(const hal::CanFrame& frame) {
   const auto same = [&frame](const hal::CanFrame& waiting) { return waiting.id == frame.id; };
   const auto waiting = std::find_if(outgoing_.begin(), outgoing_.end(), same);
@@ -234,7 +236,7 @@ void BusController::set_modes() {
   }
 }
 
-// Only the drive's own word counts: a response may get lost or belong to an earlier request.
+// Only the state of the drive counts: a response may be lost or belong to an earlier request.
 void BusController::set_mode(host::SdoChannel& sdo, std::size_t axis, std::int8_t mode) {
   axis_[axis].mode_is(0);
   sdo.write({0x6060, 0}, {static_cast<std::uint8_t>(mode)}, "mode of operation");

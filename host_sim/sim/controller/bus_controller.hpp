@@ -1,6 +1,6 @@
 #pragma once
 // The motion controller as a CANopen manager: NMT master, configuration manager, SYNC and heartbeat
-// producer. It brings drives and compensation node up, keeps them up after any of them was gone,
+// producer. It configures and starts drives and compensation node, restarts any that was absent,
 // and lets the axes move only while all of them work.
 
 #include <deque>
@@ -9,13 +9,14 @@
 
 #include "comp/tables/thermal.hpp"
 #include "host_sim/host/bus/bus_settings.hpp"
+#include "host_sim/host/bus/probe_setup.hpp"
 #include "host_sim/sim/controller/axis_commander.hpp"
 #include "host_sim/sim/controller/node_probe.hpp"
 #include "host_sim/sim/controller/station.hpp"
 
 namespace volcomp::sim {
 
-// What the node's status PDO says.
+// Content of the node's status PDO.
 struct NodeReport {
   std::uint32_t active_crc = 0;
   std::uint8_t state = 0;         // node::NodeState
@@ -24,7 +25,7 @@ struct NodeReport {
   std::uint64_t count = 0;        // reports so far
 };
 
-// What a drive has said about its touch probe input.
+// The reports of a drive on its touch probe input.
 struct ProbeReport {
   std::uint16_t status = 0;   // 60B9h
   std::int32_t position = 0;  // 60BAh
@@ -35,7 +36,7 @@ struct ProbeReport {
 
 class BusController {
  public:
-  // `image`: tables the node shall work with; empty: none.
+  // `image`: tables for the node; empty: none.
   BusController(host::BusSettings settings, std::vector<std::uint8_t> image);
 
   // --- the loop of canopen/exchange.hpp
@@ -55,20 +56,20 @@ class BusController {
   // The date as CANopen TIME.
   void send_time(std::int64_t unix_s);
 
-  // Resets every node on the bus; whoever boots is configured and started.
+  // Resets every node on the bus; each that boots is configured and started.
   void power_on(std::uint64_t now_us);
   // Tables to work with from now on; downloaded at once to a node that runs.
   void load_tables(std::vector<std::uint8_t> image);
   // Settings of the node's probe from now on, written at once to a node that runs.
-  void use_probe(const NodeProbe& probe);
+  void use_probe(const host::NodeProbe& probe);
   // What the node has made of touches since the last call.
   [[nodiscard]] std::vector<NodePoint> take_points() { return points_.take_points(); }
   // Everything else that is read and written of the node's objects.
   [[nodiscard]] host::SdoChannel& node_objects() { return stations_.back().channel; }
 
-  // Everybody runs, every axis follows its path, the node compensates (or was given no tables).
+  // Every node runs, every axis follows its path, the node compensates (or was given no tables).
   [[nodiscard]] bool motion_allowed() const;
-  // What is missing for that, in words.
+  // What is missing for that, as text.
   [[nodiscard]] std::string trouble() const;
 
   [[nodiscard]] std::uint8_t sync_counter() const { return counter_; }
@@ -88,11 +89,10 @@ class BusController {
   void take_process_data(const hal::CanFrame& frame);
   void take_drive_pdo(std::size_t a, const hal::CanFrame& frame);
   void supervise(Station& s, std::uint64_t now_us);
-  void call_back(Station& s, std::uint64_t now_us);
+  void reset_silent(Station& s, std::uint64_t now_us);
   void retry_tables(Station& s, std::uint64_t now_us);
   void send_latest(const hal::CanFrame& frame);
   void configure(Station& s);
-  void configure_common(host::SdoChannel& sdo);
   void check_scaling(Station& s, std::size_t axis);
   void configure_drive(Station& s, std::size_t axis);
   void configure_node(host::SdoChannel& sdo);
@@ -104,7 +104,7 @@ class BusController {
   host::BusSettings settings_;
   std::vector<std::uint8_t> image_;
   std::uint32_t image_crc_ = 0;
-  std::optional<NodeProbe> node_probe_;
+  std::optional<host::NodeProbe> node_probe_;
   PointReader points_;
   std::vector<AxisCommander> axis_;
   std::vector<ProbeReport> probe_;

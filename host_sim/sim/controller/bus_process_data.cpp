@@ -1,4 +1,4 @@
-// What motion controller, drives and compensation node tell each other every cycle.
+// Cyclic process data between motion controller, drives and compensation node.
 
 #include <cmath>
 

@@ -1,12 +1,12 @@
 #pragma once
-// Simulated machines on a bus whose every frame is written down.
+// Records every frame of simulated machines on a bus.
 
 #include "host_sim/host/bus/can_log.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 
 namespace volcomp::sim {
 
-// One log for the machines of a scenario, which live one after the other. All frames of the
+// One log for the machines of a scenario, which exist one after the other. All frames of the
 // simulated bus in its order.
 class BusRecorder {
  public:
@@ -17,7 +17,7 @@ class BusRecorder {
   // `log` must outlive the recorder.
   BusRecorder(host::CanLogWriter& log, Clock clock) : log_(log), clock_(clock) {}
 
-  // From now on, as long as these axes live; the recorder must outlive them.
+  // Records from now on until these axes end; the recorder must outlive them.
   void record(BusAxes& axes);
 
  private:

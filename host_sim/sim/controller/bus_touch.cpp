@@ -15,9 +15,9 @@ void BusAxes::mount(TouchProbe probe) {
   felt_ = {position(), approach()};
 }
 
-// Where a SYNC finds the axes is known of all of them before the first drive answers: a touch on
-// the way there belongs to the answers. Each drive asks for all of them: the first one's asking
-// serves the others, too.
+// The positions of all axes at a SYNC are settled before the first drive answers, because a touch
+// on the way there belongs to the answers. The first drive to be served therefore serves the
+// others, too.
 void BusAxes::serve_drives(std::uint64_t now_us) {
   const auto has_mail = [](const SimulatedBus::Port* port) { return port->waiting() != 0; };
   const std::uint64_t now_ns = bus_.bus().now_ns();

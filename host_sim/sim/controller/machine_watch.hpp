@@ -1,6 +1,6 @@
 #pragma once
-// What a machine under compensation shows of itself once per control period, for those who only
-// look on: statistics of a run, a live page. Nothing flows back.
+// Observes a machine under compensation once per control period: statistics of a run, a live page.
+// Read-only.
 
 #include <cstdint>
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace volcomp::sim {
 
-// Run-time units (nm or 2^-40 turn) unless it says otherwise.
+// Run-time units (nm or 2^-40 turn) unless noted otherwise.
 struct AxisSnapshot {
   char letter = '\0';
   bool rotary = false;
@@ -30,7 +30,7 @@ struct BusState {
   std::uint8_t node_state = 0;  // node::NodeState
   std::uint16_t any_status = 0;
   std::uint32_t active_crc = 0;
-  // Of a node in this process.
+  // Counters of a node in this process.
   std::optional<std::uint32_t> deadline_missed;
   std::optional<std::uint32_t> sync_missed;
 };

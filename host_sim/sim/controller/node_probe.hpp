@@ -1,8 +1,8 @@
 #pragma once
-// The probe of the compensation node as the controller sees it: the settings it is given (2300h to
-// 2306h) and the points it makes of touches (2401h, as process data).
+// The probe of the compensation node as the controller sees it: the flank that is touched next
+// (2313h) and the points the node makes of touches (2401h, as process data).
 //
-// The records of 2410h say more, but 192 bytes in a burst leave no room on the bus for heartbeats.
+// The records of 2410h hold more, but 192 bytes in a burst leave no room on the bus for heartbeats.
 
 #include <array>
 #include <cstdint>
@@ -10,32 +10,11 @@
 #include <vector>
 
 #include "comp/core/status.hpp"
-#include "comp/probe/face_gear.hpp"
+#include "comp/machine/machine_chain.hpp"
 #include "comp/probe/probe_corrector.hpp"
 #include "host_sim/host/bus/sdo_channel.hpp"
-#include "host_sim/host/machine/machine_file.hpp"
 
 namespace volcomp::sim {
-
-// Lengths in mm, angles in rad.
-struct NodeProbe {
-  double delay_us = 0.0;                          // from contact to the edge at the drives
-  std::array<double, kMaxAxes> latch_delay_us{};  // from the edge to the latch of an axis
-  LobingMap radius{};                             // effective, by direction in the tool frame
-  Frame workpiece{};                              // of the part in the frame of the work
-  double radius_uncertainty = 0.0;                // standard
-  double tool_length_uncertainty = 0.0;           //
-  double repeatability = 0.0;                     // along the normal
-  std::uint32_t gear_id = 0;                      // 0: no face gear
-  FaceGear gear{};                                // derived; its frame is that of the workpiece
-};
-
-// Delays and radius of the machine file, the part where the work is. Throws UserError when the file
-// describes no probe.
-[[nodiscard]] NodeProbe node_probe(const host::MachineFile& machine);
-
-// Writes all of it and switches the probe on.
-void queue_probe(host::SdoChannel& node, const NodeProbe& probe);
 
 // A flank that is to be touched: 2313h. mm.
 struct FlankFeature {
@@ -48,7 +27,7 @@ struct FlankFeature {
   double gate = 0.0;
 };
 
-// What the node said of a touch on a flank: 2401h:0C to :0F.
+// The node's judgement of a touch on a flank: 2401h:0C to :0F.
 struct FlankJudgement {
   std::int32_t distance_nm = 0;  // node::kNoDistance: none
   Reason verdict = Reason::bad_point;
@@ -56,7 +35,7 @@ struct FlankJudgement {
   std::uint32_t sequence = 0;  // of the point
 };
 
-// Writes what differs from `known`, what the node has been told last.
+// Writes what differs from `known`, the flank the node has.
 void queue_flank(host::SdoChannel& node, const FlankFeature& flank, const FlankFeature& known);
 // Reads the latest judgement.
 void queue_judgement(host::SdoChannel& node, FlankJudgement& judgement);
@@ -69,7 +48,7 @@ struct NodePoint {
   std::uint8_t axis = 0;  // NC axis the verdict is about, from 1; 0: none in particular
   Vec3 workpiece = Vec3::Zero();
   double uncertainty = 0.0;  // standard, largest of the coordinates
-  Pose latched{};            // as the drives said, nothing corrected
+  Pose latched{};            // as the drives reported, uncorrected
   FlankJudgement flank{};    // where a flank was announced
 };
 

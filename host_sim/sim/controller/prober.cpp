@@ -28,7 +28,7 @@ void Prober::finish_transfers() {
   if (!node.failure().empty()) throw host::UserError(node.failure());
 }
 
-void Prober::configure(const NodeProbe& probe) {
+void Prober::configure(const host::NodeProbe& probe) {
   axes_.controller().use_probe(probe);
   finish_transfers();
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Probing with the node: says what is about to be touched, moves, and reads the point that the node
-// has made of the touch. Everything it learns came over the bus.
+// Probes with the node: announces the feature, moves, and reads the point that the node has made of
+// the touch. It uses only data from the bus.
 
 #include <vector>
 
@@ -22,7 +22,7 @@ class Prober {
       : cell_(cell), axes_(axes), machine_(machine) {}
 
   // The node's settings from now on, also after it was away.
-  void configure(const NodeProbe& probe);
+  void configure(const host::NodeProbe& probe);
 
   // Goes to `from`, then towards `beyond` until the probe touches, then back. `normal`: of the part
   // at the contact, in the workpiece frame, or zero: the point is the centre of the ball. Throws
@@ -35,8 +35,7 @@ class Prober {
   NodePoint touch(const Pose& from, const Pose& beyond, const FlankFeature& flank,
                   const ProbingFeeds& feeds);
 
-  // Points since the last call, oldest first, rejected ones included; the node is told that it may
-  // forget them.
+  // Points since the last call, oldest first, rejected ones included; releases them in the node.
   [[nodiscard]] std::vector<NodePoint> take_points();
 
  private:

@@ -5,7 +5,7 @@
 namespace volcomp::sim {
 namespace {
 
-// Everybody gets the processor at least so often, whether there are frames or not.
+// Every port is served at least so often, with or without frames.
 constexpr std::uint64_t kSlice_ns = 200'000;
 
 }  // namespace

@@ -26,14 +26,13 @@ class SimulatedBus {
       canopen::exchange(device, port, now_us);
     });
   }
-  // Three transmit mailboxes, as CAN controllers have. Without `serve` the owner looks after the
-  // port.
+  // Three transmit mailboxes, as CAN controllers have. Without `serve` the owner serves the port.
   Port& attach_served(std::string name, Serve serve, std::size_t mailboxes = 3);
 
   [[nodiscard]] std::uint64_t now_us() const { return bus_.now_ns() / 1000U; }
 
   void run_until(std::uint64_t time_ns);
-  // Until nobody has anything to send at the moment.
+  // Runs until no port has a frame to send.
   void run_until_quiet();
 
   [[nodiscard]] hal::LoopbackBus& bus() { return bus_; }

@@ -29,7 +29,7 @@ struct Station {
   std::uint32_t boots = 0;
   bool refused = false;  // by us, in this attempt: its units are not those of the machine file
   std::string refusal;   // why the last attempt failed, until one succeeds
-  int not_started = 0;   // heartbeats in a row that say it does not run though it should
+  int not_started = 0;   // consecutive heartbeats that are not OPERATIONAL
 };
 
 // One emergency message as received.

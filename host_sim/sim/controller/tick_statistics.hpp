@@ -28,7 +28,7 @@ class TickStatistics final : public MachineWatch {
   [[nodiscard]] double machine_time_s() const { return machine_time_s_; }
   [[nodiscard]] const std::vector<AxisTicks>& axes() const { return axes_; }
 
-  // Of the bus; 0 where there was none.
+  // Figures of the bus; 0 where there was none.
   [[nodiscard]] bool on_a_bus() const { return bus_ns_ > 0; }
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   [[nodiscard]] double bus_load() const;  // share of the time it was busy, without stuff bits

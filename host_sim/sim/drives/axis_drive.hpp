@@ -8,7 +8,7 @@
 
 namespace volcomp::sim {
 
-// Of the position loop, in every simulated drive whatever commands it.
+// Time constant of the position loop of every simulated drive.
 inline constexpr double kDriveTimeConstant_s = 0.002;
 
 class AxisDrive {

@@ -1,6 +1,6 @@
 #pragma once
-// The mechanics and the encoder behind a drive: follows a position, brakes, or stands; knows where
-// it really is and what the drive reads, which differ by where the drive was homed.
+// The mechanics and the encoder behind a drive: follows a position, brakes, or stands; has its true
+// position and the reading of the drive, which differ by where the drive was homed.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace volcomp::sim {
 
 // Position units: those of the drive, 1 nm of a linear axis and 2⁻³¹ turn of a rotary one unless
-// its settings say otherwise; counted through.
+// its settings differ; counted through.
 inline constexpr double kDriveUnitsPerTurn = 2147483648.0;
 
 // As INTEGER32 on the bus: a linear position stays at the end of the range.

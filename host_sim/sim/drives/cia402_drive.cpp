@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "firmware/canopen/device.inl"
+
 namespace volcomp::sim {
 namespace {
 
@@ -26,7 +28,7 @@ canopen::CommunicationObjects default_communication(const Cia402Drive::Settings&
   return c;
 }
 
-// 60C2h: the fewest digits that say the period, as exactly as two of its bytes can.
+// 60C2h: the fewest digits that hold the period, as exactly as its two bytes can.
 void set_cycle(host::Cia402Objects& objects, std::uint64_t period_us) {
   std::int8_t exponent = -6;
   while (period_us > UINT8_MAX || (period_us != 0 && period_us % 10 == 0)) {
@@ -156,8 +158,6 @@ bool Cia402Drive::heartbeat(std::uint8_t, canopen::HeartbeatEvent event, std::ui
   return true;
 }
 
-void Cia402Drive::bad_sync(canopen::SyncVerdict, std::uint64_t) {}
-
 void Cia402Drive::abort_connection() {
   switch (static_cast<host::AbortConnection>(objects_.abort_connection)) {
     case host::AbortConnection::nothing:
@@ -184,3 +184,9 @@ void Cia402Drive::fail(canopen::ErrorCode code) {
 }
 
 }  // namespace volcomp::sim
+
+namespace volcomp::canopen {
+
+template class Device<sim::Cia402Drive>;
+
+}  // namespace volcomp::canopen

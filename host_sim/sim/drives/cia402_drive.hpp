@@ -23,7 +23,10 @@
 
 namespace volcomp::sim {
 
-class Cia402Drive final : private canopen::Application {
+class Cia402Drive;
+using Cia402Device = canopen::Device<Cia402Drive>;
+
+class Cia402Drive final {
  public:
   // How a drive counts.
   struct Units {
@@ -61,7 +64,7 @@ class Cia402Drive final : private canopen::Application {
   Cia402Drive& operator=(const Cia402Drive&) = delete;
   ~Cia402Drive() = default;
 
-  [[nodiscard]] canopen::Device& device() { return device_; }
+  [[nodiscard]] Cia402Device& device() { return device_; }
   [[nodiscard]] const host::Cia402Objects& objects() const { return objects_; }
   [[nodiscard]] host::PowerState power_state() const { return machine_.state(); }
 
@@ -76,9 +79,9 @@ class Cia402Drive final : private canopen::Application {
   }
   void taken(std::uint64_t now_us) { device_.taken(now_us); }
 
-  // Without power the axis stands at once (brake) and the bus hears nothing of the drive.
-  // Afterwards the reading is where it was, but the position is not referenced and every
-  // object has its default, 60B0h = 0.
+  // Without power the axis stands at once (brake) and the drive sends nothing. Afterwards the
+  // reading is where it was, but the position is not referenced and every object has its default,
+  // 60B0h = 0.
   void power_off();
   void power_on(std::uint64_t now_us);
   [[nodiscard]] bool powered() const { return powered_; }
@@ -105,8 +108,8 @@ class Cia402Drive final : private canopen::Application {
     return position_units() / settings_.units.units_per_turn;
   }
   [[nodiscard]] double approach() const { return axis_.approach(); }  // −1…+1
-  // What the drive wants, counted through from its own zero (607Ch), and the 60B0h it had at the
-  // last SYNC.
+  // The target of the drive, counted through from its own zero (607Ch), and its 60B0h at the last
+  // SYNC.
   [[nodiscard]] std::int64_t demand() const { return demand_; }
   [[nodiscard]] std::int32_t offset_taken() const { return offset_taken_; }
 
@@ -114,23 +117,27 @@ class Cia402Drive final : private canopen::Application {
   std::function<void(const InputStep&)> on_input;
 
  private:
-  void reset_application() override;
-  void reset_communication() override;
-  void state_changed(canopen::NmtState state, std::uint64_t now_us) override;
-  void sync(std::uint8_t counter, std::uint64_t now_us) override;
-  void received(const canopen::Pdo& pdo, std::uint64_t now_us) override;
-  bool heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint64_t now_us) override;
-  void bad_sync(canopen::SyncVerdict verdict, std::uint64_t now_us) override;
-  canopen::AbortCode before_write(canopen::ObjectId object, const canopen::Entry& entry,
-                                  Span<const std::uint8_t> bytes) override;
-  void written(canopen::ObjectId object, std::uint64_t now_us) override;
-  void before_read(canopen::ObjectId object) override;
-  canopen::AbortCode read_domain(canopen::ObjectId object,
-                                 Span<const std::uint8_t>& source) override;
-  canopen::AbortCode begin_domain(canopen::ObjectId object, std::size_t announced,
-                                  Span<std::uint8_t>& sink) override;
-  canopen::AbortCode finish_domain(canopen::ObjectId object, std::size_t size) override;
-  void abandon_domain(canopen::ObjectId object) override;
+  friend Cia402Device;
+  void reset_application();
+  void reset_communication();
+  void state_changed(canopen::NmtState state, std::uint64_t now_us);
+  void sync(std::uint8_t counter, std::uint64_t now_us);
+  void received(const canopen::Pdo& pdo, std::uint64_t now_us);
+  void sent(std::size_t /*transmit_pdo*/) {}
+  void due(std::uint64_t /*now_us*/) {}
+  void background(std::uint64_t /*now_us*/) {}
+  void time_of_day(std::uint32_t /*midnight_ms*/, std::uint16_t /*days*/) {}
+  bool heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint64_t now_us);
+  void bad_sync(canopen::SyncVerdict /*verdict*/, std::uint64_t /*now_us*/) {}
+  canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes);
+  void written(canopen::ObjectId object, std::uint64_t now_us);
+  void before_read(canopen::ObjectId object);
+  // There is no domain.
+  static canopen::AbortCode read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source);
+  static canopen::AbortCode begin_domain(canopen::ObjectId object, std::size_t announced,
+                                         Span<std::uint8_t>& sink);
+  static canopen::AbortCode finish_domain(canopen::ObjectId object, std::size_t size);
+  void abandon_domain(canopen::ObjectId /*object*/) {}
 
   [[nodiscard]] host::OperationMode mode() const;
   [[nodiscard]] bool in_cyclic_position() const;
@@ -170,7 +177,7 @@ class Cia402Drive final : private canopen::Application {
   host::Cia402Objects objects_{};
   std::array<canopen::Pdo, host::kReceivePdos> receive_{};
   std::array<canopen::Pdo, host::kTransmitPdos> transmit_{};
-  canopen::Device device_;
+  Cia402Device device_;
   PowerStateMachine machine_;
   Cia402Axis axis_;
 

@@ -113,8 +113,7 @@ bool Cia402Drive::possible(canopen::ObjectId object, std::int64_t value) const {
   }
 }
 
-AbortCode Cia402Drive::before_write(canopen::ObjectId object, const canopen::Entry&,
-                                    Span<const std::uint8_t> bytes) {
+AbortCode Cia402Drive::before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
   const std::size_t size = bytes.size();
   if (size != 1 && size != 2) return AbortCode::none;  // as large as the choices are
   const std::int64_t value = canopen::load_le_signed(bytes.data(), size);
@@ -134,7 +133,5 @@ AbortCode Cia402Drive::begin_domain(canopen::ObjectId, std::size_t, Span<std::ui
 AbortCode Cia402Drive::finish_domain(canopen::ObjectId, std::size_t) {
   return AbortCode::no_object;
 }
-
-void Cia402Drive::abandon_domain(canopen::ObjectId) {}
 
 }  // namespace volcomp::sim

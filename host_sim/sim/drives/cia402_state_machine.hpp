@@ -8,7 +8,7 @@
 
 namespace volcomp::sim {
 
-// What a controlword asks for, fault reset apart: that one is an edge, not a level.
+// The command of a controlword, without fault reset, which is an edge, not a level.
 enum class PowerCommand : std::uint8_t {
   none,
   shutdown,
@@ -22,7 +22,7 @@ enum class PowerCommand : std::uint8_t {
 inline constexpr std::uint16_t kControlHomingStart = 1U << 4U;
 inline constexpr std::uint16_t kControlFaultReset = 1U << 7U;
 
-// `controlword` with bit 7 set asks for nothing: every command needs it to be 0.
+// A `controlword` with bit 7 set is no command: every command needs it to be 0.
 [[nodiscard]] PowerCommand decode(std::uint16_t controlword);
 
 class PowerStateMachine {
@@ -37,7 +37,7 @@ class PowerStateMachine {
   // A controlword has arrived. `stays_in_quick_stop`: 605Ah is 5…8, so that transition 16 exists
   // and transition 12 waits for a command.
   void control(std::uint16_t controlword, bool stays_in_quick_stop);
-  // The same as if the controlword had asked for it, for a lost connection (6007h).
+  // The same as by controlword, for a lost connection (6007h).
   void command(PowerCommand command, bool stays_in_quick_stop);
   // Transition 13.
   void fail();

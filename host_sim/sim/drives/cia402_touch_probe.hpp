@@ -11,8 +11,8 @@ namespace volcomp::sim {
 // 60B8h has been written: switching a probe off forgets what it stored.
 void apply_function(host::TouchProbeObjects& probe);
 
-// An edge at the input of probe 1. False when nobody asked for it: probe or edge switched off, or
-// a single event was wanted and has been stored.
+// Stores an edge at the input of probe 1. False when it is ignored: probe or edge switched off, or
+// the single event already stored.
 bool latch(host::TouchProbeObjects& probe, bool rising, std::int32_t position,
            std::uint32_t time_ns);
 

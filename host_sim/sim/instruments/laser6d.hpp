@@ -17,7 +17,7 @@ struct LaserSetup {
   std::array<double, 6> wave{};  // amplitude of a slow sinusoid per channel
   std::array<double, 6> wave_phase{};
   double roll = 0.0;
-  Vec3 arm_error = Vec3::Zero();  // sensed point − where the machine file says it is
+  Vec3 arm_error = Vec3::Zero();  // sensed point − that of the machine file
 };
 
 [[nodiscard]] LaserSetup mount_laser(const NoiseClasses& classes, Random& random);

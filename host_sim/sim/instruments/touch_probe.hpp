@@ -19,7 +19,7 @@ struct Stance {
 
 struct ProbeEdge {
   bool rising = true;
-  std::int64_t time_ns = 0;  // since the begin of the period it was asked for
+  std::int64_t time_ns = 0;  // since the begin of the period of the call
 };
 
 class TouchProbe {
@@ -60,7 +60,7 @@ class TouchProbe {
   const Artefact& artefact_;
   Settings settings_;
   std::vector<ProbeEdge> coming_;  // out of the electronics, in order
-  bool seen_ = false;              // tripped_ says something
+  bool seen_ = false;              // tripped_ is valid
   bool tripped_ = false;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Who asks for another host but reaches this server was led here, say by a page whose name now
-// resolves to 127.0.0.1: the browser would let that page read the answers.
+// Guards against DNS rebinding: a request for another host comes from a page whose name now
+// resolves to 127.0.0.1, and the browser would let that page read the answers.
 
 #include <string_view>
 

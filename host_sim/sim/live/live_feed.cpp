@@ -56,7 +56,7 @@ std::string phase_name(std::uint8_t phase) {
   return phase < kNames.size() ? kNames.at(phase) : "unknown";
 }
 
-// Before and after, as the report says it; null: it has none.
+// Before and after, as in the report; null: it has none.
 json result_of(const json& document) {
   for (const json& section : document.value("sections", json::array())) {
     if (section.value("id", "") == "before-after") return section;

@@ -34,11 +34,11 @@ class LiveFeed final : public MachineWatch {
   [[nodiscard]] const TickStatistics& ticks() const { return ticks_; }
 
  private:
-  // Edges that latches of one machine have told in the same period.
+  // Edges that latches of one machine have reported in the same period.
   struct Hit {
     std::uint64_t number = 0;  // of the last edge, from 1
     double time_s = 0.0;       // machine time of the run
-    std::string letters;       // whose latches
+    std::string letters;       // axes that latched
     MachineSnapshot machine;   // in that period
   };
 

@@ -1,9 +1,13 @@
 #include "host_sim/sim/live/live_server.hpp"
 
+#include <sys/eventfd.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -14,6 +18,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/page/page.hpp"
 #include "host_sim/sim/live/host_header.hpp"
+#include "host_sim/sim/live/live_connection.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -22,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kLoopback = "127.0.0.1";
 constexpr std::size_t kThreads = 4;
-constexpr std::chrono::seconds kWatching{2};  // a page asks four times a second
+constexpr std::chrono::seconds kWatching{2};  // a page polls four times a second
 
 constexpr const char* kPolicy = "Content-Security-Policy";
 // The live page has its script and style in files of their own; charts set styles of elements.
@@ -34,22 +39,64 @@ constexpr const char* kReportPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-// The library's own would let a second program share the port and take half of the requests.
+// The library's default would let a second program share the port and take half of the requests.
 void socket_options(int socket) {
   const int yes = 1;
   static_cast<void>(::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes));
 }
 
+// Becomes readable for every connection at once, and stays so.
+class StopSignal {
+ public:
+  StopSignal() : fd_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (fd_ < 0) throw host::UserError(fmt::format("--serve: {}", std::strerror(errno)));
+  }
+  StopSignal(const StopSignal&) = delete;
+  StopSignal& operator=(const StopSignal&) = delete;
+  ~StopSignal() { static_cast<void>(::close(fd_)); }
+
+  [[nodiscard]] int fd() const { return fd_; }
+  void raise() const { static_cast<void>(::eventfd_write(fd_, 1)); }
+
+ private:
+  int fd_;
+};
+
+// One request a connection.
+class Server : public httplib::Server {
+ public:
+  explicit Server(const LiveLimits& limits) : limits_(limits) {}
+
+  void stop_now() {
+    stop_.raise();
+    stop();
+  }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    LiveConnection connection(socket, stop_.fd(), limits_);
+    bool closed = false;
+    // A server may ignore Range (RFC 9110, 14.2); a list of ranges would make an answer larger than
+    // its page.
+    return process_request(connection, true, closed,
+                           [](httplib::Request& request) { request.ranges.clear(); });
+  }
+
+  LiveLimits limits_;
+  StopSignal stop_;
+};
+
 }  // namespace
 
 class LiveServer::Pages {
  public:
-  Pages(std::uint16_t port, std::function<std::string()> state) : state_(std::move(state)) {
+  Pages(std::uint16_t port, std::function<std::string()> state, const LiveLimits& limits)
+      : state_(std::move(state)), server_(limits) {
     server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     server_.set_socket_options(socket_options);
     server_.set_payload_max_length(0);
-    server_.set_keep_alive_timeout(1);
-    server_.set_default_headers({{"X-Content-Type-Options", "nosniff"},
+    server_.set_default_headers({{"Accept-Ranges", "none"},
+                                 {"X-Content-Type-Options", "nosniff"},
                                  {"Referrer-Policy", "no-referrer"},
                                  {"Cross-Origin-Resource-Policy", "same-origin"},
                                  {"Cache-Control", "no-store"}});
@@ -70,7 +117,7 @@ class LiveServer::Pages {
     // stop() does nothing before the thread has begun to listen.
     while (!server_.is_running() && !over_)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    server_.stop();
+    server_.stop_now();
     listener_.join();
   }
 
@@ -148,7 +195,7 @@ class LiveServer::Pages {
   }
 
   std::function<std::string()> state_;
-  httplib::Server server_;
+  Server server_;
   int port_ = 0;
   std::atomic<std::uint64_t> told_{0};
   std::atomic<Clock::duration> last_asked_{Clock::duration::zero()};
@@ -159,8 +206,9 @@ class LiveServer::Pages {
   std::thread listener_;
 };
 
-LiveServer::LiveServer(std::uint16_t port, std::function<std::string()> state)
-    : pages_(std::make_unique<Pages>(port, std::move(state))) {}
+LiveServer::LiveServer(std::uint16_t port, std::function<std::string()> state,
+                       const LiveLimits& limits)
+    : pages_(std::make_unique<Pages>(port, std::move(state), limits)) {}
 
 LiveServer::~LiveServer() = default;
 

@@ -1,7 +1,9 @@
 #pragma once
 // The live page over HTTP, for browsers on this computer only: bound to 127.0.0.1, and a request
-// that was meant for another host is refused, whoever sent it. Reading is all one can do.
+// for another host is refused (host_header.hpp). The server is read-only.
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -9,21 +11,28 @@
 
 namespace volcomp::sim {
 
+// What one connection may take. A browser on the same computer needs milliseconds and 1 KiB.
+struct LiveLimits {
+  std::chrono::milliseconds request{5'000};  // for all of the request, from when a thread takes it
+  std::chrono::milliseconds answer{30'000};  // for all of the answer
+  std::size_t request_bytes = std::size_t{64} * 1024;
+};
+
 class LiveServer {
  public:
-  // `state`: the JSON of the page, asked for by other threads until the server is gone. Port 0:
-  // any that is free. Throws UserError when the port cannot be had.
-  LiveServer(std::uint16_t port, std::function<std::string()> state);
+  // `state`: the JSON of the page, called by other threads until the server is gone. Port 0: any
+  // that is free. Throws UserError when the port cannot be had.
+  LiveServer(std::uint16_t port, std::function<std::string()> state, const LiveLimits& limits = {});
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
-  ~LiveServer();  // answers what is being asked, then listens no more
+  ~LiveServer();  // closes every connection, whatever its client does, and listens no more
 
   [[nodiscard]] std::string address() const;  // "http://127.0.0.1:8470/"
 
   // The report of the run as it would be written to files; from then on beside the live page.
   void offer_report(const std::string& html, const std::string& json);
 
-  // Whether somebody asks for the state again and again, and how often it was told altogether.
+  // Whether a page polls the state, and how often the state has been sent altogether.
   [[nodiscard]] bool watched() const;
   [[nodiscard]] std::uint64_t told() const;
 

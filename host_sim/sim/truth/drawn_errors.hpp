@@ -13,10 +13,10 @@ namespace volcomp::sim {
 // Waves at random phases on a straight line that rises by `rise` over the travel.
 [[nodiscard]] ErrorFunction waves_on_line(double rise, double amplitude, Random& random);
 
-// Of the screw, in positioning.
+// Ripple of the screw, in positioning.
 void draw_ripple(ErrorFunction& positioning, Random& random);
 
-// Of positioning, and of the angles that are not positioning.
+// Reversal of positioning, and of the angles that are not positioning.
 void draw_reversal(std::size_t own, TrueAxis& axis, Random& random);
 
 }  // namespace volcomp::sim

@@ -1,5 +1,6 @@
 #pragma once
-// One smooth error channel of a simulated axis: never a table. seed 001, addendum.
+// One smooth error channel of a simulated axis, never a table: a slope, three harmonics of the
+// stroke and a short ripple.
 
 #include <array>
 #include <cmath>

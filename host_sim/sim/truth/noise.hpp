@@ -1,6 +1,6 @@
 #pragma once
-// Standard deviations of everything that is not perfect in a campaign (seed 001, addendum), and
-// random numbers that are the same on every computer.
+// Standard deviations of all imperfections of a campaign, those of realistic instruments
+// (docs/papers/xyfz.md, "What stays open"), and random numbers that are the same on every computer.
 
 #include <cmath>
 #include <cstdint>

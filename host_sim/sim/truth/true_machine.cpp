@@ -13,8 +13,8 @@ ErrorMotion TrueMachine::relative_error(std::size_t a, double q, double approach
   return e;
 }
 
-// Scales grow with the machine: a carriage that reads q has gone farther. Graduated circles do not
-// care.
+// Scales grow with the machine: a carriage that reads q has gone farther. Graduated circles keep
+// their scale.
 void TrueMachine::grow(std::size_t a, double q, ErrorMotion& body) const {
   const Joint& joint = chain.axis(a);
   if (joint.kind != JointKind::prismatic) return;

@@ -12,7 +12,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr double kArm = 173.7135;  // L_R of seed 000
+constexpr double kArm = 173.7135;  // L_R of docs/papers/l300g.md
 
 // base → X → Y → B(about +Y) → ball at (−L_R, 0, 0); base → A. B, X and Y correct.
 MachineDescription grinder() {
@@ -100,7 +100,7 @@ TEST(MotionOffset, OfTheXyfzMachineIsMinusTheError) {
   EXPECT_LE(out.remainder.norm(), 1e-17);
 }
 
-// Seed 000: dB = −e_z/(L_R cos θ), dX = −e_x − L_R sin θ dB, dY = −e_y.
+// The L300G (docs/papers/l300g.md): dB = −e_z/(L_R cos θ), dX = −e_x − L_R sin θ dB, dY = −e_y.
 TEST(MotionOffset, OfTheGrinderFollowsTheClosedFormulas) {
   Random random;
   const MachineChain chain = chain_of(grinder());

@@ -58,7 +58,7 @@ TEST(RotationModels, RigidModelsAreRotations) {
   }
 }
 
-// Seed 001 section 2: the determinant of the paper's matrix is 1 + |e|².
+// The matrix of docs/papers/xyfz.md, Table 2, has the determinant 1 + |e|².
 TEST(RotationModels, LinearModelIsNoRotation) {
   const Vec3 angles(3e-3, -4e-3, 12e-3);
   const Mat3 R = Mat3::Identity() + rotation_minus_identity(RotationModel::linear, angles);
@@ -94,7 +94,7 @@ TEST(RotationModels, SecondOrderDiffersFromTheProductByThirdOrderOnly) {
   for (const double scale : {0.04, 0.02, 0.01}) {
     EXPECT_NEAR(difference(scale) / difference(scale / 2.0), 8.0, 0.2) << scale;
   }
-  // Seed 000: third order below 1e-9 mm at 100 µrad and 230 mm.
+  // The third order is below 1e-9 mm at 100 µrad and 230 mm.
   EXPECT_LT(difference(1e-4) * 230.0, 1e-9);
 }
 

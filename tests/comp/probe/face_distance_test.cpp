@@ -1,5 +1,5 @@
-// Distances from flanks of face gears, against minimisers and against what turning does (seed 002
-// section 4), and the points that have none.
+// Distances from flanks of face gears, against minimisers and against what turning does
+// (docs/papers/face-gear.md, "What we do"), and the points that have none.
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-// Flanks of face gears: what their generation promises (seed 002 sections 0 and 2).
+// Flanks of face gears: what their generation promises (docs/papers/face-gear.md, "What we do").
 
 #include "tests/oracle/face_gears.hpp"
 #include "tests/oracle/tick_bench.hpp"

@@ -1,5 +1,5 @@
-// Face gears by their figures: those the paper prints, and what cannot be made (seed 002 section
-// 2).
+// Face gears by their figures: those the paper (docs/papers/face-gear.md) prints, and what cannot
+// be made.
 
 #include <limits>
 

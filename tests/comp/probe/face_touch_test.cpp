@@ -1,4 +1,4 @@
-// Verdicts on touches of face gears, one for every row of the table of bad input (seed 002).
+// Verdicts on touches of face gears, one for every kind of bad input.
 
 #include "comp/probe/face_touch.hpp"
 

@@ -1,6 +1,5 @@
 // The point does not depend on the feed: the same touch at 10…1000 mm/min, with latches as drives
-// make them (seed 000, addendum): 1 nm, 20 ns, 10 µs from contact to edge, 2…8 µs to the latch of
-// an axis.
+// make them: 1 nm, 20 ns, 10 µs from contact to edge, 2…8 µs to the latch of an axis.
 
 #include <cmath>
 

@@ -83,7 +83,7 @@ TEST(Lobing, ThirtySixDirectionsMapAPlane) {
   }
 }
 
-// Over the whole sphere the same number of directions has sixteen terms to tell apart instead of
+// Over the whole sphere the same number of directions has sixteen terms to determine instead of
 // seven: σ √(16/36) on average, so a mean of four touches each keeps the promise everywhere.
 TEST(Lobing, FourTouchesInThirtySixDirectionsMapTheSphere) {
   Random random(41);
@@ -172,7 +172,7 @@ TEST(SphereFit, FindsTheSphere) {
   EXPECT_LT(fit.rms, 1e-11);
 }
 
-// Of a hemisphere, as a probe reaches it: all_round of 2000 fits beside the covariance.
+// A hemisphere, as a probe reaches it: all_round of 2000 fits beside the covariance.
 TEST(SphereFit, CovarianceIsTheSpread) {
   Random random(44);
   std::vector<Vec3> hemisphere;

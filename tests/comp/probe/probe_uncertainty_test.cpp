@@ -98,8 +98,8 @@ TEST(ProbeUncertainty, AgreesWithAMonteCarlo) {
   }
 }
 
-// Radius and arm come from one calibration (seed 000 section 3). Before an end face both carry the
-// ball away from it: errors in the same sense add up, in opposite senses they cancel.
+// Radius and arm come from one calibration (docs/papers/l300g.md). Before an end face both carry
+// the ball away from it: errors in the same sense add up, in opposite senses they cancel.
 TEST(ProbeUncertainty, RadiusAndArmKnowOfEachOther) {
   ProbeCorrector corrector = probing_corrector();
   corrector.settings.radius.coefficient[0] = 1.5e6;

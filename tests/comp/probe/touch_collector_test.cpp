@@ -1,5 +1,5 @@
 // Every way an edge can reach the node, in order or not: complete touches are numbered and timed,
-// the others are told by name (seed 000, "Bad input", rows probe and probe latch skew).
+// the others are reported by name.
 
 #include "comp/probe/touch_collector.hpp"
 
@@ -31,7 +31,7 @@ class Drives {
     count = {7, 65'534, 400};
   }
 
-  // Of the probe, so long after the last SYNC.
+  // An edge of the probe, so long after the last SYNC.
   void edge(std::int64_t after_ns) {
     for (std::size_t a = 0; a < 3; ++a) {
       ++count[a];
@@ -191,7 +191,7 @@ TEST(TouchCollector, HalfAReportIsTold) {
   expect_verdict(d->cycle(), TouchVerdict::stale_latch, 2);
 }
 
-// A drive that repeats what it has said before.
+// A drive that repeats an earlier report.
 TEST(TouchCollector, ALatchWithoutAnEdgeIsTold) {
   const auto d = used();
   for (std::size_t a = 0; a < 3; ++a)

@@ -38,7 +38,7 @@ class Stroke {
     EXPECT_TRUE(monitor->configure(settings).ok());
   }
 
-  // One pass through the face; `errors(t, z)`. Returns what collect() says.
+  // One pass through the face; `errors(t, z)`. Returns the result of collect().
   template <class Errors>
   Status pass(std::uint16_t slot, Direction direction, const Errors& errors) {
     const double sign = direction == Direction::forward ? 1.0 : -1.0;
@@ -372,7 +372,7 @@ TEST(HelixMonitor, UsesNoFrameWhoseAxesAreFarApart) {
   EXPECT_EQ(use_of([](HelixFrame& f) { f.x.actual -= 1'000'000; }), FrameUse::used);
 }
 
-// Two samples that were taken at one instant tell no speed: nothing is carried on.
+// Two samples that were taken at one instant give no speed: nothing is carried on.
 TEST(HelixMonitor, SamplesOfOneInstantAreTakenAsTheyAre) {
   Stroke stroke;
   HelixFrame first = stroke.frame_at(0.0, {}, 1.0);
@@ -383,7 +383,7 @@ TEST(HelixMonitor, SamplesOfOneInstantAreTakenAsTheyAre) {
   EXPECT_NEAR(stroke.monitor->signals().e_x_nm, 10'000.0, 1.0);
 }
 
-// Positions at the ends of the integers must do no harm (the sanitizer build looks on).
+// Positions at the ends of the integers must do no harm (the sanitizer build checks it).
 TEST(HelixMonitor, AcceptsPositionsAnywhere) {
   Stroke stroke;
   for (const std::int64_t at : {INT64_MIN, INT64_MAX, std::int64_t{0}, INT64_MIN}) {

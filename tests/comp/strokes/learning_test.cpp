@@ -1,4 +1,4 @@
-// Learning converges where theory says so, is stopped where it does not, and drops what is bad.
+// Learning converges where theory predicts it, is stopped where it does not, and drops what is bad.
 
 #include <cmath>
 #include <limits>
@@ -113,8 +113,8 @@ TEST(Learning, UnsmoothedErrorFallsByOneMinusWeight) {
   EXPECT_NEAR(rms(plant.error(learner)), first / 64.0, 1e-12);
 }
 
-// Seed 003, embedded 6.4: w = 2.1 without smoothing diverges; the guard restores the best table and
-// halves the weight, after which it converges.
+// w = 2.1 without smoothing diverges; the guard restores the best table and halves the weight,
+// after which it converges.
 TEST(LearningGuard, StopsAWeightThatDiverges) {
   Random random;
   const Plant plant(random);

@@ -21,7 +21,7 @@ class Offsets {
     state.fresh = state.homed = true;
     state.stroke = Direction::forward;
     StrokeOffsetSettings settings;
-    settings.rate = 1'000'000;  // at once, unless a test says otherwise
+    settings.rate = 1'000'000;  // at once, unless a test sets another
     EXPECT_TRUE(unit->configure(settings).ok());
   }
 

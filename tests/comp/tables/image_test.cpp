@@ -176,7 +176,7 @@ TEST(Image, LayoutIsAsDocumented) {
   EXPECT_EQ(u32(28), 1'800'000'000U);
   EXPECT_EQ(u32(32), 0U);
   EXPECT_EQ(u32(bytes.size() - 4), slow_crc(bytes.data(), bytes.size() - 4));
-  // the stored float is where image_value_offset says
+  // the stored float is at image_value_offset
   for (const std::size_t axis : {0U, 2U, 3U}) {
     const std::uint32_t raw = u32(image_value_offset(in, axis, 1, 7, 4));
     float value = 0.0F;
@@ -347,7 +347,7 @@ TEST(Image, TablesThatDoNotFillTheImageAreRefused) {
   }
 }
 
-// A node folds the bytes of an image, the host its numbers: the tick cannot tell.
+// A node folds the bytes of an image, the host its numbers: the same for the tick.
 TEST(Image, TheViewFoldsLikeTheTables) {
   Random random(99);
   SCOPED_TRACE(random.trace());

@@ -1,6 +1,7 @@
-// The tables in memory and whose they are: a bit that flips is found by the background scrub,
-// tables of another machine never become active.
+// The tables in memory and their machine: a bit that flips is found by the background scrub, tables
+// of another machine never become active.
 
+#include <algorithm>
 #include <cstring>
 
 #include "tests/oracle/tick_bench.hpp"
@@ -69,6 +70,132 @@ TEST_F(TableMemory, OneFlippedBitRampsTheCorrectionDown) {
     runner.tick(kSomewhere);
   EXPECT_EQ(runner.out.offset[0], before);
   EXPECT_EQ(runner.out.status[0] & kTableDamaged, 0);
+}
+
+// --- in slices
+
+// All the tick works with, and the sizes of it: one bit of each.
+class ScrubInSlices : public TableMemory {
+ protected:
+  static constexpr std::size_t kSlice = 128;
+  // What is behind the place that is just being read waits for the end of the next pass.
+  static constexpr std::size_t kMostCalls = 2 * (LoadedCompensator::kScrubBytes / kSlice + 2);
+
+  void SetUp() override {
+    for (AxisLimits& axis : settings.axis)
+      axis = {4'123'457, 7'654'321, 654'321, 12'347, 1'234'567'891'011};
+    ASSERT_TRUE(runner.start(tables, settings).ok());
+    for (int n = 0; n < 300; ++n)
+      runner.tick(kSomewhere);
+    ASSERT_NE(runner.out.status[0] & kValid, 0);
+  }
+
+  unsigned char* memory() { return reinterpret_cast<unsigned char*>(runner.compensator.get()); }
+  // Where the compensator has these bytes.
+  template <class Value>
+  std::vector<std::size_t> places(const Value& value) {
+    std::vector<std::size_t> found;
+    for (std::size_t at = 0; at + sizeof value <= sizeof *runner.compensator; at += 4) {
+      if (std::memcmp(memory() + at, &value, sizeof value) == 0) found.push_back(at);
+    }
+    return found;
+  }
+  // After how many calls the scrub sees this bit, beginning anywhere; then all is as before.
+  std::size_t calls_to_find(std::size_t at, unsigned bit) {
+    for (std::int64_t ahead = random.integer(0, static_cast<std::int64_t>(kMostCalls)); ahead > 0;
+         --ahead)
+      EXPECT_TRUE(runner.compensator->scrub(kSlice).ok());
+    const auto flip = static_cast<unsigned char>(1U << bit);
+    memory()[at] ^= flip;
+    std::size_t calls = 1;
+    while (calls <= kMostCalls && runner.compensator->scrub(kSlice).ok())
+      ++calls;
+    memory()[at] ^= flip;
+    runner.tick(kSomewhere);  // takes the deactivation
+    EXPECT_TRUE(runner.swap(tables).ok());
+    runner.tick(kSomewhere);
+    EXPECT_TRUE(runner.compensator->active());
+    return calls;
+  }
+
+  CompensatorSettings<5> settings = open_settings<5>();
+};
+
+TEST_F(ScrubInSlices, FindsNothingInHealthyMemoryWhateverTheSlice) {
+  for (const std::size_t slice : {std::size_t{1}, std::size_t{7}, kSlice, std::size_t{1} << 20U}) {
+    for (std::size_t bytes = 0; bytes < 3 * LoadedCompensator::kScrubBytes; bytes += slice)
+      ASSERT_TRUE(runner.compensator->scrub(slice).ok());
+    runner.tick(kSomewhere);
+    EXPECT_NE(runner.out.status[0] & kValid, 0);
+  }
+}
+
+TEST_F(ScrubInSlices, FindABitOfTheTables) {
+  const float angle = -tables.axis[0].value[0][3][4];
+  const std::vector<std::size_t> all = places(angle);
+  ASSERT_FALSE(all.empty());
+  // It may lie in the spare half; the tables staged in between then lie there, and it in use.
+  for (unsigned byte = 0; byte < 4; ++byte) {
+    const std::size_t calls = calls_to_find(all[0] + byte, 3);
+    EXPECT_LE(std::min(calls, calls_to_find(all[0] + byte, 3)), kMostCalls);
+  }
+}
+
+TEST_F(ScrubInSlices, FindABitOfTheChain) {
+  const auto* const chain =
+      reinterpret_cast<const unsigned char*>(&runner.compensator->machine().chain);
+  const auto at = static_cast<std::size_t>(chain - memory());
+  for (std::size_t byte = 0; byte < sizeof(RuntimeChain); byte += 61)
+    ASSERT_LE(calls_to_find(at + byte, byte % 8), kMostCalls) << byte;
+}
+
+// Once as configured, once as the tick takes it.
+TEST_F(ScrubInSlices, FindABitOfSettingsAndOfWhatIsDerivedFromThem) {
+  const auto find = [&](const auto& value, std::size_t least) {
+    const std::vector<std::size_t> all = places(value);
+    EXPECT_GE(all.size(), least);
+    for (const std::size_t at : all) {
+      for (unsigned bit = 0; bit < 8 * sizeof value; bit += 13)
+        ASSERT_LE(calls_to_find(at + bit / 8, bit % 8), kMostCalls) << at << " bit " << bit;
+    }
+  };
+  constexpr std::size_t kAxes = 5;
+  find(settings.axis[0].limit, kAxes);
+  find(Magnitude(static_cast<float>(settings.axis[0].limit)), kAxes);
+  find(settings.axis[0].rate, 2 * kAxes);
+  find(settings.axis[0].soft_rate, 2 * kAxes);
+  find(settings.axis[0].hysteresis, 2 * kAxes);
+  find(settings.axis[0].max_step, kAxes);
+}
+
+// Staging writes the hysteresis of the axes anew; it must not confirm a setting that is damaged.
+TEST_F(ScrubInSlices, StagingHidesNoDamagedSetting) {
+  std::vector<std::size_t> settings_at = places(settings.axis[0].limit);
+  for (const std::int32_t value : {settings.axis[0].rate, settings.axis[0].hysteresis})
+    for (const std::size_t at : places(value))
+      settings_at.push_back(at);
+  ASSERT_GE(settings_at.size(), std::size_t{5 + 10 + 10});
+  for (const std::size_t at : settings_at) {
+    const unsigned char healthy = memory()[at];
+    memory()[at] ^= 4U;
+    ASSERT_TRUE(runner.swap(tables).ok());
+    runner.tick(kSomewhere);
+    const bool written_anew = memory()[at] == healthy;
+    EXPECT_EQ(runner.compensator->scrub().ok(), written_anew) << at;
+    memory()[at] = healthy;
+    runner.tick(kSomewhere);  // takes the deactivation
+  }
+}
+
+// New tables change nothing about a damaged chain.
+TEST_F(ScrubInSlices, SaysWhatIsDamaged) {
+  const auto* const chain =
+      reinterpret_cast<const unsigned char*>(&runner.compensator->machine().chain);
+  const auto at = static_cast<std::size_t>(chain - memory());
+  memory()[at + 20] ^= 1U;
+  const Status status = runner.compensator->scrub();
+  EXPECT_EQ(status.reason, Reason::crc_mismatch);
+  EXPECT_STREQ(status.where.field, "machine");
 }
 
 TEST_F(TableMemory, TablesOfAnotherMachineIdAreRefused) {

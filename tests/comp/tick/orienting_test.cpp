@@ -135,7 +135,7 @@ TEST(Orienting, PointAndDirectionOfTheToolAreHeld) {
   EXPECT_GT(held, kManyPoints / 100);
 }
 
-// Of the first order of the model: the odd part of its turns.
+// Orientation to the first order of the model: the odd part of its turns.
 Vec3 orientation_of(MachineModel& model, const MachineChain& chain, const Positions& q) {
   const Real3 plus = model.tool_in_work(1).axis;
   const Real3 minus = model.tool_in_work(-1).axis;

@@ -67,7 +67,7 @@ TEST(PositionSource, TargetModeSettlesOnTheFixedPoint) {
   EXPECT_GT(one_shot, 10.0) << "the tables must tell target mode from actual mode";
 }
 
-// In motion the residual is at most ‖J‖·‖E_k − E_(k−1)‖ (seed 001 section 6), plus rounding.
+// In motion the residual is at most ‖J‖·‖E_k − E_(k−1)‖, plus rounding.
 TEST(PositionSource, TargetModeTracksWithinTheBound) {
   Random random(72);
   SCOPED_TRACE(random.trace());
@@ -100,7 +100,7 @@ TEST(PositionSource, TargetModeTracksWithinTheBound) {
   }
 }
 
-// The sign that decides everything: the corrected machine is where it was told to be.
+// The sign that decides everything: the corrected machine is where it was commanded to be.
 TEST(PositionSource, MotionSubtractsTheError) {
   MachineTables tables;
   tables.machine = kXyfzMachine;

@@ -1,5 +1,5 @@
 // Machines with rotary axes: tick against the exact chain in long double, offsets against the
-// closed formulas of seed 000, exact wrap-around of turning axes, and poses without authority.
+// closed formulas of the L300G, exact wrap-around of turning axes, and poses without authority.
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr double kArm_mm = 173.7135;  // L_R of seed 000
+constexpr double kArm_mm = 173.7135;  // L_R of docs/papers/l300g.md
 constexpr Real kWirePerRad = 4294967296.0L / (2 * 3.14159265358979323846264338327950288L);
 
 // Probe arm on B on Y on X; the gear turns on A. X, Y and B correct.
@@ -191,7 +191,7 @@ TEST(RotaryChain, ExtremePositionsOfTurningAxesAreSafe) {
   }
 }
 
-// |cos θ| < 0.1: X, Y and B cannot correct Z; everything is held and says so, then resumes.
+// |cos θ| < 0.1: X, Y and B cannot correct Z; everything is held and reported, then resumes.
 TEST(RotaryChain, WithoutAuthorityEverythingIsHeld) {
   Random random(24);
   SCOPED_TRACE(random.trace());

@@ -185,7 +185,7 @@ TEST_F(Staging, ADeactivationOvertakesAnActivation) {
   EXPECT_EQ(runner.compensator->diagnostics().active_crc, 3U);
 }
 
-// While a set waits, nobody can say which one is to be judged.
+// While a set waits, it is undefined which one is to be judged.
 TEST_F(Staging, NothingIsScrubbedOrViewedWhileAHandOverIsPending) {
   TablesView view;
   ASSERT_TRUE(view_tables(good, view).ok());

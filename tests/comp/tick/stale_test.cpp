@@ -55,7 +55,7 @@ class Stale : public ::testing::Test {
 TEST_F(Stale, HoldsThenDropsSoftlyThenComesBackSoftly) {
   runner.in.axis[0].valid = false;
   for (int n = 1; n <= kDropTicks; ++n) {
-    runner.tick({900'000'000, 0, 0, 0, 0});  // whatever it says, it is not valid
+    runner.tick({900'000'000, 0, 0, 0, 0});  // whatever its value, it is not valid
     ASSERT_EQ(x(), 40'000) << "stale tick " << n;
     ASSERT_EQ(status() & (kStale | kDropped | kValid), kStale);
     ASSERT_EQ(y(), 30'000) << "other axes go on";

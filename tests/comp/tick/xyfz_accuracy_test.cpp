@@ -9,7 +9,8 @@
 namespace volcomp::test {
 namespace {
 
-// Form A of seed 001 section 2.1 in closed form: relative errors, reading heads as origins.
+// The first-order sum in closed form: relative errors, reading heads as origins
+// (docs/papers/xyfz.md).
 class FormA {
  public:
   explicit FormA(const MachineTables& tables) : tables_(tables) {}
@@ -106,7 +107,7 @@ TEST(XyfzAccuracy, AMillionPointsBelow1nmAndCompiledInEqualsLoaded) {
   }
 }
 
-// Before rounding the arithmetic error is at most 8·2^-24·S (seed 001, embedded, section 4).
+// Before rounding the arithmetic error is at most 8·2^-24·S (FoldReport::bound_nm).
 TEST(XyfzAccuracy, ArithmeticErrorIsWithinTheProvenBound) {
   Random random(1);
   SCOPED_TRACE(random.trace());

@@ -57,7 +57,7 @@ TEST_F(EmergencyMessages, ErrorMayComeBack) {
   EXPECT_THAT(sent(), SizeIs(3));
 }
 
-// More errors than are kept at a time: the first stay, the others are not reported until there is
+// More errors than are stored at a time: the first stay, the others are not reported until there is
 // room again.
 TEST_F(EmergencyMessages, ErrorsBeyondTheRoomForThemAreNotReported) {
   constexpr std::uint8_t kRoom = 64;

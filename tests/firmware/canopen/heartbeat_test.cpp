@@ -111,15 +111,21 @@ TEST_F(HeartbeatConsumption, SecondEntryForANodeIsRefused) {
   EXPECT_EQ(write({0x1016, 5}, 0x0004'0064, 4), AbortCode::none) << "another node";
 }
 
-TEST_F(HeartbeatConsumption, NodesBeyond127AreRefused) {
-  EXPECT_EQ(write({0x1016, 1}, 0x0080'0064, 4), AbortCode::value_too_high);
-}
-
-// CiA 301, 7.5.2.17: such an entry is not used.
-TEST_F(HeartbeatConsumption, EntriesOfNode0AreNotUsed) {
-  EXPECT_EQ(write({0x1016, 1}, 0x0000'0064, 4), AbortCode::none);
-  EXPECT_EQ(write({0x1016, 3}, 0x0000'0064, 4), AbortCode::none) << "no second one of a node";
-  EXPECT_THAT(sent_after_ms(1000), IsEmpty());
+// CiA 301, 7.5.2.17: time 0, node 0 and nodes above 127 mark an entry as not used; bits 24 to 31
+// are reserved.
+TEST_F(HeartbeatConsumption, EntriesThatAreNotUsedAreTaken) {
+  constexpr std::array<std::uint32_t, 7> kNotUsed{
+      0, 0x0000'0064, 0x0080'0064, 0x0083'0064, 0x00FF'FFFF, 0x0080'0000, 0x0003'0000};
+  for (const std::uint32_t entry : kNotUsed) {
+    for (const std::uint8_t sub : std::array<std::uint8_t, 2>{1, 3}) {  // none is a second one
+      EXPECT_EQ(write({0x1016, sub}, entry, 4), AbortCode::none) << std::hex << entry;
+      EXPECT_EQ(value_of({0x1016, sub}), entry);
+    }
+    receive(0x700, {5});
+    receive(0x77F, {5});
+    EXPECT_THAT(sent_after_ms(1000), IsEmpty()) << std::hex << entry;
+  }
+  EXPECT_EQ(write({0x1016, 1}, 0x0100'0000, 4), AbortCode::value_too_high);
 }
 
 // CiA 301, 7.5.2.17: of others.

@@ -1,5 +1,5 @@
 // Network management (CiA 301, section 7.3.2): what a device does at which command, and what it may
-// say in which state.
+// send in which state.
 
 #include "tests/firmware/canopen/test_device.hpp"
 
@@ -13,12 +13,12 @@ class Nmt : public DeviceTest {
  protected:
   static constexpr std::uint16_t kTpdo = 0x185;
 
-  // TPDO 1 says at every SYNC what 6041h is.
+  // TPDO 1 reports 6041h at every SYNC.
   void map_synchronous_tpdo() {
     ASSERT_EQ(write({0x1A00, 1}, 0x6041'0010, 4), AbortCode::none);
     ASSERT_EQ(write({0x1A00, 0}, 1, 1), AbortCode::none);
     ASSERT_EQ(write({0x1800, 2}, 1, 1), AbortCode::none);
-    ASSERT_EQ(write({0x1800, 1}, kTpdo, 4), AbortCode::none);
+    ASSERT_EQ(write({0x1800, 1}, kPdoNoRtr | kTpdo, 4), AbortCode::none);
   }
 };
 

@@ -90,7 +90,7 @@ TEST_F(Objects, LengthIsThatOfTheType) {
   EXPECT_EQ(objects.word, 0);
 }
 
-// CiA 301, section 7.2.4.3: with s = 0 the number of bytes is not said; the object's own counts.
+// CiA 301, section 7.2.4.3: with s = 0 the number of bytes is not stated; the object's own counts.
 TEST_F(Objects, ExpeditedWriteMayLeaveItsLengthOpen) {
   receive(0x605, {0x22, 0x00, 0x20, 0, 100, 0, 0, 0});
   EXPECT_THAT(sent(), ElementsAre(frame(0x585, {0x60, 0x00, 0x20, 0, 0, 0, 0, 0})));

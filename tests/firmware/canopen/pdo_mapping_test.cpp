@@ -55,17 +55,18 @@ TEST_F(PdoMapping, EntriesChangeOnlyWithCountZero) {
   expect_done({0x1600, 1}, kControl, 4);
 }
 
-// Asked directly, without the lookup that a transfer makes before.
+// Called directly, without the lookup that a transfer makes before.
 TEST_F(PdoMapping, TheTableItselfRefusesWhatIsNotThere) {
   const ObjectDictionary nothing({}, nullptr);
-  PdoTable table({rpdos.data(), rpdos.size()}, {tpdos.data(), tpdos.size()}, 0, nothing);
+  PdoTable table({rpdos.data(), rpdos.size()}, {tpdos.data(), tpdos.size()}, {}, nothing);
   PdoTable::Value value;
+  constexpr std::array<std::uint8_t, 4> zeros{};
   EXPECT_EQ(table.read({0x2000, 0}, value), AbortCode::no_object);
-  EXPECT_EQ(table.write({0x2000, 0}, 0), AbortCode::no_object);
-  EXPECT_EQ(table.write({0x1400, 3}, 0), AbortCode::no_subindex) << "no inhibit time";
-  EXPECT_EQ(table.write({0x1400, 5}, 0), AbortCode::no_subindex) << "no event timer";
-  EXPECT_EQ(table.write({0x1800, 4}, 0), AbortCode::no_subindex);
-  EXPECT_EQ(table.write({0x1600, 9}, 0), AbortCode::no_subindex);
+  EXPECT_EQ(table.write({0x2000, 0}, zeros, false), AbortCode::no_object);
+  EXPECT_EQ(table.write({0x1400, 3}, zeros, false), AbortCode::no_subindex) << "no inhibit time";
+  EXPECT_EQ(table.write({0x1400, 5}, zeros, false), AbortCode::no_subindex) << "no event timer";
+  EXPECT_EQ(table.write({0x1800, 4}, zeros, false), AbortCode::no_subindex);
+  EXPECT_EQ(table.write({0x1600, 9}, zeros, false), AbortCode::no_subindex);
 }
 
 TEST_F(PdoMapping, ObjectsThatDoNotExistAreRefused) {
@@ -121,28 +122,42 @@ TEST_F(PdoMapping, DummiesSkipBytesOfAnRpdo) {
 TEST_F(PdoMapping, RestrictedIdentifiersAreRefused) {
   for (const std::uint32_t id : {0x000U, 0x001U, 0x07FU, 0x101U, 0x180U, 0x581U, 0x5FFU, 0x601U,
                                  0x67FU, 0x6E0U, 0x6FFU, 0x701U, 0x77FU, 0x780U, 0x7FFU})
-    EXPECT_EQ(write({0x1800, 1}, id, 4), AbortCode::invalid_value) << std::hex << id;
+    EXPECT_EQ(write({0x1800, 1}, kPdoNoRtr | id, 4), AbortCode::invalid_value) << std::hex << id;
   EXPECT_EQ(static_cast<std::uint32_t>(AbortCode::invalid_value), 0x0609'0030U);
 }
 
 TEST_F(PdoMapping, OtherIdentifiersAreAccepted) {
   for (const std::uint32_t id : {0x181U, 0x57FU, 0x680U, 0x6DFU}) {
-    expect_done({0x1800, 1}, id, 4);
-    expect_done({0x1800, 1}, 0x8000'0000U | id, 4);
+    expect_done({0x1800, 1}, kPdoNoRtr | id, 4);
+    expect_done({0x1800, 1}, kPdoInvalid | id, 4);
   }
 }
 
 TEST_F(PdoMapping, ExtendedIdentifiersAreRefused) {
-  EXPECT_EQ(write({0x1800, 1}, 0x2000'0185, 4), AbortCode::invalid_value);
-  EXPECT_EQ(write({0x1800, 1}, 0x0000'0985, 4), AbortCode::invalid_value);
+  EXPECT_EQ(write({0x1800, 1}, 0x6000'0185, 4), AbortCode::invalid_value);
+  EXPECT_EQ(write({0x1800, 1}, 0x4000'0985, 4), AbortCode::invalid_value);
 }
 
 TEST_F(PdoMapping, IdentifierOfAValidPdoIsFixed) {
-  expect_done({0x1800, 1}, 0x185, 4);
-  EXPECT_EQ(write({0x1800, 1}, 0x186, 4), AbortCode::invalid_value);
-  expect_done({0x1800, 1}, 0x185, 4);
-  expect_done({0x1800, 1}, 0x8000'0185, 4);
-  expect_done({0x1800, 1}, 0x186, 4);
+  expect_done({0x1800, 1}, 0x4000'0185, 4);
+  EXPECT_EQ(write({0x1800, 1}, 0x4000'0186, 4), AbortCode::invalid_value);
+  expect_done({0x1800, 1}, 0x4000'0185, 4);
+  expect_done({0x1800, 1}, 0xC000'0185, 4);
+  expect_done({0x1800, 1}, 0x4000'0186, 4);
+}
+
+// CiA 301, 7.5.2.37: bit 30 = 0 promises an answer to remote requests, which no port receives. In a
+// TPDO that is off it promises nothing.
+TEST_F(PdoMapping, RemoteRequestsAreNotPromised) {
+  for (std::uint16_t tpdo = 0x1800; tpdo < 0x1803; ++tpdo) {
+    expect_done({tpdo, 1}, 0x8000'0185, 4);
+    EXPECT_EQ(write({tpdo, 1}, 0x185, 4), AbortCode::invalid_value);
+    EXPECT_EQ(value_of({tpdo, 1}), 0x8000'0185U);
+    expect_done({tpdo, 1}, 0x4000'0185, 4);
+    EXPECT_EQ(write({tpdo, 1}, 0x185, 4), AbortCode::invalid_value);
+    EXPECT_EQ(value_of({tpdo, 1}), 0x4000'0185U);
+  }
+  expect_done({0x1400, 1}, 0x205, 4);
 }
 
 TEST_F(PdoMapping, ReservedTransmissionTypesAreRefused) {
@@ -155,7 +170,7 @@ TEST_F(PdoMapping, ReservedTransmissionTypesAreRefused) {
 
 TEST_F(PdoMapping, InhibitTimeOfAValidPdoIsFixed) {
   expect_done({0x1800, 3}, 100, 2);
-  expect_done({0x1800, 1}, 0x185, 4);
+  expect_done({0x1800, 1}, 0x4000'0185, 4);
   EXPECT_EQ(write({0x1800, 3}, 200, 2), AbortCode::unsupported_access);
   EXPECT_EQ(value_of({0x1800, 3}), 100U);
 }
@@ -183,7 +198,7 @@ TEST_F(PdoMapping, WhatWaitedForAPdoGoesWithIt) {
   expect_done({0x1400, 1}, 0x205, 4);
   expect_done({0x1A00, 1}, kStatus, 4);
   expect_done({0x1A00, 0}, 1, 1);
-  expect_done({0x1800, 1}, 0x185, 4);
+  expect_done({0x1800, 1}, 0x4000'0185, 4);
   start();
   receive(0x205, {1, 0, 0, 0});
   device.trigger(0);

@@ -107,7 +107,7 @@ TEST_F(SdoClientFrames, BlockDownloadToAServerWithoutCrcInBlocksOfOne) {
   EXPECT_THAT(after({0xA2, 1, 1}), ElementsAre(SdoData{0xD5}));
 }
 
-// Until it hears an abort, a server drops what may be segments that are still under way.
+// Until it receives an abort, a server drops what may be segments that are still under way.
 TEST_F(SdoClientFrames, AbortByTheServerInsideABlockIsAnsweredWithAnAbort) {
   const SdoData too_long{0x80, 0x10, 0x21, 0x01, 0x12, 0x00, 0x07, 0x06};
   client.set_block_threshold(5);
@@ -189,7 +189,7 @@ TEST_F(SdoClientFrames, Timeout) {
   EXPECT_THAT(requests(), ElementsAre(SdoData{0x80, 0x10, 0x21, 0x01, 0x00, 0x00, 0x04, 0x05}));
 }
 
-// 127 frames at 10 kbit/s take 1.6 s, in which the server has nothing to say.
+// 127 frames at 10 kbit/s take 1.6 s, in which the server has nothing to send.
 TEST_F(SdoClientFrames, ClientThatIsStillSendingDoesNotTimeOut) {
   client.set_block_threshold(5);
   download(pattern(28));
@@ -227,7 +227,7 @@ TEST_F(SdoClientFrames, AnswerAboutAnotherObjectIsPassedOver) {
   EXPECT_EQ(client.state(), State::done);
 }
 
-// Each case: the responses of a faulty server, and what the client says to them.
+// Each case: the responses of a faulty server, and the answer of the client to them.
 struct Fault {
   const char* name;
   bool upload;

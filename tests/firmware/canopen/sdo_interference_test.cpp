@@ -1,4 +1,5 @@
-// Two clients that use one server at the same time: the second one wins, the first one is told.
+// Two clients that use one server at the same time: the second one wins, the first one gets an
+// abort.
 
 #include "tests/firmware/canopen/sdo_support.hpp"
 

@@ -77,7 +77,7 @@ TEST_F(SdoServerBlocks, DownloadOfNothing) {
   EXPECT_TRUE(object.value.empty());
 }
 
-// A confirmation nobody asked for would make a client with a queue send the same segments twice.
+// An unrequested confirmation would make a client with a queue send the same segments twice.
 TEST_F(SdoServerBlocks, LostEndOfABlockEndsTheTransferInTime) {
   objects.add(kObject, 9);
   ask(server, {0xC6, 0x10, 0x21, 0x01, 9}, 0);
@@ -148,7 +148,7 @@ TEST_F(SdoServerBlocks, UploadUpToTheSwitchThresholdIsANormalOne) {
               ElementsAre(SdoData{0x4B, 0x10, 0x21, 0x01, 0x11, 0x22}));
 }
 
-// 127 frames at 10 kbit/s take 1.6 s, in which the client has nothing to say.
+// 127 frames at 10 kbit/s take 1.6 s, in which the client has nothing to send.
 TEST_F(SdoServerBlocks, ServerThatIsStillSendingDoesNotTimeOut) {
   objects.add(kObject, 28, pattern(28));
   ask(server, {0xA4, 0x10, 0x21, 0x01, 127, 0});

@@ -70,7 +70,7 @@ class Line {
 
   Line(SdoClient& client, SdoServer& server) : client_(client), server_(server) {}
 
-  // Every frame in one direction is lost for which this says so.
+  // Every frame in one direction is lost for which this returns true.
   Loss lose_request = [](const SdoData&) { return false; };
   Loss lose_response = [](const SdoData&) { return false; };
 

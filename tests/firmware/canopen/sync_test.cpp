@@ -266,8 +266,24 @@ TEST_F(SyncOfDevice, OverflowIsFixedWhileThereIsACyclePeriod) {
 // CiA 301, table 40; 081h is EMCY of node 1.
 TEST_F(SyncOfDevice, RestrictedIdentifiersAreRefused) {
   for (const std::uint32_t id :
-       {0x000U, 0x07FU, 0x081U, 0x0FFU, 0x101U, 0x180U, 0x581U, 0x67FU, 0x6E0U, 0x701U, 0x7FFU})
+       {0x000U, 0x07FU, 0x100U, 0x101U, 0x180U, 0x581U, 0x67FU, 0x6E0U, 0x701U, 0x7FFU})
     EXPECT_EQ(write({0x1005, 0}, id, 4), AbortCode::invalid_value) << std::hex << id;
+}
+
+// CiA 301, table 40 restricts none of 080h to 0FFh; on its own EMCY the device sends something
+// else.
+TEST_F(SyncOfDevice, IdentifiersOfEmergenciesOfOthersMayBeSync) {
+  for (std::uint32_t id = 0x080; id <= 0x0FF; ++id) {
+    const AbortCode expected = id == 0x080U + kNode ? AbortCode::invalid_value : AbortCode::none;
+    EXPECT_EQ(write({0x1005, 0}, id, 4), expected) << std::hex << id;
+  }
+  ASSERT_EQ(write({0x1005, 0}, 0x081, 4), AbortCode::none);
+  EXPECT_EQ(value_of({0x1005, 0}), 0x081U);
+  start();
+  receive(0x080, {});
+  EXPECT_THAT(application.sync_counters, IsEmpty());
+  receive(0x081, {});
+  EXPECT_THAT(application.sync_counters, SizeIs(1));
 }
 
 }  // namespace

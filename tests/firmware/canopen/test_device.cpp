@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "firmware/canopen/bytes.hpp"
+#include "firmware/canopen/device.inl"
 
 namespace volcomp::canopen::test {
 namespace {
@@ -79,12 +80,6 @@ bool TestApplication::heartbeat(std::uint8_t node, HeartbeatEvent event, std::ui
 }
 
 void TestApplication::bad_sync(SyncVerdict verdict, std::uint64_t) { bad_syncs.push_back(verdict); }
-
-AbortCode TestApplication::before_write(ObjectId, const Entry&, Span<const std::uint8_t>) {
-  return AbortCode::none;
-}
-void TestApplication::written(ObjectId, std::uint64_t) {}
-void TestApplication::before_read(ObjectId) {}
 
 AbortCode TestApplication::read_domain(ObjectId, Span<const std::uint8_t>& source) {
   source = {domain.data(), domain_size};
@@ -188,3 +183,9 @@ AbortCode DeviceTest::refusal_of(ObjectId object) {
 }
 
 }  // namespace volcomp::canopen::test
+
+namespace volcomp::canopen {
+
+template class Device<test::TestApplication>;
+
+}  // namespace volcomp::canopen

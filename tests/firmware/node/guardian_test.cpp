@@ -1,4 +1,4 @@
-// The guardian: who hangs, what happens to the corrections, and when the watchdog bites.
+// The guardian: which context hangs, what happens to the corrections, and when the watchdog bites.
 
 #include "firmware/canopen/bytes.hpp"
 #include "tests/firmware/node/task_bench.hpp"

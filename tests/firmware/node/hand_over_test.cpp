@@ -39,7 +39,8 @@ using Offsets = std::array<double, kAxes>;
 using Points = std::array<std::array<std::int64_t, kMaxAxes>, kPoints>;
 using Wanted = std::array<Offsets, kPoints>;  // at the points, without limits
 
-// Strokes of the machine of seed 001; the same in both directions, so that no history matters.
+// Strokes of the XYFZ machine (docs/papers/xyfz.md); the same in both directions, so that no
+// history matters.
 MachineTables small_tables(std::uint64_t seed) {
   Random random(seed);
   MachineTables tables = xyfz_tables(20e3, 2e-5, random);
@@ -80,7 +81,7 @@ double ramp_after(int ticks) {
   return u * u * u * (10.0 + u * (6.0 * u - 15.0));
 }
 
-// A compensator whose every tick is judged.
+// A compensator with a check of every tick.
 class JudgedMachine {
  public:
   static constexpr std::uint32_t kA = 0xA;
@@ -107,7 +108,7 @@ class JudgedMachine {
     EXPECT_TRUE(small.activate().ok());
   }
 
-  // Prepares a tick, runs it, judges it; together, or in parts for those who look into the middle.
+  // Prepares a tick, runs it, judges it; together, or in parts for a look into the middle.
   void tick() {
     choose_point();
     run();
@@ -153,7 +154,7 @@ class JudgedMachine {
   Small small{LoadedMachine<kAxes>{make_runtime_chain(kXyfzMachine)}};
 
  private:
-  // The tables whose turn it is begin with the tick that took them over.
+  // The tables due next begin with the tick that took them over.
   void note_change() {
     const std::uint32_t now = small.active() ? small.diagnostics().active_crc : 0U;
     const std::uint32_t activations = small.diagnostics().activations;

@@ -87,7 +87,7 @@ void NodeBench::power_on() {
 }
 
 void NodeBench::give(const hal::CanFrame& f) {
-  node->receive(f, now_us);
+  node->device().receive(f, now_us);
   drain();
 }
 
@@ -95,15 +95,15 @@ void NodeBench::wait(std::uint64_t us) {
   constexpr std::uint64_t kStep_us = 100;
   for (const std::uint64_t end = now_us + us; now_us < end;) {
     now_us += kStep_us;
-    node->poll(now_us);
+    node->device().poll(now_us);
     drain();
   }
 }
 
 void NodeBench::drain() {
   hal::CanFrame f;
-  while (node->offer(f, now_us)) {
-    node->taken(now_us);
+  while (node->device().offer(f, now_us) && !port_full) {
+    node->device().taken(now_us);
     hear(f, now_us);
     if (f.id != canopen::kSdoResponse + kId) sent.push_back(f);
     for (std::size_t a = 0; a < kDrives; ++a) {

@@ -15,13 +15,13 @@ namespace volcomp::node {
 using Bytes = std::vector<std::uint8_t>;
 
 [[nodiscard]] Bytes image_of(const MachineTables& tables);
-// CRCs of the axes and of the image made right again after a field was tampered with; `tables` says
-// how long the axes are.
+// Makes the CRCs of the axes and of the image right again after a field was tampered with; `tables`
+// gives the lengths of the axes.
 void reseal(Bytes& image, const MachineTables& tables);
 // First byte of the block of an axis: q0 i64, pitch i64, knots u32, periodic u8 …
 [[nodiscard]] std::size_t axis_at(const MachineTables& tables, std::size_t axis);
 
-// Random tables of the machine of seed 001, every offset below a few µm.
+// Random tables of the XYFZ machine (docs/papers/xyfz.md), every offset below a few µm.
 [[nodiscard]] MachineTables bench_tables(std::uint64_t seed = 0);
 
 struct BenchEmergency {
@@ -97,7 +97,7 @@ class NodeBench final : public BenchDevice {
 
   canopen::AbortCode write(canopen::ObjectId object, const Bytes& value) override;
   canopen::AbortCode read(canopen::ObjectId object, Bytes& value);
-  // Of an object that must be readable.
+  // The value of an object that must be readable.
   std::uint64_t number(std::uint16_t index, std::uint8_t sub);
   std::string text(std::uint16_t index, std::uint8_t sub);
 
@@ -110,7 +110,7 @@ class NodeBench final : public BenchDevice {
   // SYNC, then what drives and controller send, then the deadline.
   void cycle();
   void cycles(int count);
-  // The steps of a cycle, for those who want another order.
+  // The steps of a cycle, for another order.
   void sync();
   void drive_data(std::size_t axis);
   void offset_report(std::size_t axis);
@@ -127,6 +127,7 @@ class NodeBench final : public BenchDevice {
   std::vector<hal::CanFrame> sent;  // since the last SYNC, without SDO
   std::uint64_t now_us = 0;
   std::int32_t largest_step = 0;  // of an offset a drive took in
+  bool port_full = false;         // takes nothing that the node offers
 
  private:
   void drain();

@@ -1,9 +1,9 @@
 // The interrupt comes after every single machine instruction of the background at which it can
 // come, while tables are downloaded, checked, folded and activated, while they are scrubbed, and
-// while the node is reset. What the node says is then compared, turn by turn and bit by bit, with a
-// node in one context that was told the same.
+// while the node is reset. What the node sends is then compared, turn by turn and bit by bit, with
+// a node in one context that received the same.
 //
-// Of long work it is the first instructions of every scope in which the interrupt is let in, and
+// In long work it is the first instructions of every scope in which the interrupt is let in, and
 // the way out of it; with VOLCOMP_TEST_ALL_STEPS=1 in the environment it is all of them, which
 // takes minutes. (What folding and scrubbing do to the tick is stepped through to the end in
 // hand_over_test.cpp.) Firmware uses no heap, so whatever instruction was interrupted, the handler
@@ -134,7 +134,7 @@ class FixedStorage final : public Storage {
     if (parameters_.size == 0) return StoreResult::nothing_stored;
     parameters_.give(parameters);
     if (image.data() != nullptr) image_.give(image);
-    return StoreResult::loaded_older;  // said by an emergency as soon as the node may speak
+    return StoreResult::loaded_older;  // reported by an emergency as soon as the node may send
   }
   StoreResult erase() override { return StoreResult::done; }
 

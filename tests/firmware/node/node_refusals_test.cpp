@@ -1,6 +1,6 @@
 // Everything that can be wrong with a table image or with the moment of a command: the reason, the
 // place and the sentence over SDO, the emergency message, and tables that go on as if nothing had
-// happened (seed 001, section 5).
+// happened.
 
 #include <limits>
 
@@ -23,7 +23,7 @@ class NodeRefusals : public ::testing::Test {
  protected:
   NodeRefusals() { bench.bring_up(good); }
 
-  // The node keeps its tables, says why it refuses others, and takes good ones afterwards.
+  // The node keeps its tables, reports why it refuses others, and takes good ones afterwards.
   void expect_refused(const Bytes& bad, Reason reason, char axis = '\0', int index = -1,
                       int channel = -1) {
     const auto before = bench.offsets();
@@ -307,6 +307,41 @@ TEST(NodeCommands, CycleAndSupervisionAreFixedInOperation) {
   EXPECT_EQ(bench.set<std::uint32_t>(0x1006, 0, 4000), AbortCode::none);
   EXPECT_EQ(bench.set<std::uint16_t>(0x1017, 0, 200), AbortCode::none);
   EXPECT_EQ(bench.set<std::uint8_t>(0x1029, 1, 1), AbortCode::none);
+}
+
+// A PDO that is off or of another type takes the axis out of the cycle.
+TEST(NodeCommands, PdosOfTheCycleAreFixedInOperation) {
+  NodeBench bench;
+  bench.bring_up();
+  const auto expect_fixed = [&bench](std::size_t first, std::size_t count) {
+    for (std::size_t pdo = first; pdo < first + count; ++pdo) {
+      const auto index = static_cast<std::uint16_t>(pdo);
+      const auto cob_id = static_cast<std::uint32_t>(bench.number(index, 1));
+      EXPECT_EQ(bench.set<std::uint32_t>(index, 1, cob_id | 0x8000'0000U), AbortCode::device_state)
+          << index;
+      EXPECT_EQ(bench.set<std::uint8_t>(index, 2, 255), AbortCode::device_state) << index;
+      EXPECT_EQ(bench.number(index, 1), cob_id);
+    }
+  };
+  expect_fixed(0x1800, kNodeAxes);
+  expect_fixed(0x1400, kProcessStatePdo + 1);
+  bench.cycles(20);
+  EXPECT_EQ(bench.state(), NodeState::compensating);
+  const auto off = static_cast<std::uint32_t>(bench.number(0x1800, 1)) | 0x8000'0000U;
+  bench.nmt(NmtCommand::enter_pre_operational);
+  EXPECT_EQ(bench.set<std::uint32_t>(0x1800, 1, off), AbortCode::none);
+}
+
+// Temperatures come in a rhythm of their own; state and points are sent unasked.
+TEST(NodeCommands, OtherPdosMayChangeInOperation) {
+  NodeBench bench;
+  bench.bring_up();
+  for (const std::size_t pdo : {0x1400 + kTemperaturePdo, 0x1800 + kStatusPdo}) {
+    const auto index = static_cast<std::uint16_t>(pdo);
+    const auto cob_id = static_cast<std::uint32_t>(bench.number(index, 1));
+    EXPECT_EQ(bench.set<std::uint32_t>(index, 1, cob_id | 0x8000'0000U), AbortCode::none);
+    EXPECT_EQ(bench.set<std::uint32_t>(index, 1, cob_id), AbortCode::none);
+  }
 }
 
 TEST(NodeCommands, ASlewLimitBelowAUnitOfTheDriveIsRefused) {

@@ -1,5 +1,5 @@
 // What the node does with frames that are missing and values that can not be: status word 2601h,
-// emergency message, counter 2610h…, and the way back (seed 001, section 5).
+// emergency message, counter 2610h…, and the way back.
 
 #include "tests/firmware/node/node_bench.hpp"
 
@@ -171,7 +171,7 @@ TEST_F(NodeStatus, DirectionIsUnknownUntilTheAxisMoves) {
 
 // 2016h is what the drive holds: a drive that comes back with another offset is believed.
 TEST_F(NodeStatus, OffsetThatIsNotOursIsTakenOverAndLeftAtTheSlewLimit) {
-  bench.drive[kX].held = bench.drive[kX].next = 300'000;  // written by somebody else
+  bench.drive[kX].held = bench.drive[kX].next = 300'000;  // written by another station
   bench.cycle();
   EXPECT_EQ(bench.state(), NodeState::degraded);
   bench.cycles(4);

@@ -1,5 +1,5 @@
 // One interrupt and one background serve the node: what each of them does, in which order, and that
-// the bus cannot tell the difference.
+// the bus sees no difference.
 
 #include <algorithm>
 #include <functional>
@@ -59,7 +59,7 @@ NmtState nmt_state(const TaskBench& bench) { return bench.task->node().device().
 // --- the same on the bus
 
 // Everything that can be on a bus, at random: lost frames, drives that fall silent and return, NMT,
-// heartbeats, requests. A node in one context and a task are told the same; what they say is equal
+// heartbeats, requests. A node in one context and a task receive the same; what they send is equal
 // turn by turn, SDO responses apart: they leave one turn later.
 TEST(NodeTask, SaysWhatANodeInOneContextSays) {
   test::Random random(4711);
@@ -116,7 +116,7 @@ TEST(NodeTask, SaysWhatANodeInOneContextSays) {
     bench.task->on_timer_interrupt();
     while (bench.task->background_step()) {
     }
-    canopen::exchange(*single.node, port, bench.clock.us);
+    canopen::exchange(single.node->device(), port, bench.clock.us);
     ASSERT_EQ(others_of(bench.port.out), others_of(port.out)) << "turn " << turn;
     for (const hal::CanFrame& f : port.out)
       bus.hear(f);
@@ -132,7 +132,31 @@ TEST(NodeTask, SaysWhatANodeInOneContextSays) {
   EXPECT_GT(compensating, 500) << "the bus was never quiet enough to show anything";
 }
 
-// --- who serves what
+// --- which context serves what
+
+// A processor that is short of time would else serve one frame for every slice of the scrub, and
+// lose what comes meanwhile.
+TEST(NodeTask, TheScrubWaitsUntilWhatCameIsServed) {
+  TaskBench bench;
+  bench.turns(5);
+  constexpr int kSections = kWatchesStrokes ? 4 : 3;  // of a background step without a slice
+  int left = 0;
+  bench.section.on_leave = [&] { ++left; };
+  const auto scrubs = [&] {
+    left = 0;
+    bench.task->background_step();
+    return left > kSections;
+  };
+  for (int i = 0; i < 3; ++i)
+    bench.bus.put(sdo_read(0x1018, 1));
+  bench.interrupt();
+  for (int i = 0; i < 3; ++i)
+    EXPECT_FALSE(scrubs()) << "frame " << i;
+  EXPECT_FALSE(scrubs()) << "no interrupt has served since";
+  bench.interrupt();
+  EXPECT_TRUE(scrubs());
+  bench.section.on_leave = nullptr;
+}
 
 TEST(NodeTask, SdoIsServedByTheBackground) {
   TaskBench bench;
@@ -255,11 +279,11 @@ TEST(NodeTask, SectionIsNeverEnteredTwice) {
 // Initialisation (CiA 301, section 7.3.2.2.1): before it has ended a node is not on the bus.
 TEST(NodeTask, ANodeThatWasNotStartedNeitherHearsNorSays) {
   Node node(NodeBench::kId, nullptr);
-  node.receive({canopen::kNmt, 2, {1, NodeBench::kId}}, 1000);
-  node.receive(sdo_read(0x1000, 0), 1000);
-  node.poll(2'000'000);
+  node.device().receive({canopen::kNmt, 2, {1, NodeBench::kId}}, 1000);
+  node.device().receive(sdo_read(0x1000, 0), 1000);
+  node.device().poll(2'000'000);
   hal::CanFrame frame;
-  EXPECT_FALSE(node.offer(frame, 2'000'000));
+  EXPECT_FALSE(node.device().offer(frame, 2'000'000));
   EXPECT_EQ(node.device().state(), NmtState::boot_up);
 }
 

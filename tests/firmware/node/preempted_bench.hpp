@@ -1,6 +1,6 @@
 #pragma once
 // A node whose background is interrupted after single machine instructions (single_step.hpp), and
-// the node in one context that is told the same: what they say can be compared turn by turn.
+// the node in one context that receives the same: what they send can be compared turn by turn.
 
 #include <cstdlib>
 
@@ -11,7 +11,8 @@
 
 namespace volcomp::node {
 
-// Of each scope of long work in which the interrupt is let in, unless all are asked for.
+// First instructions of each scope of long work in which the interrupt is let in, unless all are
+// requested.
 constexpr std::uint64_t kFirstSteps = 1500;
 
 inline std::uint64_t most_steps() {
@@ -32,7 +33,7 @@ struct Turn {
   TaskBench::Frames out;
 };
 
-// A task bench that writes down everything, and whose background can be interrupted anywhere.
+// A task bench that writes down everything, with a background that can be interrupted anywhere.
 class PreemptedBench {
  public:
   explicit PreemptedBench(Storage* storage = nullptr) : bench(storage) {
@@ -64,7 +65,7 @@ class PreemptedBench {
     turns.push_back({bench.clock.us, resetting, std::move(served_), in, out});
     served_ = {};
     for (const hal::CanFrame& f : in) {
-      if (bench.task->node().work(f) == canopen::Device::Work::lengthy) waiting_.push_back({f});
+      if (bench.task->node().device().work(f) == NodeDevice::Work::lengthy) waiting_.push_back({f});
     }
   }
 
@@ -121,19 +122,19 @@ class SingleNode {
     node_->power_on(0);
   }
 
-  // What it says in such a turn.
+  // What it sends in such a turn.
   TaskBench::Frames turn(const Turn& turn) {
     for (const Served& s : turn.served)
-      node_->receive(s.frame, s.us);
+      node_->device().receive(s.frame, s.us);
     for (const hal::CanFrame& f : turn.in) {
-      if (node_->work(f) != canopen::Device::Work::lengthy) node_->receive(f, turn.us);
+      if (node_->device().work(f) != NodeDevice::Work::lengthy) node_->device().receive(f, turn.us);
     }
-    node_->poll(turn.us);
+    node_->device().poll(turn.us);
     TaskBench::Frames out;
     hal::CanFrame frame;
-    while (out.size() < 32 && node_->offer(frame, turn.us)) {
+    while (out.size() < 32 && node_->device().offer(frame, turn.us)) {
       out.push_back(frame);
-      node_->taken(turn.us);
+      node_->device().taken(turn.us);
     }
     return out;
   }
@@ -142,8 +143,8 @@ class SingleNode {
   std::unique_ptr<Node> node_;
 };
 
-// The node in one context says the same in every turn. One that is being reset is not on the bus:
-// it says nothing, and what it did not hear the other one is not told either.
+// The node in one context sends the same in every turn. One that is being reset is not on the bus:
+// it sends nothing, and what it did not receive is withheld from the other one, too.
 inline void expect_same_in_one_context(const std::vector<Turn>& turns, Storage* storage = nullptr) {
   SingleNode single(storage);
   for (std::size_t i = 0; i < turns.size(); ++i) {

@@ -22,8 +22,8 @@ struct Stepping {
 };
 Stepping current;
 
-// After a breakpoint, which asks for it, or after a stepped instruction. The kernel clears the flag
-// for the handler and restores it with the interrupted context.
+// After a breakpoint, which starts stepping, or after a stepped instruction. The kernel clears the
+// flag for the handler and restores it with the interrupted context.
 void on_trap(int /*signal*/, siginfo_t* /*info*/, void* interrupted) {
   greg_t& flags = static_cast<ucontext_t*>(interrupted)->uc_mcontext.gregs[REG_EFL];
   const bool stepped = (flags & kTrapFlag) != 0;

@@ -1,6 +1,6 @@
 #pragma once
 // A node task on a board made of plain objects: a port that is filled turn by turn, a clock that is
-// told, a section that knows what may not happen in it, a watchdog that bites. Around it the bus:
+// set, a section that knows what may not happen in it, a watchdog that bites. Around it the bus:
 // SYNC every second turn, three drives, a controller, an SDO client.
 
 #include <deque>
@@ -53,11 +53,11 @@ struct BenchWatchdog {
 // The bus of one turn, seen from the node. The same frames can be given to several nodes.
 class BenchBus {
  public:
-  // SYNC in every second turn, what drives and controller say after it, and what was put().
+  // SYNC in every second turn, what drives and controller send after it, and what was put().
   std::vector<hal::CanFrame> turn();
   void put(const hal::CanFrame& frame) { extra_.push_back(frame); }
   void nmt(canopen::NmtCommand command);
-  // What the node said: the drives take their offsets.
+  // What the node sent: the drives take their offsets.
   void hear(const hal::CanFrame& frame);
 
   std::array<BenchDrive, NodeBench::kDrives> drive;
@@ -85,7 +85,7 @@ class TaskBench final : public BenchDevice {
   // nothing to do, unless it hangs.
   void turn();
   void turns(int count);
-  // The interrupt alone, as it may come at any moment. `on_interrupt` is told what came and left.
+  // The interrupt alone, as it may come at any moment. `on_interrupt` receives what came and left.
   void interrupt();
 
   // As many turns as it takes.

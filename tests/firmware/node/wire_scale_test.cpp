@@ -69,7 +69,7 @@ TEST(WireScale, HalvesGoToTheEvenNeighbour) {
   EXPECT_EQ(offset_to_wire(-3, two_nm_per_unit), -2);
 }
 
-// A promise may be kept more than well, never less.
+// A promise may be exceeded, never missed.
 TEST(WireScale, LimitsOfStepsAreRoundedDown) {
   EXPECT_EQ(step_to_wire(1500, {1000, 1, false}), 1);
   EXPECT_EQ(step_to_wire(9996, {10, 1, false}), 999);
@@ -162,8 +162,8 @@ TEST(WirePosition, TheCountWrapsByWholeTurns) {
   }
 }
 
-// Run-time units per drive unit that no decimal fraction can say: nothing is lost on the way, the
-// sum of all movements is rounded down once.
+// Run-time units per drive unit that no decimal fraction can express: nothing is lost on the way,
+// the sum of all movements is rounded down once.
 TEST(WirePosition, RationalScalesNeverDrift) {
   Random random(314);
   SCOPED_TRACE(random.trace());

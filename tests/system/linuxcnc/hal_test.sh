@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The HAL component in LinuxCNC's simulated realtime: every offset and status of thousands of servo periods is what
+# The HAL component in LinuxCNC's simulated realtime: every offset, status and range pin of thousands of servo periods is what
 # volcomp.h computes for the same table image, and a bad image is refused. Installs the component, so only for a
 # root to throw away: toolchain/test-linuxcnc.sh.
 #
@@ -30,14 +30,16 @@ write_hal() {
   shift
   local rows='' samples='' nets=''
   for letter in "$@"; do
-    rows+=fbb samples+=fu
+    rows+=fbb samples+=fubb
     nets+="net $letter-position streamer.0.pin.$in volcomp.$letter.position
 net $letter-valid streamer.0.pin.$((in + 1)) volcomp.$letter.valid
 net $letter-homed streamer.0.pin.$((in + 2)) volcomp.$letter.homed
 net $letter-offset volcomp.$letter.offset sampler.0.pin.$out
 net $letter-status volcomp.$letter.status sampler.0.pin.$((out + 1))
+net $letter-out volcomp.$letter.out-of-range sampler.0.pin.$((out + 2))
+net $letter-far volcomp.$letter.far-out-of-range sampler.0.pin.$((out + 3))
 "
-    in=$((in + 3)) out=$((out + 2))
+    in=$((in + 3)) out=$((out + 4))
   done
   cat >"$work/periods.hal" <<HAL
 loadrt threads name1=servo period1=1000000
@@ -71,13 +73,15 @@ same_as_c() {
   rm -f "$work/got"
   hal periods >"$work/halrun.txt" 2>&1 || { cat "$work/halrun.txt"; fail "$letters: halrun"; }
   diff -Z "$work/wanted" "$work/got" >"$work/differences" ||
-    { head -n 12 "$work/differences"; fail "$letters: offsets or status differ (wanted <, got >)"; }
+    { head -n 12 "$work/differences"; fail "$letters: offsets, status or range differ (wanted <, got >)"; }
   [ "$(wc -l <"$work/got")" = "$periods" ] || fail "$letters: servo periods are missing"
-  { [ "$(different 1)" -gt 1000 ] && [ "$(different 5)" -gt 1000 ]; } || fail "$letters: the offsets hardly change"
+  { [ "$(different 1)" -gt 1000 ] && [ "$(different 9)" -gt 1000 ]; } || fail "$letters: the offsets hardly change"
   [ "$(different 2)" -gt 5 ] || fail "$letters: the status hardly changes"
+  awk '{ for (i = 4; i <= NF; i += 4) far += $i } END { exit !(far > 0 && far < NR) }' "$work/got" ||
+    fail "$letters: never far beyond a table, or always"
   grep -qx "$(tail -c 4 "$vct" | od -An -tu4 | tr -d ' ')" "$work/halrun.txt" ||
     { cat "$work/halrun.txt"; fail "$letters: image-crc is not that of the file"; }
-  printf '%s: the offsets and status words of %s servo periods are the same\n' "$letters" "$periods"
+  printf '%s: offsets, status words and range of %s servo periods are the same\n' "$letters" "$periods"
 }
 
 # refused TEXT LOADRT_ARGUMENT…: the module does not load and says why.
@@ -97,7 +101,7 @@ gcc -std=c99 -pedantic -Wall -Wextra -Werror -o "$work/reference" "$source_dir/t
   $(pkg-config --cflags --libs volcomp_c)
 
 same_as_c "$image" 'x y z' -510 5 -305 5 -405 5
-same_as_c "$gear_image" 'x y b a' -110 410 145 350 -62 3 0 1000
+same_as_c "$gear_image" 'x y b a' 150 600 145 350 -62 3 0 1000
 
 head -c 3000 "$image" >"$work/short.vct"
 refused 'volcomp: image=FILE is missing' ''

@@ -4,7 +4,8 @@
 //   reference TABLE_IMAGE PERIODS INPUT OUTPUT LOWER UPPER…   of every axis, mm or degrees
 //
 // INPUT: rows for halstreamer: of every axis position (mm or degrees), valid, homed; then enable.
-// OUTPUT: rows as halsampler writes them: of every axis offset and status; then compensating.
+// OUTPUT: rows as halsampler writes them: of every axis offset, status, out of range and far out of
+// range, which a referenced axis shows; then compensating.
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -45,13 +46,19 @@ static struct volcomp_compensator* commission(const char* path, struct volcomp_m
   return volcomp_activate(c).reason == VOLCOMP_OK ? c : NULL;
 }
 
-// Of a position; fine enough that it comes back as the same number of units.
+// Prints a position, fine enough that it comes back as the same number of units.
 static void print_position(FILE* file, bool rotary, int64_t units) {
   fprintf(file, "%.12f ", (double)units * (rotary ? 360.0 / VOLCOMP_UNITS_PER_TURN : 1e-6));
 }
 
 static void print_offset(FILE* file, bool rotary, int32_t units) {
   fprintf(file, "%f ", units / (rotary ? 4294967296.0 / 360.0 : 1e6));
+}
+
+static void print_status(FILE* file, unsigned status) {
+  const bool homed = (status & VOLCOMP_NOT_HOMED) == 0;
+  fprintf(file, "%u %d %d ", status, homed && (status & VOLCOMP_OUT_OF_RANGE) != 0,
+          homed && (status & VOLCOMP_FAR_OUT_OF_RANGE) != 0);
 }
 
 // One axis that wanders between two ends, at another speed every 50 ms.
@@ -105,7 +112,7 @@ int main(int argc, char** argv) {
     volcomp_tick(c, &in, &out);
     for (size_t a = 0; a < machine.axes; ++a) {
       print_offset(answers, machine.rotary[a], out.offset[a]);
-      fprintf(answers, "%u ", (unsigned)out.status[a]);
+      print_status(answers, out.status[a]);
       all_valid = all_valid && (out.status[a] & VOLCOMP_VALID) != 0;
     }
     fprintf(answers, "%d\n", all_valid);

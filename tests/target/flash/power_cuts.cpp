@@ -94,7 +94,7 @@ bool finds(FlashBlocks& flash, const Record& record, StoreResult how) {
          found.parameters == record.parameters && found.image == record.image;
 }
 
-// After the cut of the life before: which record is there, and is that what it says?
+// After the cut of the life before: which record is there, and does it match its mark?
 bool judge(FlashBlocks& flash, volcomp::test::Lives& lives, const Record& old_record,
            const Record& new_record) {
   const bool sector_cut = lives.number() == 2;  // nothing programmed yet

@@ -35,8 +35,8 @@ Span<const std::uint8_t> tables() {
 // Hands what the node sends to the client, as long as there is something.
 void answer(Node& node, SdoClient& client) {
   volcomp::hal::CanFrame frame;
-  while (node.offer(frame, 0)) {
-    node.taken(0);
+  while (node.device().offer(frame, 0)) {
+    node.device().taken(0);
     if (frame.id == volcomp::canopen::kSdoResponse + kNodeId) client.response(frame.data, 0);
   }
 }
@@ -47,7 +47,7 @@ bool write(Node& node, volcomp::canopen::ObjectId object, Span<const std::uint8_
   client.download(object, value, 0);
   volcomp::canopen::SdoData request{};
   while (client.request(request)) {
-    node.receive({volcomp::canopen::kSdoRequest + kNodeId, 8, request}, 0);
+    node.device().receive({volcomp::canopen::kSdoRequest + kNodeId, 8, request}, 0);
     answer(node, client);
   }
   return client.state() == SdoClient::State::done;
@@ -74,7 +74,7 @@ bool found(const Node& node, volcomp::node::StoreResult stored, std::uint32_t ac
 
 // In OPERATIONAL without drives: is there something to correct with?
 bool starts_as(Node& node, volcomp::node::NodeState state) {
-  node.receive({volcomp::canopen::kNmt, 2, {1, kNodeId}}, 0);
+  node.device().receive({volcomp::canopen::kNmt, 2, {1, kNodeId}}, 0);
   return node.objects().state == static_cast<std::uint8_t>(state);
 }
 

@@ -1,5 +1,5 @@
-// Runs the tests of an image one after the other and says which failed. Exit codes: 0 all passed,
-// 1 one failed, 2 other tests than the build meant to link.
+// Runs the tests of an image one after the other and reports which failed. Exit codes: 0 all
+// passed, 1 one failed, 2 other tests than the build meant to link.
 
 #include "tests/target/runner/outcome.hpp"
 #include "tests/target/runner/test_case.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// The tests of an image: constants in a section of their own, whose ends the linker script marks.
+// The tests of an image: constants in a section of their own; the linker script marks its ends.
 
 namespace volcomp::target {
 

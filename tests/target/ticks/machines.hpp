@@ -1,6 +1,6 @@
 #pragma once
-// The compensators whose ticks are measured, compiled once each (instances.cpp): beside the ready
-// ones of the library those of the machines of the benchmarks.
+// The compensators with measured ticks, compiled once each (instances.cpp): beside the ready ones
+// of the library those of the machines of the benchmarks.
 
 #include "comp/tick/instances.hpp"
 #include "tests/bench/machines.hpp"

@@ -53,7 +53,7 @@ struct Cost {
   }
 };
 
-// A node that is asked by an SDO client, every request measured.
+// A node with requests of an SDO client, every request measured.
 class Services {
  public:
   Services() : node_(std::make_unique<node::Node>(kId, nullptr)) { node_->power_on(now_us_); }
@@ -81,10 +81,10 @@ class Services {
   void ask(const hal::CanFrame& request, Cost& cost) {
     const std::uint32_t start = InstructionCounter::ticks();
     const std::uint32_t before = InstructionCounter::ticks();
-    node_->receive(request, now_us_);
+    node_->device().receive(request, now_us_);
     hal::CanFrame answer;
-    const bool answered = node_->offer(answer, now_us_);
-    if (answered) node_->taken(now_us_);
+    const bool answered = node_->device().offer(answer, now_us_);
+    if (answered) node_->device().taken(now_us_);
     const std::uint32_t after = InstructionCounter::ticks();
     cost.add(counter.between(before, after) - counter.between(start, before));
     if (answered && answer.id == canopen::kSdoResponse + kId)
@@ -92,10 +92,10 @@ class Services {
     discard();
   }
 
-  // Other frames the node has to say.
+  // Other frames the node has to send.
   void discard() {
-    for (hal::CanFrame frame; node_->offer(frame, now_us_);) {
-      node_->taken(now_us_);
+    for (hal::CanFrame frame; node_->device().offer(frame, now_us_);) {
+      node_->device().taken(now_us_);
       if (frame.id == canopen::kSdoResponse + kId) client_.response(frame.data, now_us_);
     }
   }

@@ -66,7 +66,7 @@ class TickRun {
   }
 
   // Lets the offsets run free, then limits them to three quarters of what they reached, so that the
-  // clamps will act. None of these ticks is measured.
+  // clamps will act, and waits until they are there. None of these ticks is measured.
   void find_limits() {
     constexpr int kTicks = 5'000;
     settings_.ramp_ticks = 50;
@@ -85,6 +85,10 @@ class TickRun {
       if (largest > 0) settings_.axis[a].limit = largest - largest / 4;
     }
     require(unit_.configure(settings_));
+    for (int n = 0; n < 1'000; ++n) {
+      move();
+      unit_.tick(in_, out_);
+    }
   }
 
   void exchange() {
@@ -130,7 +134,7 @@ class TickRun {
            when(kStale, Kind::lost) | when(kNotHomed, Kind::not_homed) | when(kNoTables, Kind::off);
   }
 
-  // The stack below the caller, as nobody uses it yet: there is no interrupt in these images.
+  // The stack below the caller, not in use yet: there is no interrupt in these images.
   static constexpr std::uint32_t kPaint = 0xA5A5'5A5A;
   static constexpr std::ptrdiff_t kPainted = 256;  // words
 

@@ -7,7 +7,7 @@
 //   stack variant=… knots=… bytes=…
 // The call of the tick with its arguments is included; what reading the counter costs is not.
 //
-// Usual ticks are the ordinary operation of a machine, exchanges of tables with their ramps
+// phase=usual is the ordinary operation of a machine, exchanges of tables with their ramps
 // included. Exit code 1 when the counter cannot be trusted or a compensator refuses its tables.
 
 #include <memory>

@@ -138,7 +138,9 @@ BusMessage node_status(const BusSettings& bus) {
 
 BusMessage told_by_controller(const BusSettings& bus, std::size_t receive_pdo, const char* name,
                               const char* comment) {
-  const PdoParameters pdo = node::default_receive_pdo(receive_pdo, {}, bus.controller);
+  node::NodeObjects objects;
+  objects.controller = bus.controller;
+  const PdoParameters pdo = node::default_receive_pdo(receive_pdo, objects);
   return process_data(pdo, node::named_node_dictionary(), false,
                       {fmt::format("{}_{}", kController, name), kController, {kNode}, comment});
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Everything that may be seen on the bus of one machine, frame by frame: identifiers and layouts
-// come from the tables of node and drives, names and units from here.
+// All messages on the bus of one machine, frame by frame: identifiers and layouts come from the
+// tables of node and drives, names and units from here.
 
 #include <cstdint>
 #include <string>

@@ -27,7 +27,7 @@ constexpr std::uint16_t kSdoServer = 0x1200;
 
 // --- names
 
-// Of objects whose values have names of their own; of standard objects as in CiA 301.
+// Titles of objects whose values have names of their own; standard objects as in CiA 301.
 std::string_view title(std::uint16_t index) {
   static const std::map<std::uint16_t, std::string_view> titles{
       {0x1003, "Pre-defined error field"},

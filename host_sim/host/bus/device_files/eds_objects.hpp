@@ -1,6 +1,6 @@
 #pragma once
-// The object dictionary of the compensation node as a configuration tool is told about it: read
-// from the code's own tables and from nodes that have just been powered on.
+// The object dictionary of the compensation node for configuration tools: read from the tables of
+// the code and from nodes that have just been powered on.
 
 #include <cstdint>
 #include <optional>

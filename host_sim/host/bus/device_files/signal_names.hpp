@@ -16,7 +16,8 @@ struct SignalText {
   ValueNames values{};
 };
 
-// Of an object that node or drives map by default; throws std::logic_error for others.
+// Name and unit of an object that node or drives map by default; throws std::logic_error for
+// others.
 [[nodiscard]] const SignalText& signal_text(canopen::ObjectId object);
 
 [[nodiscard]] ValueNames nmt_states();

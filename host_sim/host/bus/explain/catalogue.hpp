@@ -1,6 +1,6 @@
 #pragma once
-// Everything that a volcomp machine may say by a name or a number, in one list; and the pages of
-// the documentation that are made from it.
+// All names and numbers that a volcomp machine reports, in one list, and the pages of the
+// documentation that are generated from it.
 
 #include <string>
 #include <vector>
@@ -34,8 +34,8 @@ struct Meaning {
   std::vector<EdsObject> objects;
 };
 
-// What is known of a word: a name ("crc_mismatch"), the number of a reason or verdict ("20"), an
-// emergency code or object ("FF10h", "0x2202"), an abort code ("06010002"). Empty if nothing is.
+// Explains a word: a name ("crc_mismatch"), the number of a reason or verdict ("20"), an emergency
+// code or object ("FF10h", "0x2202"), an abort code ("06010002"). Empty if nothing is.
 [[nodiscard]] Meaning meaning_of(const std::string& typed);
 [[nodiscard]] std::string meaning_text(const Meaning& meaning);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a person wants to know of a code that a machine gives: why it comes, and what to do. What
-// happened is the sentence that belongs to the code itself.
+// Explains a code of a machine: why it comes, and what to do. The sentence of the code itself
+// describes what happened.
 
 #include "comp/core/status.hpp"
 #include "comp/tick/tick_types.hpp"

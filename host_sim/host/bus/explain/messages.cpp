@@ -1,4 +1,4 @@
-// What a running node says of itself: status bits, emergency codes, verdicts on touches.
+// Messages of a running node: status bits, emergency codes, verdicts on touches.
 
 #include <algorithm>
 #include <array>
@@ -70,6 +70,14 @@ const std::vector<Row<ErrorCode>>& error_rows() {
         "nothing came for 2702h:02 seconds, 3 the latest value cannot be true. Corrections go on "
         "with the last good temperature.",
         "Look at the sensor, its wire and the sender of 2700h. It ends with a plausible value."}},
+      {ErrorCode::memory_damaged,
+       {"A bit of the settings, the chain of the machine or the limits and the scale of an axis "
+        "(byte 3; 0: not of one axis) changed in memory.",
+        "Stop and start the node, then activate the tables again; for byte 3 = 0 reset the node. "
+        "If it comes back, the memory is bad."}},
+      {ErrorCode::program_damaged,
+       {"The checksum of code and constants is no longer what it was after the start.",
+        "Reset the node. If it comes back, write the firmware again; then the memory is bad."}},
       {ErrorCode::store_failed,
        {"The memory refused to be written or read back differently; 2600h:0C has the reason.",
         "Try again; if it stays, replace the memory. What was stored before is still there."}},
@@ -86,9 +94,18 @@ const std::vector<Row<ErrorCode>>& error_rows() {
       {ErrorCode::can_overrun,
        {"Frames came faster than the node fetched them.",
         "Lower the load of the bus; volcomp bus-load says which cycle rates fit."}},
+      {ErrorCode::can_passive,
+       {"More than 127 errors were counted while sending or receiving.",
+        "Look at the cables, the two terminating resistors, the bit rate of every device, and "
+        "whether anybody else is on the bus."}},
       {ErrorCode::heartbeat,
        {"The node whose id is in byte 3 has not sent its heartbeat within 1016h.",
         "Look at that device, its cable and its 1017h."}},
+      {ErrorCode::bus_off_recovered,
+       {"More than 255 errors were counted while sending; the controller left the bus and joined "
+        "it "
+        "again. Told afterwards, as nothing can be sent meanwhile.",
+        "As with 8120h. Corrections come back by themselves."}},
       {ErrorCode::sync_length,
        {"1019h of node and SYNC producer differ.",
         "Set 1019h alike in all devices (240, or 0 for no counter)."}},
@@ -120,6 +137,13 @@ const std::vector<Row<ErrorCode>>& error_rows() {
        {"2704h:02 has passed. Nothing is switched off in the middle of the work, but the same "
         "tables are refused when they are activated again.",
         "Measure the machine again. A wrong date of the node shows in 2704h:01."}},
+      {ErrorCode::time_doubted,
+       {"A TIME was more than two hours off the date of the node, which is kept: what one frame "
+        "says "
+        "must not make tables expire. The third TIME in a row that goes on like the one before is "
+        "believed.",
+        "Find out who else sends TIME (100h). A date that is wrong for good is written to "
+        "2704h:01."}},
       {ErrorCode::foreign_sync,
        {"The counter of a SYNC does not continue the sequence, or the node produced SYNC (1005h "
         "bit 30) and heard another: it then stops producing. Without counter (1019h = 0) a node "

@@ -31,7 +31,7 @@ std::string common_name(const EdsValue& v) {
   return numbered ? v.name.substr(0, bracket) : without_number(v.name);
 }
 
-// Values whose lines would be the same.
+// Whether the lines of two values would be the same.
 bool alike(const EdsValue& a, const EdsValue& b) {
   return common_name(a) == common_name(b) && a.type == b.type && a.access == b.access &&
          a.low == b.low && a.high == b.high;

@@ -17,7 +17,7 @@ namespace volcomp::host {
 
 // "u16"
 [[nodiscard]] const char* type_name(canopen::DataType type);
-// Empty where there is nothing to tell.
+// Empty where there is no text.
 [[nodiscard]] const char* purpose_of(const EdsObject& object);
 
 }  // namespace volcomp::host

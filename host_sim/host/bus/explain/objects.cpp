@@ -1,5 +1,5 @@
 // What each object of the node is for. Names, types, ranges and defaults come from the code
-// (device_files/eds_objects.hpp); this is what a table cannot say.
+// (device_files/eds_objects.hpp); these texts add what a table does not hold.
 
 #include <array>
 
@@ -34,10 +34,10 @@ constexpr std::array kPurposes{
     Purpose{
         0x1010, 0x1010,
         "Writing \"save\" (65766173h) to sub-index 1 stores parameters and active tables. Refused "
-        "while OPERATIONAL."},
+        "while OPERATIONAL. Reads 0 where there is no store."},
     Purpose{0x1011, 0x1011,
             "Writing \"load\" (64616F6Ch) to sub-index 1 forgets what is stored; defaults hold "
-            "after the next reset."},
+            "after the next reset. Reads 0 where there is no store."},
     Purpose{0x1012, 0x1012,
             "Identifier of TIME, which gives the node the date; bit 31: it listens. Needed for "
             "tables that expire."},
@@ -45,7 +45,7 @@ constexpr std::array kPurposes{
     Purpose{
         0x1016, 0x1016,
         "Nodes whose heartbeats are watched, and for how long they may be silent: the drives and "
-        "the controller."},
+        "the controller. Node << 16 | ms; not used with time 0, node 0 or a node above 127."},
     Purpose{0x1017, 0x1017, "Period of the node's own heartbeat in ms."},
     Purpose{0x1018, 0x1018, "Vendor, product, revision and serial number."},
     Purpose{
@@ -61,12 +61,13 @@ constexpr std::array kPurposes{
     Purpose{0x1200, 0x1200, "Identifiers of the SDO server."},
     Purpose{0x1400, 0x15FF,
             "How a frame of a drive or of the controller is received: identifier (bit 31: off) and "
-            "type."},
+            "type. Fixed in OPERATIONAL, temperatures apart."},
     Purpose{0x1600, 0x17FF, "Where its bytes go: 2011h to 201Ah, 2700h."},
     Purpose{
         0x1800, 0x19FF,
         "How a frame is sent: offsets to the drives when the cycle is complete, state and points "
-        "to the controller."},
+        "to the controller. Bit 30 of a valid identifier is 1: remote requests are not answered. "
+        "Those of the offsets are fixed in OPERATIONAL."},
     Purpose{0x1A00, 0x1BFF, "What a sent frame contains, in this order."},
     Purpose{
         0x2000, 0x2000,

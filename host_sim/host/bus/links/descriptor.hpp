@@ -1,5 +1,5 @@
 #pragma once
-// A file descriptor that is closed when its owner is gone, and the signal of a broken pipe.
+// A file descriptor that is closed with its owner, and the signal of a broken pipe.
 
 #include <unistd.h>
 
@@ -30,7 +30,7 @@ class Descriptor {
   int number_ = -1;
 };
 
-// While one lives, writing where nobody reads any more fails (EPIPE) instead of ending the process.
+// While one exists, writing to a pipe without a reader fails (EPIPE) instead of ending the process.
 // Made and ended by one thread, in any order.
 class BrokenPipeIgnored {
  public:

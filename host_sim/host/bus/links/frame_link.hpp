@@ -29,7 +29,7 @@ class FrameLink {
   [[nodiscard]] virtual bool receive(hal::CanFrame& frame) = 0;
   // Lets the other end work: until a frame has arrived, or about this long.
   virtual void wait(std::uint32_t timeout_us) = 0;
-  // The time in which the other end lives, from any start.
+  // The time of the other end, from any start.
   [[nodiscard]] virtual std::uint64_t now_us() const = 0;
   // That time advances with wait() alone: what is done over this link repeats itself bit for bit.
   [[nodiscard]] virtual bool turn_by_turn() const = 0;

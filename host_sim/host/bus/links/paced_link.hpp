@@ -1,7 +1,7 @@
 #pragma once
 // A link that leaves the other end time between frames. A virtual interface has no bit rate: a
-// burst arrives at once, while a CAN controller has room for a few frames and its processor, when
-// it is emulated, comes to fetch them whenever the computer lets it.
+// burst arrives at once, while a CAN controller has room for a few frames and an emulated processor
+// fetches them late.
 
 #include <chrono>
 #include <functional>

@@ -20,11 +20,11 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-// Somebody types a command in another window.
-constexpr auto kOpenPatience = std::chrono::seconds(30);
-// A board is emulated at a fraction of its speed, on a computer that has other things to do.
+// A person starts the node in another window.
+constexpr auto kOpenTimeout = std::chrono::seconds(30);
+// A board is emulated at a fraction of its speed, on a computer that may be busy.
 constexpr auto kTurnPatience = std::chrono::seconds(60);
-constexpr int kLook_ms = 100;
+constexpr int kPollInterval_ms = 100;
 constexpr std::size_t kReadBytes = std::size_t{64} * 1024;
 
 [[noreturn]] void refuse(const std::filesystem::path& folder, const std::string& what) {
@@ -62,7 +62,7 @@ PipeLink::PipeLink(const std::filesystem::path& folder, Watch watch)
 
 // --- opening
 
-// Opening a pipe for writing succeeds only when somebody has it open for reading.
+// Opening a pipe for writing succeeds only when another process has it open for reading.
 void PipeLink::open_pipes() {
   const std::filesystem::path to_node = folder_ / hal::kPipeToNode;
   const std::filesystem::path from_node = folder_ / hal::kPipeFromNode;
@@ -71,9 +71,9 @@ void PipeLink::open_pipes() {
     to_node_ = Descriptor(::open(to_node.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC));
     if (to_node_.open()) break;
     if (errno != ENXIO) fail("to_node cannot be opened");
-    if (WallClock::now() - begin > kOpenPatience)
-      fail(fmt::format("no node has opened the other end within {} s", kOpenPatience.count()));
-    static_cast<void>(::poll(nullptr, 0, kLook_ms));
+    if (WallClock::now() - begin > kOpenTimeout)
+      fail(fmt::format("no node has opened the other end within {} s", kOpenTimeout.count()));
+    static_cast<void>(::poll(nullptr, 0, kPollInterval_ms));
     look();
   }
   from_node_ = Descriptor(::open(from_node.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
@@ -165,7 +165,7 @@ void PipeLink::await(int descriptor, short events) const {
   const auto begin = WallClock::now();
   while (true) {
     pollfd waiting{descriptor, events, 0};
-    if (::poll(&waiting, 1, kLook_ms) > 0) return;  // an end that is gone is reported, too
+    if (::poll(&waiting, 1, kPollInterval_ms) > 0) return;  // an end that is gone is reported, too
     look();
     if (WallClock::now() - begin > kTurnPatience)
       fail(fmt::format("the node has not answered for {} s", kTurnPatience.count()));

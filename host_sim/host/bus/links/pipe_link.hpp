@@ -2,7 +2,7 @@
 // The host's end of a frame pipe (hal/frame_pipe.hpp): turn by turn with firmware on an emulated
 // board, or with volcomp-node.
 //
-// wait() is one turn: everything sent since the last one goes out, everything the node says comes
+// wait() is one turn: everything sent since the last one goes out, every frame of the node comes
 // in. The node's millisecond passes whether or not there are frames.
 
 #include <deque>
@@ -22,7 +22,7 @@ void make_frame_pipes(const std::filesystem::path& folder);
 class PipeLink final : public FrameLink {
  public:
   // Called at every turn, several times a second while the other end is awaited, and once when it
-  // is gone. May throw, which ends the waiting: whoever started the other end knows more about it.
+  // is gone. May throw, which ends the waiting with the reason of the other end.
   using Watch = std::function<void(bool gone)>;
 
   // Makes the pipes where they are missing and waits some seconds for the other end. Throws
@@ -31,7 +31,7 @@ class PipeLink final : public FrameLink {
 
   [[nodiscard]] bool send(const hal::CanFrame& frame) override;
   [[nodiscard]] bool receive(hal::CanFrame& frame) override;
-  // Throws UserError when the other end is gone, is silent for long or talks nonsense; so do all
+  // Throws UserError when the other end is gone, does not answer or breaks the protocol; so do all
   // the others that write.
   void wait(std::uint32_t /*timeout_us*/) override { turn(now_us_ + hal::kPipeTurn_us); }
   // The same, with the node's clock at that time, which must not go back.
@@ -39,7 +39,7 @@ class PipeLink final : public FrameLink {
   [[nodiscard]] std::uint64_t now_us() const override { return now_us_; }
   [[nodiscard]] bool turn_by_turn() const override { return true; }
 
-  // Tells the node to end; nothing may follow.
+  // Ends the node; no call may follow.
   void quit();
 
  private:

@@ -17,12 +17,12 @@ SlcanLink::~SlcanLink() {
     outgoing_ += "C\r";
     flush();
   } catch (const UserError&) {
-    return;  // nobody is there to be told
+    return;  // the adapter is gone
   }
 }
 
-// Whoever used the adapter before may have left half a line, an open channel and answers that
-// nobody has read. What comes after the answer to V belongs to us; V is answered by every adapter.
+// An earlier user of the adapter may have left half a line, an open channel and unread answers.
+// Every adapter answers V, and what follows that answer belongs to this link.
 void SlcanLink::open_channel() {
   outgoing_ = "\r\r\rC\rV\r";
   await_version();

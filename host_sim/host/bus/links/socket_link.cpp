@@ -6,7 +6,7 @@ namespace volcomp::host {
 
 SocketLink::SocketLink(const std::string& interface) : interface_(interface) {
   const hal::OpenStatus status = can_.open(interface.c_str());
-  if (!status.ok()) throw UserError(interface + ": " + hal::sentence(status.result));
+  if (!status.ok()) throw UserError(interface + ": " + hal::sentence(status));
 }
 
 bool SocketLink::send(const hal::CanFrame& frame) {

@@ -1,18 +1,17 @@
 #pragma once
-// A node behind a frame pipe that lives through a recorded past: firmware on an emulated board. A
-// node in this process goes with it and tells what belongs to it.
+// A node behind a frame pipe into which a log is replayed: firmware on an emulated board. The base
+// class runs a node in this process ahead of it, which shows when the other has a frame to send.
 //
-// The pipe's turns carry the log's time. There is one before and at every SYNC, at every deadline,
-// and when the log lets the node speak; in between a turn could change nothing. Only a command to
-// reset takes turns of its own, until the node has booted: it does so in its background, and what
-// comes next on the bus must not overtake it.
+// The pipe's turns carry the node's time. There is one before and at every SYNC, at a deadline, and
+// when the node in this process has sent a frame: the other then gets time until it has sent as
+// many, its boot-up after a command to reset, too. A turn in between would change nothing.
 
 #include "host_sim/host/bus/links/pipe_link.hpp"
 #include "host_sim/host/bus/replay/replayed_node.hpp"
 
 namespace volcomp::host {
 
-class PipedNode final : public ReplaySubject {
+class PipedNode final : public ReplayedNode {
  public:
   // Starts a fresh node and returns its link when it has booted (links/boot_up.hpp).
   using Start = std::function<std::shared_ptr<PipeLink>()>;
@@ -21,27 +20,22 @@ class PipedNode final : public ReplaySubject {
 
   // All throw what starting the node or its link throws.
   void power_on(std::uint64_t time_us) override;
-  void advance(std::uint64_t time_us) override;
   void receive(const hal::CanFrame& frame, std::uint64_t time_us) override;
-  void poll(std::uint64_t time_us) override;
-  void end_cycle() override;
-  bool linger() override;
-  [[nodiscard]] const ReplayedNode& model() const override { return model_; }
+  void pass_deadline() override;
 
  private:
+  [[nodiscard]] bool counts(const hal::CanFrame& frame) const;
+  void follow();
   void turn(std::uint64_t least_us);
-  void catch_up();
-  void await_boot_up();
 
   std::uint8_t node_id_;
-  ReplayedNode model_;
   Start start_;
   OnSent on_sent_;
   std::shared_ptr<PipeLink> link_;
-  std::uint64_t time_us_ = 0;   // the log's
-  std::uint64_t begin_us_ = 0;  // the log's, where the node's own time began
+  std::uint64_t begin_us_ = 0;  // where the time of the link began
+  std::uint64_t ahead_ = 0;     // frames that count, of the node in this process
+  std::uint64_t said_ = 0;      // and of the other
   bool unheard_ = false;        // frames have been sent that the node gets with the next turn
-  bool booting_ = false;        // the model has been reset and has booted, the node has not yet
 };
 
 }  // namespace volcomp::host

@@ -5,195 +5,158 @@
 
 #include <fmt/format.h>
 
+#include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
+#include "firmware/canopen/emergency.hpp"
 
 namespace volcomp::host {
 namespace {
 
-// For frames that are not process data. An emulated node on a busy computer takes many seconds to
-// answer; an answer that never came is found at the next one, too.
-constexpr std::uint64_t kPatience_us = 60'000'000;
-// Milliseconds of a node behind a pipe, for process data and for all the rest.
-constexpr int kCyclicPatience = 3;
-constexpr int kServicePatience = 10'000;
+// Whether the first byte of an SDO response marks an upload of at most four bytes (CiA 301,
+// 7.2.4.3.6).
+constexpr bool is_short_upload(std::uint8_t command) { return (command & 0xE2U) == 0x42U; }
+
+// The value of an object changes with time, and the log does not show before or after which
+// neighbour the request was served.
+bool same_answer(const hal::CanFrame& a, const hal::CanFrame& b) {
+  const bool of_the_moment = is_short_upload(a.data[0]) && is_short_upload(b.data[0]);
+  return a == b || (a.size == b.size && of_the_moment &&
+                    std::equal(a.data.begin(), a.data.begin() + 4, b.data.begin()));
+}
 
 }  // namespace
 
-Comparison::Comparison(std::uint8_t node_id, const MakeSubject& make_subject)
-    : node_id_(node_id),
-      subject_(make_subject([this](std::uint64_t time_us, const hal::CanFrame& frame) {
-        replayed(time_us, frame);
-      })) {}
+Comparison::Comparison(std::uint8_t node_id, const MakeNode& make_node)
+    : node_id_(node_id), node_(make_node([this](const hal::CanFrame& f) { replayed(f); })) {}
 
 void Comparison::start(const LoggedFrame& first) {
-  subject_->power_on(first.time_us);
+  now_ = {first.time_us, first.line, 0, 0};
+  node_->power_on(first.time_us);
   // A command to reset comes to a node that has been running.
-  if (!is_boot_up(first.frame, node_id_)) streams_.clear();
+  if (!is_boot_up(first.frame, node_id_)) boot_ups_ = 0;
 }
 
-bool Comparison::process_data(std::uint16_t id) const {
-  return id != canopen::kHeartbeat + node_id_ && id != canopen::kSdoResponse + node_id_ &&
-         id != canopen::kEmergency + node_id_;
-}
+// --- differences
 
-bool Comparison::in_this_process() const {
-  return static_cast<const ReplaySubject*>(&node()) == subject_.get();
-}
-
-// A status PDO that leaves when its inhibit time allows. Behind a pipe there is always room on the
-// bus: without inhibit time, it belongs to its cycle as every other frame does.
-bool Comparison::free_status(std::uint16_t id) const {
-  return node().is_status(id) && (in_this_process() || !node().status_every_cycle());
-}
-
-bool Comparison::could_say(const hal::CanFrame& status) const {
-  const auto holds = [&status](const std::vector<hal::CanFrame>& frames) {
-    return std::find(frames.begin(), frames.end(), status) != frames.end();
-  };
-  return holds(status_) || holds(earlier_status_);
-}
-
-std::string Comparison::name_of(std::uint16_t id) const {
-  if (id == canopen::kSdoResponse + node_id_) return "SDO response";
-  if (id == canopen::kEmergency + node_id_) return "emergency message";
-  if (id == canopen::kHeartbeat + node_id_) return "heartbeat";
-  if (node().is_status(id)) return "status PDO";
-  return "process data";
-}
-
-ReplayDifference Comparison::difference(const Said& where, const char* what) const {
-  ReplayDifference d;
-  d.time_us = where.time_us;
-  d.line = where.line;
-  d.sync_counter = where.counter;
-  d.what = fmt::format("{} {:03X}h {}", name_of(where.frame.id), where.frame.id, what);
-  return d;
-}
-
-void Comparison::differs(const Said& expected, const hal::CanFrame& got, const char* what) {
+void Comparison::differs(const Said& where, const std::string& what,
+                         const std::optional<hal::CanFrame>& expected,
+                         const std::optional<hal::CanFrame>& got) {
   if (result_.difference) return;
-  result_.difference = difference(expected, what);
-  result_.difference->expected = expected.frame;
-  result_.difference->got = got;
+  const std::uint16_t id = where.frame.id;
+  const char* const name = id == canopen::kSdoResponse + node_id_ ? "SDO response"
+                           : node_->is_status(id)                 ? "status PDO"
+                                                                  : "process data";
+  result_.difference = {where.place, fmt::format("{} {:03X}h {}", name, id, what), expected, got};
+  // What the log lacked in an earlier cycle explains nothing any more.
+  if (lacks_until_cycle_ < where.place.cycle) result_.lacks.clear();
 }
 
-void Comparison::not_sent(const Said& expected) {
-  if (result_.difference) return;
-  result_.difference = difference(expected, "is not sent");
-  result_.difference->expected = expected.frame;
+// Either the first node did not send it, or it had lost power: then its boot-up comes next.
+void Comparison::not_logged(const Said& said) {
+  if (!missing_) missing_ = said;
 }
 
-// Either the first node did not say it, or it had no power any more: then its boot-up comes next.
-void Comparison::not_logged(const Said& got) {
-  if (missing_) return;
-  missing_ = difference(got, "is not in the log");
-  missing_->got = got.frame;
+void Comparison::lacks(const std::string& what, std::uint64_t until_cycle) {
+  if (until_cycle < lacks_until_cycle_) return;
+  result_.lacks = fmt::format("line {}: {}", now_.line, what);
+  lacks_until_cycle_ = until_cycle;
 }
 
-void Comparison::had_power() {
-  if (missing_ && !result_.difference) result_.difference = missing_;
-}
+// --- frames of the replayed node
 
-// --- what the replayed node says
-
-void Comparison::replayed(std::uint64_t time_us, const hal::CanFrame& frame) {
+void Comparison::replayed(const hal::CanFrame& frame) {
   if (is_boot_up(frame, node_id_)) {
-    forget_unsent();
-  } else if (frame.id == canopen::kHeartbeat + node_id_) {
-    return;
-  } else if (free_status(frame.id)) {
-    const Said said{frame, time_us, result_.cycles, counter_, 0};
-    if (!in_this_process() && !could_say(frame)) return differs(said, node().status(), "differs");
-    status_.push_back(frame);
-    status_due_ = true;
-    return;
-  } else if (node().is_status(frame.id) && !cycle_begun_) {
-    start_status_ = frame;
+    ++boot_ups_;
+    for (auto& [id, stream] : streams_) {
+      for (Said& said : stream.replayed)
+        said.may_be_lost = true;
+    }
     return;
   }
+  if (frame.id == canopen::kHeartbeat + node_id_ || frame.id == canopen::kEmergency + node_id_)
+    return;
+  Said said{frame, now_, false, false};
+  said.place.line = 0;
+  if (node_->is_timed(frame.id)) return timed_.push_back(said);
   Stream& stream = streams_[frame.id];
-  stream.replayed.push_back({frame, time_us, result_.cycles, counter_, 0});
+  stream.replayed.push_back(said);
   match(stream);
 }
 
-// What was not yet on the bus when the node was reset never came there.
-void Comparison::forget_unsent() {
-  for (auto& [id, stream] : streams_)
-    stream.replayed.clear();
-  status_due_ = status_overdue_ = cycle_begun_ = false;
-  start_status_.reset();
-}
-
-// In order; process data at the latest one cycle after they were made.
+// In order, and process data in the same cycle.
 void Comparison::match(Stream& stream) {
   while (!stream.logged.empty() && !stream.replayed.empty()) {
     const Said& expected = stream.logged.front();
     const Said& got = stream.replayed.front();
-    const bool late = process_data(got.frame.id) && expected.cycle > got.cycle + 1;
-    if (late) {
-      not_logged(got);
-      return had_power();
+    const bool in_cycle = expected.frame.id != canopen::kSdoResponse + node_id_;
+    const std::uint64_t e = expected.place.cycle;
+    const std::uint64_t g = got.place.cycle;
+    const bool together =
+        !in_cycle || e == g || (expected.beside_sync && std::max(e, g) - std::min(e, g) == 1);
+    const bool same =
+        in_cycle ? expected.frame == got.frame : same_answer(expected.frame, got.frame);
+    if (got.may_be_lost && !(together && same)) {
+      stream.replayed.pop_front();
+      continue;
     }
-    if (expected.frame != got.frame) return differs(expected, got.frame, "differs");
+    if (!together && e < g) return not_sent(expected);
+    if (!together) {
+      differs(got, "is not in the log", std::nullopt, got.frame);
+    } else if (!same) {
+      differs(expected, "differs", expected.frame, got.frame);
+    }
+    if (result_.difference) return;
     ++result_.compared;
+    fresh_ = false;
     stream.logged.pop_front();
     stream.replayed.pop_front();
   }
 }
 
-// What the node could say now, where only the moment decides whether it does.
-void Comparison::observe() {
-  states_.insert(static_cast<std::uint8_t>(node().state()));
-  const hal::CanFrame status = node().status();
-  if (status_.empty() || status_.back() != status) status_.push_back(status);
-}
+// --- frames of the log
 
-// --- what the log says
-
-void Comparison::take(const LoggedFrame& logged) {
-  now_us_ = logged.time_us;
-  subject_->advance(logged.time_us);
-  observe();
+void Comparison::take(const LoggedFrame& logged, bool beside_sync) {
+  now_.time_us = logged.time_us;
+  now_.line = logged.line;
   if (is_boot_up(logged.frame, node_id_)) {
     take_boot_up(logged);
-  } else if (node().sends(logged.frame.id)) {
-    take_answer(logged);
+  } else if (node_->sends(logged.frame.id)) {
+    take_answer(logged, beside_sync);
   } else {
     take_input(logged);
   }
-  observe();
 }
 
+// The first offset of a cycle shows that the node has computed it. What comes later came too late;
+// the very next frame may have come before.
 void Comparison::take_input(const LoggedFrame& logged) {
-  if (logged.frame.id == canopen::kSync) {
-    subject_->end_cycle();
-    counter_ = logged.frame.data[0];
-    begin_cycle();
+  const bool sync = logged.frame.id == canopen::kSync;
+  if (offset_line_ != 0 && (sync || logged.line > offset_line_ + 1)) {
+    node_->pass_deadline();
+    observe_timed();
+    offset_line_ = 0;
   }
+  if (sync) begin_cycle(logged.frame);
+  if (node_->awaits(logged.frame.id)) heard_.insert(logged.frame.id);
   ++result_.fed;
-  const canopen::NmtState before = node().state();
-  subject_->receive(logged.frame, logged.time_us);
-  if (node().state() != before) cycle_begun_ = false;
+  node_->receive(logged.frame, logged.time_us);
+  observe_timed();
 }
 
-// Whoever is slower than the node of the log gets the time to say what that has said.
-void Comparison::await(std::uint16_t id) {
-  const std::deque<Said>& said = streams_[id].replayed;
-  const int most = process_data(id) ? kCyclicPatience : kServicePatience;
-  for (int i = 0; i < most && said.empty() && subject_->linger(); ++i) {
-  }
-}
-
-void Comparison::take_answer(const LoggedFrame& logged) {
-  had_power();
-  subject_->poll(logged.time_us);
-  observe();
-  const Said said{logged.frame, logged.time_us, result_.cycles, counter_, logged.line};
-  if (logged.frame.id == canopen::kHeartbeat + node_id_) return compare_heartbeat(said);
-  if (free_status(logged.frame.id)) return compare_status(said);
-  if (take_start_status(logged.frame)) return;
-  await(logged.frame.id);
-  Stream& stream = streams_[logged.frame.id];
+void Comparison::take_answer(const LoggedFrame& logged, bool beside_sync) {
+  const std::uint16_t id = logged.frame.id;
+  if (missing_ && !result_.difference)
+    differs(*missing_, "is not in the log", std::nullopt, missing_->frame);
+  if (id == canopen::kEmergency + node_id_ && logged.frame.size == 8 &&
+      canopen::load_le(logged.frame.data.data(), 2) ==
+          static_cast<std::uint64_t>(canopen::ErrorCode::can_overrun))
+    lacks("the node had not seen all frames that are in the log", UINT64_MAX);
+  if (id == canopen::kHeartbeat + node_id_ || id == canopen::kEmergency + node_id_) return;
+  const Said said{logged.frame, now_, beside_sync, false};
+  if (node_->is_timed(id)) return timed_.push_back(said);
+  Stream& stream = streams_[id];
+  const bool of_open_cycle = node_->cycle_open() && stream.replayed.empty();
+  if (offset_line_ == 0 && of_open_cycle && node_->is_offset(id)) offset_line_ = logged.line;
   stream.logged.push_back(said);
   match(stream);
 }
@@ -202,84 +165,93 @@ void Comparison::take_answer(const LoggedFrame& logged) {
 // first boot-up had not yet left sends two in a row.
 void Comparison::take_boot_up(const LoggedFrame& logged) {
   missing_.reset();
-  subject_->poll(logged.time_us);
-  await(logged.frame.id);
-  Stream& stream = streams_[logged.frame.id];
-  const bool again = stream.replayed.empty() && result_.compared == compared_at_boot_up_;
-  if (stream.replayed.empty() && !again) {
+  if (boot_ups_ == 0 && !fresh_) {
     finish();
     streams_.clear();
+    timed_.clear();
     ++result_.power_ups;
-    subject_->power_on(logged.time_us);
+    node_->power_on(logged.time_us);
   }
-  if (!again) streams_[logged.frame.id].replayed.pop_front();
-  compared_at_boot_up_ = ++result_.compared;
-}
-
-void Comparison::compare_heartbeat(const Said& said) {
-  const auto state = static_cast<std::uint8_t>(said.frame.data[0] & 0x7FU);
-  if (said.frame.size == 1 && states_.count(state) > 0) {
-    ++result_.compared;
-    states_.clear();
-    return;
-  }
-  const hal::CanFrame got{said.frame.id, 1, {static_cast<std::uint8_t>(node().state())}};
-  differs(said, got, "tells another state");
-}
-
-void Comparison::compare_status(const Said& said) {
-  if (!could_say(said.frame)) return differs(said, node().status(), "differs");
+  boot_ups_ -= std::min<std::size_t>(boot_ups_, 1);
+  fresh_ = true;
+  offset_line_ = 0;
   ++result_.compared;
-  (status_overdue_ ? status_overdue_ : status_due_) = false;
-}
-
-// The first status after a start belongs to no cycle. Where the command to start and the first SYNC
-// came to the node at once, it had nothing to say in between.
-bool Comparison::take_start_status(const hal::CanFrame& frame) {
-  if (!node().is_status(frame.id) || !start_status_) return false;
-  const bool said = *start_status_ == frame && streams_[frame.id].replayed.empty();
-  start_status_.reset();
-  if (said) ++result_.compared;
-  return said;
 }
 
 // --- cycles
 
-// A command to start may still wait in the background of a node when the first SYNC comes: that
-// cycle then has no status.
-void Comparison::begin_cycle() {
-  check_age();
-  status_overdue_ = status_due_ && !first_cycle_;
-  first_cycle_ = !cycle_begun_;
-  status_due_ = false;
-  earlier_status_ = std::move(status_);
-  status_.clear();
-  cycle_begun_ = true;
-  ++result_.cycles;
+void Comparison::begin_cycle(const hal::CanFrame& sync) {
+  look_for_gaps(sync);
+  now_.sync_counter = sync.data[0];
+  now_.cycle = ++result_.cycles;
+  heard_earlier_ = std::exchange(heard_, {});
+  for (auto& [id, stream] : streams_) {
+    if (id == canopen::kSdoResponse + node_id_) continue;
+    while (!stream.replayed.empty() && stream.replayed.front().may_be_lost)
+      stream.replayed.pop_front();
+    const auto old = [this](const std::deque<Said>& waiting) {
+      return !waiting.empty() && waiting.front().place.cycle + 2 < now_.cycle;
+    };
+    if (old(stream.logged)) not_sent(stream.logged.front());
+    if (old(stream.replayed)) not_logged(stream.replayed.front());
+  }
+  judge_timed(now_.cycle - std::min<std::uint64_t>(now_.cycle, 2));
 }
 
-// Whether something has waited too long for its counterpart.
-void Comparison::check_age() {
-  const auto too_old = [this](const std::deque<Said>& waiting) {
-    if (waiting.empty()) return false;
-    const Said& said = waiting.front();
-    return process_data(said.frame.id) ? said.cycle < result_.cycles
-                                       : now_us_ - said.time_us > kPatience_us;
-  };
-  for (const auto& [id, stream] : streams_) {
-    if (too_old(stream.logged)) return not_sent(stream.logged.front());
-    if (too_old(stream.replayed)) return not_logged(stream.replayed.front());
+// Frames that were on the bus, and candump did not see them: what the node saw is not known.
+void Comparison::look_for_gaps(const hal::CanFrame& sync) {
+  const std::uint8_t counter = sync.data[0];
+  if (sync.size == 1 && result_.cycles != 0 && counter > 1 && counter != now_.sync_counter + 1)
+    lacks(fmt::format("SYNC counter {} follows {}", counter, now_.sync_counter), UINT64_MAX);
+  for (const std::uint16_t id : heard_earlier_) {
+    if (heard_.count(id) == 0)
+      lacks(fmt::format("the cycle before it has no {:03X}h", id), now_.cycle + 1);
   }
-  if (status_overdue_ && node().status_every_cycle())
-    not_logged({node().status(), now_us_, result_.cycles, counter_, 0});
+}
+
+// --- process data whose time depends on the node's clock
+
+void Comparison::observe_timed() {
+  for (const hal::CanFrame& frame : node_->timed()) {
+    const std::pair now{now_.cycle, frame};
+    if (std::find(could_say_.rbegin(), could_say_.rend(), now) == could_say_.rend())
+      could_say_.push_back(now);
+  }
+}
+
+// The frames of both nodes hold in their cycle or in one beside it.
+void Comparison::judge_timed(std::uint64_t before_cycle) {
+  for (; !timed_.empty() && timed_.front().place.cycle < before_cycle; timed_.pop_front()) {
+    const Said& said = timed_.front();
+    const auto true_then = [&said](const auto& could) {
+      return could.second == said.frame && could.first + 2 >= said.place.cycle &&
+             could.first <= said.place.cycle + 1;
+    };
+    if (std::any_of(could_say_.begin(), could_say_.end(), true_then)) {
+      result_.compared += said.place.line != 0 ? 1U : 0U;
+      continue;
+    }
+    const auto near = std::find_if(could_say_.begin(), could_say_.end(), [&said](const auto& c) {
+      return c.second.id == said.frame.id && c.first >= said.place.cycle;
+    });
+    const auto other = near == could_say_.end() ? std::optional<hal::CanFrame>() : near->second;
+    const bool logged = said.place.line != 0;
+    differs(said, "differs", logged ? said.frame : other, logged ? other : said.frame);
+  }
+  while (!could_say_.empty() && could_say_.front().first + 3 < before_cycle)
+    could_say_.pop_front();
 }
 
 // The log may end before the last answers do, but it may not hold more than there are.
 void Comparison::finish() {
-  had_power();
+  if (offset_line_ != 0) node_->pass_deadline();
+  offset_line_ = 0;
+  observe_timed();
+  if (missing_) differs(*missing_, "is not in the log", std::nullopt, missing_->frame);
   for (const auto& [id, stream] : streams_) {
     if (!stream.logged.empty()) return not_sent(stream.logged.front());
   }
+  judge_timed(UINT64_MAX);
 }
 
 }  // namespace volcomp::host

@@ -8,11 +8,12 @@
 
 namespace volcomp::host {
 
+using canopen::Pdo;
 using node::StoreResult;
 
 namespace {
 
-// What a node asks of its surroundings: poll() at least every millisecond.
+// A node needs a poll() at least every millisecond.
 constexpr std::uint64_t kPoll_us = 1000;
 // A gap in a log may be long, and nothing happens in most of it.
 constexpr std::uint64_t kMostPolls = 10'000;
@@ -21,6 +22,19 @@ void fill(Span<std::uint8_t>& target, const std::vector<std::uint8_t>& source) {
   const std::size_t size = std::min(target.size(), source.size());
   std::copy_n(source.begin(), size, target.begin());
   target = {target.data(), size};
+}
+
+bool is_timed_pdo(const Pdo& pdo, std::size_t number) {
+  const canopen::PdoParameters& p = pdo.parameters();
+  return number == node::kStatusPdo ||
+         (!pdo.synchronous() && (p.inhibit_100us != 0 || p.event_timer_ms != 0));
+}
+
+// The number of the PDO with this identifier; what the span has not: none.
+std::size_t find_pdo(Span<Pdo> pdos, std::uint16_t id) {
+  return static_cast<std::size_t>(
+      std::find_if(pdos.begin(), pdos.end(), [id](const Pdo& p) { return p.answers_to(id); }) -
+      pdos.begin());
 }
 
 }  // namespace
@@ -54,65 +68,88 @@ ReplayedNode::ReplayedNode(std::uint8_t node_id, std::vector<std::uint8_t> store
     : node_id_(node_id), storage_(std::move(stored_image)), on_sent_(std::move(on_sent)) {}
 
 void ReplayedNode::power_on(std::uint64_t time_us) {
-  time_us_ = time_us;
+  now_us_ = time_us;
   node_ = std::make_unique<node::Node>(node_id_, &storage_);
   node_->power_on(time_us);
-  poll(time_us);
-}
-
-void ReplayedNode::advance(std::uint64_t time_us) {
-  const std::uint64_t pause = std::max(kPoll_us, (time_us - time_us_) / kMostPolls);
-  while (true) {
-    const std::uint64_t due = std::max(node_->deadline_us(), time_us_ + 1);
-    const std::uint64_t next = std::min(due, time_us_ + pause);
-    if (next >= time_us) break;
-    time_us_ = next;
-    poll(next);
-  }
-  time_us_ = time_us;
+  poll();
 }
 
 void ReplayedNode::receive(const hal::CanFrame& frame, std::uint64_t time_us) {
-  node_->receive(frame, time_us);
-  poll(time_us);
+  advance(time_us);
+  node_->device().receive(frame, now_us_);
+  poll();
 }
 
-void ReplayedNode::poll(std::uint64_t time_us) {
-  node_->poll(time_us);
+void ReplayedNode::pass_deadline() {
+  if (!cycle_open()) return;
+  now_us_ = std::max(now_us_, node_->deadline_us());
+  poll();
+}
+
+// While a cycle is open, the node's clock stands before the deadline.
+void ReplayedNode::advance(std::uint64_t time_us) {
+  if (time_us <= now_us_) return;
+  const std::uint64_t step = std::max(kPoll_us, (time_us - now_us_) / kMostPolls);
+  while (now_us_ + step < time_us && now_us_ + step < node_->deadline_us()) {
+    now_us_ += step;
+    poll();
+  }
+  now_us_ = std::max(now_us_, std::min(time_us, node_->deadline_us() - 1));
+}
+
+void ReplayedNode::poll() {
+  node_->device().poll(now_us_);
   hal::CanFrame frame;
-  while (node_->offer(frame, time_us)) {
-    node_->taken(time_us);
+  while (node_->device().offer(frame, now_us_)) {
+    node_->device().taken(now_us_);
     if (frame.id == canopen::kSync)
       throw UserError("the node produces SYNC itself; only a node that follows can be replayed");
-    on_sent_(time_us, frame);
+    on_sent_(frame);
   }
 }
 
 bool ReplayedNode::sends(std::uint16_t id) const {
-  if (id == canopen::kHeartbeat + node_id_ || id == canopen::kSdoResponse + node_id_ ||
-      id == canopen::kEmergency + node_id_)
-    return true;
-  const Span<canopen::Pdo> pdos = node_->device().pdos().transmit();
-  return std::any_of(pdos.begin(), pdos.end(),
-                     [id](const canopen::Pdo& pdo) { return pdo.valid() && pdo.id() == id; });
+  const Span<Pdo> pdos = node_->device().pdos().transmit();
+  return id == canopen::kHeartbeat + node_id_ || id == canopen::kSdoResponse + node_id_ ||
+         id == canopen::kEmergency + node_id_ || find_pdo(pdos, id) < pdos.size();
 }
 
-const canopen::Pdo& ReplayedNode::status_pdo() const {
-  return node_->device().pdos().transmit()[node::kStatusPdo];
+bool ReplayedNode::is_offset(std::uint16_t id) const {
+  const Span<Pdo> pdos = node_->device().pdos().transmit();
+  const std::size_t number = find_pdo(pdos, id);
+  return number < node::kStatusPdo && !pdos[number].synchronous();
+}
+
+bool ReplayedNode::is_timed(std::uint16_t id) const {
+  const Span<Pdo> pdos = node_->device().pdos().transmit();
+  const std::size_t number = find_pdo(pdos, id);
+  return number < pdos.size() && is_timed_pdo(pdos[number], number);
 }
 
 bool ReplayedNode::is_status(std::uint16_t id) const {
-  return status_pdo().valid() && status_pdo().id() == id;
+  return node_->device().pdos().transmit()[node::kStatusPdo].answers_to(id);
 }
 
-hal::CanFrame ReplayedNode::status() const {
-  hal::CanFrame frame;
-  status_pdo().gather(frame);
-  return frame;
+bool ReplayedNode::awaits(std::uint16_t id) const {
+  const Span<Pdo> pdos = node_->device().pdos().receive();
+  const std::size_t number = find_pdo(pdos, id);
+  if (number == pdos.size()) return false;
+  const canopen::PdoParameters& p = pdos[number].parameters();
+  return std::any_of(p.mapping.begin(), p.mapping.begin() + p.count, [](std::uint32_t mapping) {
+    const std::uint16_t index = canopen::object_of(mapping).index;
+    return index == 0x2011 || index == 0x2014 || index == 0x2016;
+  });
 }
 
-bool ReplayedNode::status_every_cycle() const {
-  return status_pdo().valid() && status_pdo().parameters().inhibit_100us == 0;
+std::vector<hal::CanFrame> ReplayedNode::timed() const {
+  std::vector<hal::CanFrame> frames;
+  const Span<Pdo> pdos = node_->device().pdos().transmit();
+  for (std::size_t i = 0; i < pdos.size(); ++i) {
+    if (!pdos[i].valid() || !is_timed_pdo(pdos[i], i)) continue;
+    frames.emplace_back();
+    pdos[i].gather(frames.back());
+  }
+  return frames;
 }
 
 }  // namespace volcomp::host

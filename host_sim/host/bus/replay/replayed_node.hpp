@@ -1,15 +1,14 @@
 #pragma once
-// A node that lives through a recorded past: it receives what the log says the bus carried, and the
-// log's clock is its time.
+// The node a log is replayed into: it receives the frames of the log, and the log's clock is its
+// time. Only the deadline of a cycle (2200h:03) does not pass by itself: the frames of the first
+// node show when it passed, because the log's clock may have been set.
 
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "firmware/node/node.hpp"
-#include "host_sim/host/bus/replay/replay_subject.hpp"
 
 namespace volcomp::host {
 
@@ -31,36 +30,49 @@ class ImageStorage final : public node::Storage {
   std::vector<std::uint8_t> image_;
 };
 
-class ReplayedNode final : public ReplaySubject {
+class ReplayedNode {
  public:
+  using OnSent = std::function<void(const hal::CanFrame& frame)>;
+
   // `stored_image`: tables the node finds at power-on, empty for none.
   ReplayedNode(std::uint8_t node_id, std::vector<std::uint8_t> stored_image, OnSent on_sent);
+  ReplayedNode(const ReplayedNode&) = delete;
+  ReplayedNode& operator=(const ReplayedNode&) = delete;
+  virtual ~ReplayedNode() = default;
 
-  void power_on(std::uint64_t time_us) override;
-  void advance(std::uint64_t time_us) override;
-  void receive(const hal::CanFrame& frame, std::uint64_t time_us) override;
-  void poll(std::uint64_t time_us) override;
-  [[nodiscard]] const ReplayedNode& model() const override { return *this; }
+  // A fresh start. Before everything else.
+  virtual void power_on(std::uint64_t time_us);
+  virtual void receive(const hal::CanFrame& frame, std::uint64_t time_us);
+  // Ends the open cycle, if there is one: nothing more of it is awaited.
+  virtual void pass_deadline();
 
-  // Whether the node is the one that sends frames with this identifier, as configured now.
+  [[nodiscard]] bool cycle_open() const { return node_->deadline_us() != UINT64_MAX; }
+  // Whether the node is the one that sends frames with this identifier, as configured now; whether
+  // these are offsets that leave as soon as they are computed; whether only its clock decides when
+  // they leave: the status PDO, and what has an inhibit time or an event timer.
   [[nodiscard]] bool sends(std::uint16_t id) const;
+  [[nodiscard]] bool is_offset(std::uint16_t id) const;
+  [[nodiscard]] bool is_timed(std::uint16_t id) const;
   [[nodiscard]] bool is_status(std::uint16_t id) const;
-  // What its status PDO says now, and whether that leaves in every cycle.
-  [[nodiscard]] hal::CanFrame status() const;
-  [[nodiscard]] bool status_every_cycle() const;
-  [[nodiscard]] canopen::NmtState state() const { return node_->device().state(); }
-  // When its next deadline is; UINT64_MAX: there is none.
-  [[nodiscard]] std::uint64_t deadline_us() const { return node_->deadline_us(); }
+  // Whether a cycle waits for this frame of others.
+  [[nodiscard]] bool awaits(std::uint16_t id) const;
+  // The present content of the timed process data.
+  [[nodiscard]] std::vector<hal::CanFrame> timed() const;
   [[nodiscard]] std::uint32_t active_crc() const { return node_->objects().active_crc; }
 
+ protected:
+  // The node's own clock.
+  [[nodiscard]] std::uint64_t now_us() const { return now_us_; }
+
  private:
-  [[nodiscard]] const canopen::Pdo& status_pdo() const;
+  void advance(std::uint64_t time_us);
+  void poll();
 
   std::uint8_t node_id_;
   ImageStorage storage_;
   OnSent on_sent_;
   std::unique_ptr<node::Node> node_;
-  std::uint64_t time_us_ = 0;
+  std::uint64_t now_us_ = 0;
 };
 
 }  // namespace volcomp::host

@@ -9,7 +9,7 @@ namespace volcomp::host {
 inline constexpr std::string_view report_data_mark = "@VOLCOMP_REPORT_DATA@";
 
 // The report page without data, and the live page with its script and style; generated at build
-// time by embed.mjs.
+// time by embed.mjs; empty without node's packages (no_page.cpp).
 std::string report_page();
 std::string live_page();
 std::string live_script();

@@ -36,7 +36,9 @@ std::string page_with(std::string_view json) {
 
 }  // namespace
 
-// A name that is not UTF-8, say of a file, must not cost the whole report.
+bool has_report_page() { return !report_page().empty(); }
+
+// A name that is not UTF-8, for instance of a file, must not lose the whole report.
 std::string report_text(const nlohmann::json& document) {
   return document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }

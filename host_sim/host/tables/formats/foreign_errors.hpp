@@ -1,7 +1,7 @@
 #pragma once
-// Error functions as other people's files give them, one curve per channel, and the run files they
-// become. Only units and layout change here; what the values mean (relative or body, at which
-// point) is said by the machine file, as for runs of one's own.
+// Error functions from files of other programs, one curve per channel, and the run files made of
+// them. Only units and layout change here; the machine file defines what the values mean (relative
+// or body, at which point), as for a user's own runs.
 
 #include <array>
 #include <map>
@@ -25,7 +25,7 @@ struct LocationError {
   bool angle = false;  // rad, otherwise mm
 };
 
-// Of one or several files of the same machine. mm and rad.
+// The content of one or several files of the same machine. mm and rad.
 struct ForeignErrors {
   std::map<char, std::array<ForeignCurve, 6>> axis;  // by letter; EX EY EZ EA EB EC
   std::vector<LocationError> location;
@@ -37,7 +37,7 @@ inline constexpr double kLargestInRuns = 1e9;
 // NaN does not.
 [[nodiscard]] bool fits_run_file(double value);
 
-// What a file must not leave to a guess.
+// What the format leaves open and the caller must state.
 struct ImportRules {
   int sign = 1;              // −1: the file holds nominal − actual
   bool absent_zero = false;  // channels that are not in the file are 0

@@ -11,15 +11,15 @@
 // (the same manual of ISG, isg-stuttgart.de/fileadmin/kernel/kernel-html/en-GB/296426379.html):
 // errors in mm and rad, positions of X Y Z in mm and of A B C in degrees.
 //
-// Not said there, so it must be said to us: the sign (the manual has a parameter that negates,
-// P-VOLC-00009) and the point that the errors hold for.
+// The manual does not define the sign (it has a parameter that negates, P-VOLC-00009) and the point
+// that the errors hold for, so both are options.
 
 #include "host_sim/host/tables/formats/foreign_errors.hpp"
 
 namespace volcomp::host {
 
 // Throws UserError with file and line. Refused although the format has it: errors that depend on
-// more than their own axis; no table of ours holds them.
+// more than their own axis; no table here holds them.
 void read_isg_csv(std::istream& stream, const std::string& name, ForeignErrors& errors);
 
 }  // namespace volcomp::host

@@ -1,7 +1,7 @@
 #pragma once
 // Spindle pitch error compensation of the ISG kernel and Beckhoff TwinCAT CNC (kw.ssfk). Entries
 // are actual − setpoint = −offset, integers of 0.1 µm or 0.0001 degree, one column per direction.
-// Enabled by lr_param.ssfk (P-AXIS-00175). Seed 003 section 10.
+// Enabled by lr_param.ssfk (P-AXIS-00175). docs/formats.md, "What is written".
 
 #include <string>
 #include <vector>

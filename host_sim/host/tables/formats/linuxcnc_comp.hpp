@@ -1,9 +1,9 @@
 #pragma once
 // LinuxCNC screw compensation: lines `nominal forward reverse`. COMP_FILE_TYPE 0: both are
 // positions, the trim is nominal − value; 1: both are trims. A trim is added to the motor command
-// and taken out of the displayed feedback. Seed 003 section 10; usrmotLoadComp() in
-// src/emc/motion/usrmotintf.cc of LinuxCNC, which stops without a word at the first line that is
-// not three numbers: here such a line is refused.
+// and taken out of the displayed feedback. Source: usrmotLoadComp() in src/emc/motion/usrmotintf.cc
+// of LinuxCNC, which stops without a message at the first line that is not three numbers: here such
+// a line is refused. docs/formats.md, "LinuxCNC".
 
 #include <istream>
 #include <string>

@@ -29,7 +29,7 @@ Status check(const CecTable& table) {
   return check_offsets(table.offset, kMostEntries, table.modulo, kSixDecimals, file_units(table));
 }
 
-// What one assignment of the file says about the table.
+// One assignment of the file to the table.
 class Reader {
  public:
   explicit Reader(CecTable& table) : table_(table) {}

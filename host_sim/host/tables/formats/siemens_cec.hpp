@@ -1,7 +1,7 @@
 #pragma once
 // Siemens cross compensation $AN_CEC: a function of the setpoint of one axis, added to the setpoint
 // of another. Two tables, one per direction of Z, with C as output are the stroke tables T1.
-// Seed 003 section 10.
+// docs/formats.md, "What is written".
 //
 // Machine data that go with it: MD18342 $MN_MM_CEC_MAX_POINTS[t], MD32710 $MA_CEC_ENABLE, SD41300
 // $SN_CEC_TABLE_ENABLE[t]; limited by MD32720 and MD32730. The sign follows from "additional
@@ -24,7 +24,7 @@ struct CecTable {
   int direction = 0;    // +1 or −1: while the base axis travels that way; 0: both
   bool modulo = false;  // of the base axis: first = last
   bool rotary = false;  // the output axis
-  int sign = 1;         // −1 where the dial gauge says so
+  int sign = 1;         // −1 where the dial gauge shows so
 };
 
 // Six decimals. Refused: bad_setting (field), what check_offsets() refuses.

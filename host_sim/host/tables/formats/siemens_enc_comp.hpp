@@ -1,7 +1,7 @@
 #pragma once
 // Siemens encoder compensation $AA_ENC_COMP (leadscrew and measuring system error). It changes the
 // actual value, so a positive entry moves the axis negative: entry = −offset. One table for both
-// directions. Seed 003 section 10.
+// directions. docs/formats.md, "What is written".
 //
 // Machine data that go with it: MD38000 $MA_MM_ENC_COMP_MAX_POINTS at least the number of entries,
 // MD32700 $MA_ENC_COMP_ENABLE[0] = 1; the axis must be referenced. The control does not limit it.

@@ -31,9 +31,9 @@ inline constexpr NumberForm kInt32{1.0, 2147483647.0};
 // The line in front of a complaint about it.
 [[nodiscard]] std::string at_line(int line, const std::string& complaint);
 
-// Of a table before it is written: at least two offsets, at most `capacity`, all finite and of the
-// form, the first and the last printed alike if it is to wrap; `file_units`: in one mm or rad.
-// too_few_knots, too_many_knots (count), not_finite (index), bad_setting ("offset", index),
+// Checks a table before it is written: at least two offsets, at most `capacity`, all finite and of
+// the form, the first and the last printed alike if it is to wrap; `file_units`: in one mm or rad.
+// Refuses too_few_knots, too_many_knots (count), not_finite (index), bad_setting ("offset", index),
 // not_periodic (deviation).
 Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, bool modulo,
                      const NumberForm& form, double file_units);

@@ -1,7 +1,8 @@
 #pragma once
-// A volumetric model of a three-axis machine as the one-dimensional tables a controller has:
-// $AA_ENC_COMP for what an axis does to itself, $AN_CEC for what it does to the other two. What
-// nine functions cannot represent is measured and said (seed 001 section 8, seed 003 section 10).
+// Writes a volumetric model of a three-axis machine as the one-dimensional tables a controller has:
+// $AA_ENC_COMP for an axis on itself, $AN_CEC for it on the other two. The products of an angle and
+// another axis do not fit nine functions; their error is measured and reported (docs/formats.md,
+// "What is written").
 
 #include <array>
 #include <string>

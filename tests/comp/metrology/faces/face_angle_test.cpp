@@ -1,5 +1,5 @@
-// Where a face gear stands on the turntable: the worked example of the paper, and what each way to
-// find it costs (seed 002 section 5).
+// Where a face gear stands on the turntable: the worked example of the paper
+// (docs/papers/face-gear.md), and what each way to find it costs.
 
 #include "comp/metrology/faces/face_angle.hpp"
 

@@ -1,5 +1,4 @@
-// Frames of face gears from many touches: what layouts show, and what is refused (seed 002 section
-// 5).
+// Frames of face gears from many touches: what layouts show, and what is refused.
 
 #include "comp/metrology/faces/face_frame.hpp"
 

@@ -27,7 +27,7 @@ std::vector<double> eccentric_round(double um = 5.0) {
   return angle;
 }
 
-// The same, to be looked at only.
+// The same, read-only.
 const std::vector<double>& eccentric() {
   static const std::vector<double> round = eccentric_round();
   return round;

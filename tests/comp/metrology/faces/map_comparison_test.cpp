@@ -1,5 +1,5 @@
-// The paper's two measurements of one gear: what it says about them, and how much of the difference
-// is a frame.
+// The paper's two measurements of one gear (docs/papers/face-gear.md): its statements about them,
+// and how much of the difference is a frame.
 
 #include <cmath>
 #include <vector>
@@ -23,7 +23,7 @@ MapDifference difference_of(std::size_t flank) {
   return d;
 }
 
-// Left is side +1, by our choice: the paper does not say.
+// Left is side +1, by our choice: the paper does not state it.
 struct BothFlanks {
   std::array<MapDifference, 2> difference{difference_of(0), difference_of(1)};
   std::array<Grid, 2> nominal{reference::table_3_grid(reference::FaceGear{}, 1),

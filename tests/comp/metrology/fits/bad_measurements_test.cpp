@@ -1,5 +1,4 @@
-// What a user gets who has measured badly (seed 000, "Bad input"): a reason with its place, and
-// everything as it was.
+// Bad measurements are refused with a reason and its place, and everything stays as it was.
 
 #include <cmath>
 #include <limits>

@@ -204,8 +204,8 @@ std::vector<FaceTouchPoint> one_row(const FaceGear& plain) {
   return points;
 }
 
-// Touches of a flank without relief, near the tip: who leaves the relief out finds the turn, who
-// does not takes it for one.
+// Touches of a flank without relief, near the tip: a fit without the relief finds the turn, one
+// with it takes the relief for a turn.
 TEST(FaceFrame, TheReliefIsLeftOutWhereThatIsAskedFor) {
   const FaceGear relieved = face_gear_of_table_3();
   const std::vector<FaceTouchPoint> points = one_row(without_relief(relieved));

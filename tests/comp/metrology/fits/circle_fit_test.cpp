@@ -1,4 +1,4 @@
-// Probe calibration on the mandrel of seed 000 section 3: 162 points of a half circle.
+// Probe calibration on the mandrel of docs/papers/l300g.md: 162 points of a half circle.
 
 #include <cmath>
 #include <vector>

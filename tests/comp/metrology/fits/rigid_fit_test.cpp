@@ -1,4 +1,4 @@
-// Six error motions from targets: what layouts promise (seed 000 section 2.2).
+// Six error motions from targets: what layouts promise.
 
 #include <cmath>
 #include <vector>

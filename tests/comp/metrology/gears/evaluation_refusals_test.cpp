@@ -229,8 +229,8 @@ TEST(ClosestPointRefusal, APatchThatIsALineHasNoNormal) {
   EXPECT_EQ(closest_point(patch, {-5.0, 1.0, 0.0}, Vec3::UnitZ(), c).reason, Reason::zero_normal);
 }
 
-// Steps of 3 mm up and down between neighbours: what is found is a foot, or it is said that none
-// was.
+// Steps of 3 mm up and down between neighbours: what is found is a foot, or it is reported that
+// there is none.
 TEST(ClosestPoint, OnARoughPatchEitherSettlesOrSaysThatItDidNot) {
   std::mt19937 random(7);
   const auto between = [&](double low, double high) {

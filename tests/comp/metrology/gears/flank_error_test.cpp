@@ -1,5 +1,5 @@
-// What axis errors leave on the flank: the table and figures of seed 003 sections 5 to 7, and the
-// first order against the exact envelope.
+// What axis errors leave on the flank: sensitivities and figures for the machine of
+// docs/papers/internal-helical.md, and the first order against the exact envelope.
 
 #include <algorithm>
 #include <cmath>
@@ -76,8 +76,8 @@ constexpr std::array<SensitivityCase, 24> kSection6{{
     {kGrinderA, 5, -3.50, -1, -0.23, 0},
 }};
 
-// The column of the profile is headed "transverse", but its figures are those along the normal, 3 %
-// less; two of them (EYX, EYZ: 0.492) are printed as 0.50.
+// The figures of the profile are those along the normal, 3 % less than transverse; two of them
+// (EYX, EYZ: 0.492) are rounded to 0.50.
 TEST(FlankSensitivity, IsTheTableOfSection6) {
   constexpr double kPrinted = 0.006;  // two decimals
   constexpr double kProfilePrinted = 0.009;
@@ -185,7 +185,7 @@ TEST(FlankFirstOrder, MissesOnlyTheSecondOrder) {
   }
 }
 
-// Section 7: singly 3.25, 41.35 and 42.76 µm; Z and C together 84.1 or 1.41 µm.
+// Singly 3.25 (X), 41.35 (Z) and 42.76 µm (C); Z and C together 84.1 or 1.41 µm.
 TEST(Synchronism, PrintedTrackingErrorsAreOneLagAlongTheHelix) {
   const Grinding g;
   const FlankPlace pitch{FlankSide::left, g.gear.r, 0.0};

@@ -1,5 +1,5 @@
-// Wheel and contact: the figures of seed 003 section 4, and that the wheel grinds the flank it was
-// made for.
+// Wheel and contact: figures for the gear of docs/papers/internal-helical.md, and that the wheel
+// grinds the flank it was made for.
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,7 @@ double worst_nm(const InternalGear& gear, const WheelSetup& setup, FlankSide sid
   return worst;
 }
 
-// Seed 003: 15.5, 1.28, 0.065, 0.004, 0.00024 nm; a Hermite cubic loses a factor of 16 per halving.
+// 15.5, 1.28, 0.065, 0.004, 0.00024 nm: a Hermite cubic loses a factor of 16 per halving.
 TEST(FormWheel, GrindsItsFlankTheBetterTheMoreKnots) {
   const InternalGear gear = paper_gear();
   const WheelSetup setup = setup_for(gear, 40.0);

@@ -1,4 +1,4 @@
-// Deviations against analytic traces, limits against the table of seed 000 section 4.
+// Deviations against analytic traces, limits of ISO 1328-1 for the gear of docs/papers/l300g.md.
 
 #include <cmath>
 #include <vector>

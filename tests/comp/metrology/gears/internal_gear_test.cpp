@@ -1,4 +1,5 @@
-// The internal gear against the figures of seed 003 section 3 and identities of a helicoid.
+// The internal gear against figures for the gear of docs/papers/internal-helical.md and identities
+// of a helicoid.
 
 #include <cmath>
 #include <limits>

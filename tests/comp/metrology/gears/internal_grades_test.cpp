@@ -1,4 +1,5 @@
-// Grades against section 11 of seed 003, and pitch and profile of internal gears.
+// Grades against those of Table 4 (docs/papers/internal-helical.md), and pitch and profile of
+// internal gears.
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-// The chain of the internal grinder against the closed form of seed 003 section 2.
+// The chain of the internal grinder against its closed form.
 
 #include <cmath>
 
@@ -75,7 +75,7 @@ TEST(LeftError, ExactAndFirstOrderDifferBySecondOrder) {
   EXPECT_LT(off(tenth), 0.012 * off(errors));
 }
 
-// Seed 003, E1: 0.033 degrees differ by 14 nm at the rim of the wheel.
+// docs/papers/internal-helical.md, Table 2: 0.033 degrees differ by 14 nm at the rim of the wheel.
 TEST(LeftError, PrintedMatricesAreNoRotations) {
   const MachineChain chain = grinder_chain();
   ErrorSet errors = zero_errors();
@@ -105,7 +105,7 @@ TEST(LeftError, SensitivityIsItsGradient) {
   }
 }
 
-// Seed 003, E2: 1 µm in Y is worth 12.3 µrad in C.
+// 1 µm in Y is worth 12.3 µrad in C.
 TEST(InternalGrinder, TakesAYSlideOnEitherSideOfZ) {
   const InternalGear gear = paper_gear();
   const WheelSetup setup = setup_for(gear, 40.0);

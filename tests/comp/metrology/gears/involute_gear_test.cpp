@@ -1,4 +1,4 @@
-// Flanks of the master gear of seed 000 section 4 and of a helical one.
+// Flanks of the master gear of docs/papers/l300g.md and of a helical one.
 
 #include <cmath>
 

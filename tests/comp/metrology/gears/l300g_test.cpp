@@ -1,4 +1,4 @@
-// The L300G: what errors of its axes do to a master gear (seed 000 section 5.4).
+// The L300G: what errors of its axes do to a master gear (docs/papers/l300g.md).
 
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ TEST(L300g, BallCentreFollowsTheArm) {
     EXPECT_NEAR(p.y(), 230.0 - kDatum.y, 1e-12);
     EXPECT_NEAR(p.z(), arm_height(kArm, q[2]), 1e-12);
   }
-  // 0.785 mm at 16.49 mm and 3.07 mm at 32.5 mm (section 3).
+  // 0.785 mm at 16.49 mm and 3.07 mm at 32.5 mm.
   double B = 0.0;
   ASSERT_TRUE(arm_angle(kArm, 16.49, B).ok());
   EXPECT_NEAR(arm_foreshortening(kArm, B), 0.785, 0.0006);
@@ -66,7 +66,7 @@ TEST(L300g, OffsetsOfTheArmAreThoseOfEveryMachine) {
 
 // --- the master gear
 
-// Own deviation of the gear, mm (addendum).
+// Own deviation of the gear, mm.
 double own(double s, double x) {
   const double u = (s - 9.510) / 19.781;
   return 1e-3 * (3.4 * u + 2.2 * std::sin(3.0 * kPi * u) + 3.2 * x / 27.0 +
@@ -125,8 +125,8 @@ void touch(const MachineChain& chain, const InvoluteGear& gear, FlankSide side,
   }
 }
 
-// Touches a flank, also a little beyond its range, and evaluates what the encoders and the `known`
-// errors say of it.
+// Touches a flank, also a little beyond its range, and evaluates it from the encoders and the
+// `known` errors.
 TraceDeviations measure(Trace kind, FlankSide side, PathStyle style, const ErrorsAt& errors,
                         const ErrorsAt& known = everywhere(zero_errors())) {
   const MachineChain chain = chain_of();
@@ -190,7 +190,7 @@ TEST(L300g, GeneratingPathSeesLittleOfP8) {
   expect_total(Trace::profile, PathStyle::generate, p8(), {6.89, 7.11, 5});
 }
 
-// --- P8 and waves in all of the 24 (addendum)
+// --- P8 and waves in all of the 24
 
 // 0.4 µm and 7 µrad, periods X 90 mm, Y 60 mm, B 10°, A 40°; phases by `seed`.
 ErrorsAt varied_p8(std::uint64_t seed) {
@@ -241,8 +241,7 @@ class Totals {
 constexpr std::uint64_t kMachines = 32;
 const ErrorsAt kNothing = everywhere(zero_errors());
 
-// The rows of section 5.4 are one machine each, whose phases are not known: ±1.5 µm between
-// machines.
+// Each expected figure is that of one machine with unknown phases: ±1.5 µm between machines.
 TEST(L300g, WavesBesideP8) {
   Totals raw_left(Trace::profile, FlankSide::left);
   Totals raw_right(Trace::profile, FlankSide::right);
@@ -258,8 +257,8 @@ TEST(L300g, WavesBesideP8) {
   lead_right.expect_among_them(5.79);
 }
 
-// Whoever knows the functions finds the gear on every such machine; the means, which the paper
-// takes, leave the waves.
+// Known functions find the gear on every such machine; the means, which the paper takes, leave the
+// waves.
 TEST(L300g, FunctionsTakeWavesAwayAndMeansDoNot) {
   Totals exact_left(Trace::profile, FlankSide::left);
   Totals exact_right(Trace::profile, FlankSide::right);

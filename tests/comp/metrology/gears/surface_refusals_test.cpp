@@ -93,7 +93,7 @@ TEST(WheelGapRefusal, ACycleOfNewtonsMethodEndsWithoutAContact) {
   EXPECT_EQ(gap, 7.0);
 }
 
-// A disc of no slope, looked at along its plane.
+// A disc of no slope, seen along its plane.
 TEST(WheelGapRefusal, ANormalAlongTheWheelNeverMeetsIt) {
   WheelProfile disc;
   disc.rho0 = 10.0;

@@ -1,5 +1,5 @@
 // Error tables of the grinder's axes that must not be used, and what a position beyond a table
-// does (seed 003, table of bad input).
+// does.
 
 #include <cmath>
 #include <limits>

@@ -40,8 +40,8 @@ TEST(CompensatedCommand, ResidualOfAnAffineFieldIsAPowerOfTheJacobian) {
   }
 }
 
-// Seed 001 section 6: one evaluation leaves at most ‖J‖‖E‖, two ‖J‖²‖E‖. Field of a machine tool:
-// ±20 µm waves, ‖J‖ ≈ 4e-4.
+// One evaluation leaves at most ‖J‖‖E‖, two ‖J‖²‖E‖. Field of a machine tool: ±20 µm waves, ‖J‖ ≈
+// 4e-4.
 TEST(CompensatedCommand, OneAndTwoEvaluationsStayWithinTheirBounds) {
   Random random;
   for (int i = 0; i < 500; ++i) {

@@ -1,4 +1,4 @@
-// Body and face diagonals (seed 001 section 7), with the figures of section 3.
+// Body and face diagonals, with the figures of docs/papers/xyfz.md.
 
 #include <vector>
 
@@ -29,7 +29,7 @@ Vec3 paper_squareness(const Vec3& q) {  // Table 6, µrad
   return d[0] * q.x() + d[1] * q.y() + d[2] * q.z();
 }
 
-// Section 3.3: squareness alone moves the four diagonals by these µm, Table 5 strokes.
+// Squareness alone moves the four diagonals by these µm, strokes of Table 5.
 TEST(Diagonals, SquarenessOfThePaperOnTheStrokesOfTableFive) {
   const auto end = end_values(paper_squareness, {{-500, -300, -400}, {0, 0, 0}});
   const std::array<double, 4> printed{86.9, -92.8, 38.8, -32.9};
@@ -133,7 +133,8 @@ TEST(Diagonals, RefuseTooFewPointsAndAPointWithoutLength) {
   EXPECT_EQ(diagonal_deviations(none, d, two, figures).reason, Reason::too_few_points);
 }
 
-// Section 3.1: 60.219 %, 87.072 %, and 26.85 percentage points between them.
+// docs/papers/xyfz.md, "What it says": 60.219 %, 87.072 %, and 26.85 percentage points between
+// them.
 TEST(Diagonals, ImprovementRatesOfThePaper) {
   EXPECT_NEAR(improvement_percent(41.15, 16.37), 60.219, 0.0005);
   EXPECT_NEAR(improvement_percent(41.15, 5.32), 87.072, 0.0005);

@@ -26,7 +26,7 @@ std::unique_ptr<ErrorTable> make_table(double q0, double pitch, std::size_t knot
   return t;
 }
 
-// Channel c at knot i: a number that says where it came from.
+// Channel c at knot i: a number that encodes where it came from.
 double mark(std::size_t i, Eigen::Index c) {
   return 1e-4 * static_cast<double>(i) + 1e-2 * static_cast<double>(c);
 }

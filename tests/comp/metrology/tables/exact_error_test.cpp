@@ -11,7 +11,7 @@ namespace {
 constexpr RotationModel kModels[] = {RotationModel::rxryrz, RotationModel::exponential,
                                      RotationModel::second_order, RotationModel::linear};
 
-// What the definition says, from the root of the machine: the common trunk has to cancel by itself.
+// The definition, from the root of the machine: the common trunk has to cancel by itself.
 struct Truth {
   Real3 base;   // T_t P_t + C − T_w P_w in the frame of the last common body
   Real3 work;   // T_w⁻¹ (T_t P_t + C) − P_w

@@ -1,4 +1,4 @@
-// Interpolation: orders of convergence, error bounds and shape (seed 001 section 5.6).
+// Interpolation: orders of convergence, error bounds and shape.
 
 #include <cmath>
 #include <functional>
@@ -122,8 +122,8 @@ TEST(Interpolation, OrdersOfConvergence) {
   EXPECT_GE(ratio(Interpolation::pchip, rising, 40), 7.0);  // O(h³) where it is monotone
 }
 
-// A sin, A = 5 µm, h = 50 mm, on −500…0. The specification does not give the phase of its figures:
-// they must lie in the range over all phases.
+// A sin, A = 5 µm, h = 50 mm, on −500…0. The phase of the expected figures is not known: they must
+// lie in the range over all phases.
 TEST(Interpolation, PrintedErrorsOfTheSpecificationOccur) {
   struct Row {
     double wavelength;

@@ -1,5 +1,5 @@
 // The lever self-test: accepts a good campaign with noise, catches the classical mistakes, and does
-// not pass what it cannot tell. With the height experiment of the paper.
+// not pass undecidable data. With the height experiment of the paper (docs/papers/xyfz.md).
 
 #include <gtest/gtest.h>
 
@@ -178,8 +178,8 @@ TEST(LeverSelfTest, AWrongSignCannotPassByDrowningInNoise) {
 }
 
 // The paper's experiment: the same axis measured at heights 250, 430 and 550 mm agrees within 2 µm
-// after the transfer. Noise of seed 001's addendum: repeatability 0.7 µm and 0.7 µrad, five runs,
-// angle gain 0.2 %, arms ±2 mm, scale 0.25 ppm. Without the transfer it does not agree.
+// after the transfer. Noise of the simulated instruments: repeatability 0.7 µm and 0.7 µrad, five
+// runs, angle gain 0.2 %, arms ±2 mm, scale 0.25 ppm. Without the transfer it does not agree.
 TEST(LeverExperiment, HeightsAgreeWithinTwoMicrometresAfterTheTransferOnly) {
   Random random;
   int within = 0;

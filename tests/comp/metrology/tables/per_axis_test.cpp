@@ -1,5 +1,4 @@
-// Pitch and cross tables: what a per-axis controller can represent, and what it cannot (seed 001
-// section 8).
+// Pitch and cross tables: what a per-axis controller can represent, and what it cannot.
 
 #include <memory>
 
@@ -66,7 +65,7 @@ TEST(PerAxis, RepresentsSumsOfOneAxisFunctionsExactly) {
   EXPECT_LE(anchored.residual_rms, 1e-16);
 }
 
-// The XYFZ model in form B of seed 001: six products of an angle and a length.
+// The part of the XYFZ model no per-axis table holds: six products of an angle and a length.
 struct Products {
   const Functions& f;
   Vec3 q_mean = Vec3::Zero();

@@ -1,5 +1,5 @@
-// Squareness closure (seed 001 section 5.4): unit gain, one step, blind to conventions, and only a
-// rigid rotation stays undetermined.
+// Squareness closure (docs/papers/xyfz.md, "What we do"): unit gain, one step, blind to
+// conventions, and only a rigid rotation stays undetermined.
 
 #include <gtest/gtest.h>
 
@@ -134,8 +134,8 @@ TEST_F(Closure, SlopesAndAngleZerosLeaveARigidMotionOnly) {
   }
 }
 
-// Section 3.5: a slope that contains the squareness, plus the squareness, is 39 µm off on PNP and
-// 93 µm on the worst diagonal; the closure finds that nothing is left to add.
+// A slope that contains the squareness, plus the squareness, is 39 µm off on PNP and 93 µm on the
+// worst diagonal; the closure finds that nothing is left to add.
 TEST_F(Closure, DoubleCountingCostsTensOfMicrometresAndIsRepaired) {
   Model once;  // squareness in the straightness slopes, where it was measured
   for (std::size_t a = 0; a < 3; ++a)

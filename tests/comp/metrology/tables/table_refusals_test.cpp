@@ -1,5 +1,4 @@
-// Every measured run that must be refused, with the place the user is sent to (seed 001, bad-input
-// table).
+// Every measured run that must be refused, with the place the refusal names.
 
 #include <cstring>
 #include <functional>

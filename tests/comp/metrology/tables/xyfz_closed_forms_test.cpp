@@ -1,4 +1,4 @@
-// The XYFZ machine of the paper: its equations in closed form (seed 001 sections 2.1 and 2).
+// The XYFZ machine of the paper: its equations in closed form (docs/papers/xyfz.md).
 
 #include <algorithm>
 #include <cstdio>
@@ -139,7 +139,7 @@ TEST(XyfzOptimised, DistanceOfTheFirstOrderModelFromTheRigidChain) {
   EXPECT_LE(large[large.size() * 19 / 20], 32e-6);
 }
 
-// Section 2.1, tracking: r_X = P_t + (X,Y,Z), r_Y = P_t + (0,Y,Z), r_Z = P_t; squareness as
+// The naive model, P_w tracking: r_X = P_t + (X,Y,Z), r_Y = P_t + (0,Y,Z), r_Z = P_t; squareness as
 // rotations.
 TEST(XyfzNaive, ClosedForm) {
   Random random;
@@ -239,7 +239,8 @@ TEST(ReadingHead, AnyBodyFixedOriginGivesTheSameError) {
   }
 }
 
-// Eq. (10) with a_xy of the wrong sign is 127 µm off in E_y at X = −500 (section 2).
+// Eq. (10) with a_xy of the wrong sign is 127 µm off in E_y at X = −500 (docs/papers/xyfz.md, "What
+// is wrong in it").
 TEST(XyfzOptimised, SquarenessSignOfThePaper) {
   const DirectionErrors d = xyfz_directions({127.264e-6, 222.190e-6, 17.356e-6});
   const MachineChain chain = chain_of(xyfz_optimised({{}, {}, {}}));

@@ -1,4 +1,4 @@
-// Whatever volcomp.h is given: it says what is wrong with it, and the tables in use go on.
+// Whatever volcomp.h is given: it reports what is wrong with it, and the tables in use go on.
 
 #include <limits>
 #include <set>
@@ -179,7 +179,7 @@ TEST(CInterfaceRefuses, ActivationAfterABadImage) {
   EXPECT_EQ(text(volcomp_activate(c.get())), "not_staged");
 }
 
-// Nobody has decided on the machine yet: the same tables may be given twice, others too.
+// The machine is not fixed yet: the same tables may be given twice, others too.
 TEST(CInterfaceStart, TablesMayBeGivenTwiceBeforeTheyAreActivated) {
   const Bytes image = encode(random_l300g(13));
   CInstance c;
@@ -257,6 +257,10 @@ TEST(CInterfaceRefuses, SettingsOfTheProbeByName) {
   EXPECT_EQ(with([](Settings& x) { x.uncertainty.position[1] = kNan; }), nowhere);
   EXPECT_EQ(with([](Settings& x) { x.uncertainty.latch_delay_s[4] = kNan; }), nowhere);
   EXPECT_EQ(with([](Settings& x) { x.uncertainty.correlation = 1.1; }), "bad_setting correlation");
+  const std::string beyond = "bad_setting uncertainty";
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.radius = 1e300; }), beyond);
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.position[3] = 1e300; }), beyond);
+  EXPECT_EQ(with([](Settings& x) { x.uncertainty.latch_delay_s[0] = -1e300; }), beyond);
 }
 
 TEST(CInterfaceRefuses, TouchesByName) {
@@ -295,6 +299,41 @@ TEST(CInterfaceRefuses, TouchesByName) {
   c.tick(random_probing_pose(random));
   EXPECT_EQ(correct(), "ok");
   EXPECT_EQ(point.verdict, VOLCOMP_UNCORRECTED);
+}
+
+// A point of a linear machine moves as far as its axes: by 10 km, where positions are held, and
+// what the fastest axis does in the longest delays. Everything accepted, nothing out of range.
+TEST(CInterfaceProbe, TheFurthestPointIsANumber) {
+  Random random(15);
+  CInstance c;
+  c.start(xyfz_tables(1e3, 1e-5, random));
+  c.tick({});
+  volcomp_probe_settings s;
+  volcomp_default_probe_settings(&s);
+  s.delay_s = 0.05;
+  for (double& delay_s : s.latch_delay_s)
+    delay_s = 0.05;
+  for (double& t : s.translation)
+    t = -1e13;
+  const std::array<double, 3> tool_mm{5000.0, -5000.0, 5000.0};
+  ASSERT_EQ(c.stage(encode(xyfz_tables(1e3, 1e-5, random)), tool_mm.data()).reason, VOLCOMP_OK);
+  ASSERT_EQ(volcomp_activate(c.get()).reason, VOLCOMP_OK);
+  c.tick({});
+  ASSERT_EQ(volcomp_configure_probe(c.get(), &s).reason, VOLCOMP_OK);
+  const volcomp_feature feature{};  // the centre of the ball: no direction is retracting
+  volcomp_touch touch{};
+  volcomp_point near;
+  ASSERT_EQ(volcomp_correct_touch(c.get(), &touch, &feature, &near).reason, VOLCOMP_OK);
+  for (const double sense : {-1.0, 1.0}) {
+    for (std::size_t a = 0; a < 3; ++a)
+      touch.axis[a] = {sense < 0.0 ? INT64_MIN : INT64_MAX, -sense * 1e13, VOLCOMP_UNKNOWN};
+    volcomp_point far;
+    ASSERT_EQ(volcomp_correct_touch(c.get(), &touch, &feature, &far).reason, VOLCOMP_OK);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(std::abs(static_cast<double>(far.workpiece[k] - near.workpiece[k])), 1.1e13, 1e7);
+      EXPECT_TRUE(std::isfinite(far.uncertainty[k]));
+    }
+  }
 }
 
 // A drive that holds an offset is led from there, not jumped to 0.

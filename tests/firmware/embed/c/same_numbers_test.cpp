@@ -1,5 +1,5 @@
 // What comes out of volcomp.h is what the C++ classes compute, bit for bit, and what an independent
-// model of the machine says.
+// model of the machine gives.
 
 #include "tests/firmware/embed/c/support.hpp"
 

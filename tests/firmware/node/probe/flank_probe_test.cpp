@@ -1,4 +1,4 @@
-// Touches that are meant for a flank of a face gear: the gear and the flank are told before, the
+// Touches that are meant for a flank of a face gear: the gear and the flank are written before, the
 // judgement comes with the point.
 
 #include <limits>
@@ -56,7 +56,7 @@ class FlankTouch : public NodeProbe {
     edge(0);
     return take();
   }
-  // What the kernel says of the point itself.
+  // The result of the kernel for the point itself.
   [[nodiscard]] FaceTouch judged(const ReadPoint& point, int side = 1, double radius = 0.5) const {
     FaceFlank flank;
     EXPECT_TRUE(choose_flank(gear, side, kSlot, flank).ok());

@@ -211,8 +211,12 @@ TEST_F(NodeProbe, BadSettingsLeaveTheGoodOnes) {
        {Bad{0x2302, 1, nan, 2e6, Reason::not_finite},
         Bad{0x2302, 1, -1.0, 2e6, Reason::bad_setting},
         Bad{0x2302, 1, 3e7, 2e6, Reason::bad_setting},
+        Bad{0x2302, 16, -1e300, 0.0, Reason::bad_setting},
         Bad{0x2303, 1, 0.999, 1.0, Reason::not_a_rotation},
         Bad{0x2303, 12, HUGE_VAL, 0.0, Reason::not_finite},
+        Bad{0x2303, 12, 1e300, 0.0, Reason::bad_setting},
+        Bad{0x2303, 10, -1.1e13, 0.0, Reason::bad_setting},
+        Bad{0x2304, 1, 1e300, 0.0, Reason::bad_setting},
         Bad{0x2304, 2, nan, 0.0, Reason::not_finite}, Bad{0x2305, 1, nan, 0.0, Reason::not_finite},
         Bad{0x2306, 3, nan, 0.0, Reason::not_finite},
         Bad{0x2304, 3, 1.5, 0.0, Reason::bad_setting}}) {
@@ -233,9 +237,11 @@ TEST_F(NodeProbe, WithoutACyclePeriodItIsNotSwitchedOn) {
   start();
   const std::uint64_t period_us = bench.number(0x1006, 0);
   bench.nmt(canopen::NmtCommand::enter_pre_operational);
-  ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, 0), AbortCode::none);
-  EXPECT_EQ(switch_on(), AbortCode::invalid_value);
-  EXPECT_EQ(bench.number(0x2300, 5), static_cast<std::uint64_t>(Reason::bad_setting));
+  for (const std::uint32_t none : {0U, 1U, 49U}) {  // a frame takes as long at 1 Mbit/s
+    ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, none), AbortCode::none);
+    EXPECT_EQ(switch_on(), AbortCode::invalid_value);
+    EXPECT_EQ(bench.number(0x2300, 5), static_cast<std::uint64_t>(Reason::bad_setting));
+  }
   ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, static_cast<std::uint32_t>(period_us)),
             AbortCode::none);
   EXPECT_EQ(switch_on(), AbortCode::none);

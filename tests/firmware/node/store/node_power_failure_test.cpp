@@ -1,6 +1,6 @@
 // Power fails at every single flash operation of 1010h and 1011h of a node with tables: the node
 // that starts afterwards has the old parameters and tables or the new ones, never some of each,
-// says which, and can save again.
+// reports which, and can save again.
 
 #include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"

@@ -1,6 +1,7 @@
 // Save, power failure, restart: settings and tables come back, and the machine is compensated
 // without a download (CiA 301, 1010h and 1011h).
 
+#include "firmware/node/store/read_only_storage.hpp"
 #include "firmware/node/store/record_storage.hpp"
 #include "hal/loopback/memory_blocks.hpp"
 #include "tests/firmware/node/node_bench.hpp"
@@ -30,7 +31,7 @@ class NodeStorage : public ::testing::Test {
   using Blocks = hal::MemoryBlocks<16384, 2>;
 
   AbortCode save() { return bench.set<std::uint32_t>(0x1010, 1, kSave); }
-  // A record whose period of 1006h tells it from others.
+  // A record marked by its period of 1006h.
   void save_with_period(std::uint32_t period_us) {
     ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, period_us), AbortCode::none);
     ASSERT_EQ(save(), AbortCode::none);
@@ -99,13 +100,36 @@ TEST_F(NodeStorage, NotWhenTheImageOfTheActiveTablesIsGone) {
   EXPECT_EQ(save(), AbortCode::none);
 }
 
+// CiA 301, 7.5.2.13: bit 0 of what is read shows whether the device saves on command.
 TEST_F(NodeStorage, WithoutADeviceItSaysSo) {
   NodeBench without;
+  EXPECT_EQ(without.number(0x1010, 1), 0U);
+  EXPECT_EQ(without.number(0x1011, 1), 0U);
   EXPECT_EQ(without.set<std::uint32_t>(0x1010, 1, kSave), AbortCode::hardware);
   EXPECT_EQ(without.set<std::uint32_t>(0x1011, 1, kLoad), AbortCode::hardware);
+  EXPECT_EQ(without.set<std::uint8_t>(0x2000, 3, 1), AbortCode::none);
+  EXPECT_EQ(without.number(0x1010, 1), 0U);
+  EXPECT_EQ(without.number(0x1011, 1), 0U);
 }
 
-// CiA 301, 7.5.2.13: a failed save answers 0606 0000h. The node says which step it was.
+TEST_F(NodeStorage, AMemoryThatCanOnlyBeReadIsUsedAndNotWritten) {
+  save_with_period(4000);
+  ReadOnlyStorage kept(storage);
+  NodeBench reader(&kept);
+  EXPECT_EQ(reader.number(0x1006, 0), 4000U);
+  EXPECT_EQ(reader.number(0x2600, 11), 1U);
+  EXPECT_EQ(reader.number(0x1010, 1), 0U);
+  EXPECT_EQ(reader.number(0x1011, 1), 0U);
+  EXPECT_EQ(reader.set<std::uint32_t>(0x1010, 1, kSave), AbortCode::hardware);
+  EXPECT_EQ(reader.number(0x2600, 12), 11U);
+  EXPECT_EQ(reader.set<std::uint32_t>(0x1011, 1, kLoad), AbortCode::hardware);
+  reader.wait(50'000);
+  EXPECT_TRUE(reader.emergency(ErrorCode::store_failed, 11));
+  reader.power_on();
+  EXPECT_EQ(reader.number(0x1006, 0), 4000U);
+}
+
+// CiA 301, 7.5.2.13: a failed save answers 0606 0000h. The node reports which step it was.
 TEST_F(NodeStorage, AFailureOfTheMemoryIsReportedUntilASaveSucceeds) {
   save_with_period(4000);
   const auto expect_reported = [this](StoreResult why) {

@@ -1,4 +1,4 @@
-// What another version stored, or nobody: values that do not fit are left out, the others apply.
+// What another version stored, or none: values that do not fit are left out, the others apply.
 
 #include <algorithm>
 
@@ -80,7 +80,7 @@ TEST_F(StoredValues, APdoOfOnesOwnComesBackWhole) {
   EXPECT_EQ(bench.number(kStatusMapping, 1), mapped);
 }
 
-// Of a version that let it be changed.
+// Stored by a version that let it be changed.
 TEST_F(StoredValues, AnotherMappingOfAnOffsetIsLeftOut) {
   ASSERT_EQ(bench.set<std::uint8_t>(0x2010, 1, 1), AbortCode::none);
   ASSERT_EQ(bench.set<std::uint8_t>(0x1800, 2, 255), AbortCode::none);
@@ -91,6 +91,30 @@ TEST_F(StoredValues, AnotherMappingOfAnOffsetIsLeftOut) {
   bench.power_on();
   EXPECT_EQ(bench.number(0x1800, 2), 255U);
   EXPECT_EQ(bench.number(0x1A00, 1), 0x2020'0120U);
+}
+
+// Stored by a version that let a TPDO promise answers to remote requests.
+TEST_F(StoredValues, RemoteRequestsOfATpdoAreNotPromised) {
+  ASSERT_EQ(bench.set<std::uint16_t>(kStatus, 5, 500), AbortCode::none);
+  const std::uint64_t cob_id = bench.number(kStatus, 1);
+  save();
+  std::uint8_t* const stored = &kept.value_of(kStatus, kWholePdo);
+  ASSERT_EQ(canopen::load_le(stored, 4), cob_id);
+  canopen::store_le(stored, 4, cob_id & ~std::uint64_t{canopen::kPdoNoRtr});
+  bench.power_on();
+  EXPECT_EQ(bench.number(kStatus, 5), 500U);
+  EXPECT_EQ(bench.number(kStatus, 1), cob_id);
+}
+
+TEST_F(StoredValues, TheIdentifierOfSyncComesBack) {
+  for (const std::uint32_t id : {0x4000'0080U, 0x81U, 0x80U}) {
+    ASSERT_EQ(bench.set<std::uint32_t>(0x1005, 0, 0x80), AbortCode::none);
+    ASSERT_EQ(bench.set<std::uint32_t>(0x1005, 0, id), AbortCode::none);
+    save();
+    ASSERT_EQ(bench.set<std::uint32_t>(0x1005, 0, 0x80), AbortCode::none);
+    bench.power_on();
+    EXPECT_EQ(bench.number(0x1005, 0), id);
+  }
 }
 
 // 1006h is applied before 1019h.

@@ -86,7 +86,7 @@ TYPED_TEST(PowerFailure, ASaveLeavesTheOldRecordOrTheNewAndSaysWhich) {
       const Loaded found = load(flash);
       const bool is_new = found.record == kNew;
       EXPECT_TRUE(is_new || found.record == kOld);
-      // Before the first unit is programmed there is nothing to tell an older record by.
+      // Before the first unit is programmed nothing marks an older record.
       const bool begun = cut.at > 1 || (cut.at == 1 && cut.torn != Torn::untouched);
       const bool may_be_silent = is_new || !begun || cut.torn == Torn::unstable;
       EXPECT_TRUE(found.result == StoreResult::loaded_older ||

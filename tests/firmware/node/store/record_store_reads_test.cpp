@@ -1,4 +1,5 @@
-// A memory whose reads fail now and then: what is loaded is what was saved, or is said not to be.
+// A memory whose reads fail now and then: what is loaded is what was saved, or is reported not to
+// be.
 
 #include "firmware/node/store/record_storage.hpp"
 #include "tests/firmware/node/store/record_store_support.hpp"
@@ -104,7 +105,7 @@ TEST_P(UnsteadyReads, WhileSavingLoseNothing) {
 INSTANTIATE_TEST_SUITE_P(How, UnsteadyReads,
                          ::testing::Values(hal::BlockRead::failed, hal::BlockRead::uncorrectable));
 
-// A chip that says it has erased and has not.
+// A chip that reports an erase it has not done.
 TEST(UnsteadyErase, ThatLeavesSomethingIsNoErase) {
   UnsteadyBlocks blocks;
   RecordStorage<UnsteadyBlocks> storage{blocks};

@@ -40,7 +40,7 @@ StoreResult erase_all(Flash& flash) {
   return RecordStore<Flash>(flash).erase_all();
 }
 
-// What a device finds after a restart; no record unless the result says loaded.
+// What a device finds after a restart; no record unless the result is loaded.
 struct Loaded {
   StoreResult result = StoreResult::nothing_stored;
   Record record{};

@@ -1,4 +1,4 @@
-// One record, kept twice: layout, sizes, damage and devices that fail. Power failures stand in
+// One record, stored twice: layout, sizes, damage and devices that fail. Power failures stand in
 // record_store_power_test.cpp.
 
 #include <gmock/gmock.h>

@@ -99,7 +99,7 @@ TEST_F(NodeStrokes, SlotsHaveATableOfTheirOwn) {
   EXPECT_NEAR(grinder.most, 0.0, 30e-6 / 256 + 3 * kWireStep);
 }
 
-// Seed 003, section 5 of the embedded notes: C alone breaks the helix.
+// C alone breaks the helix (docs/papers/internal-helical.md, "What is wrong in it").
 TEST_F(NodeStrokes, CAloneIsRefusedUnlessForced) {
   ASSERT_EQ(grinder.bench.set<std::uint8_t>(0x2520, 2, 3), AbortCode::none);
   grinder.grind([](auto, bool, double) { return Errors{-0.16, 0.16 * kTurnPerMm}; });

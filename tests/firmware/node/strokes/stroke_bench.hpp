@@ -1,6 +1,6 @@
 #pragma once
 // A grinder on a bench: X, Z and C played by hand while the wheel goes up and down through slots.
-// C leads or lags by what a test says, and takes the offset of the node at the next SYNC.
+// C leads or lags by what a test sets, and takes the offset of the node at the next SYNC.
 
 #include <functional>
 
@@ -9,7 +9,7 @@
 
 namespace volcomp::node {
 
-// The paper's gear (seed 003, table 3): 1/p in rad/mm, r_b cos β_b in mm.
+// The paper's gear (docs/papers/internal-helical.md): 1/p in rad/mm, r_b cos β_b in mm.
 inline constexpr double kTurnPerMm = 1.0 / 305.2;
 inline constexpr double kLever = 74.236;
 

@@ -98,7 +98,7 @@ TEST_F(StrokeRefusals, NoCommandIsNoError) {
   EXPECT_EQ(grinder.bench.number(0x2510, 10), 3U) << "nothing is forgotten";
 }
 
-// Of the targets of seed 003 a node that corrects C alone offers two.
+// A node that corrects C alone offers two of the four targets.
 TEST_F(StrokeRefusals, TargetsThatNeedZ) {
   grinder.start();
   grinder.grind(ahead);
@@ -132,8 +132,7 @@ TEST_F(StrokeRefusals, TablesThatWaitAreNotPutInForceTwice) {
   EXPECT_NEAR(grinder.least, -20e-6, 2 * kWireStep);
 }
 
-// Seed 003, section 5: only where both axes follow a helix does one alone break it, whichever hand
-// it has.
+// One axis alone breaks the helix only where both follow one, of whichever hand.
 TEST_F(StrokeRefusals, CAloneBreaksAHelixOfEitherHandAndNoSpurGear) {
   const auto learns_c_alone = [](double turn_per_mm) {
     StrokeBench bench;
@@ -204,7 +203,7 @@ TEST_F(StrokeRefusals, WhereCDoesNotCorrectThereIsNoOffset) {
   EXPECT_EQ(grinder.bench.number(0x2524, 3), kNoAuthority);
 }
 
-// An axis of which nothing is heard, or that has lost its reference: the pass does not count, and
+// An axis whose frames are missing, or that has lost its reference: the pass does not count, and
 // the offset goes.
 TEST_F(StrokeRefusals, AnAxisThatIsSilentOrNotReferencedIsNotFollowed) {
   grinder.start();

@@ -15,6 +15,8 @@ using canopen::ErrorCode;
 constexpr double kSteel_per_K = 11.7e-6;
 constexpr auto kSteel = static_cast<float>(kSteel_per_K);
 constexpr std::int64_t k2030 = 1'893'456'000;  // 1 January 2030, 00:00 UTC
+constexpr std::uint16_t kDay2030 = 16802;      // since 1 January 1984, as TIME counts
+constexpr std::uint32_t kHour_ms = 3'600'000;
 
 // X grows from −500 on, Z from 0; Y keeps its length. The drives of the bench stand at −100.
 MachineTables growing_tables(std::uint64_t seed = 0) {
@@ -178,6 +180,69 @@ TEST_F(NodeThermal, TimeIsThatOfTheBus) {
   EXPECT_NEAR(static_cast<double>(bench.number(0x2704, 1)), 1'000'000'002.0, 1.0);
 }
 
+// One frame of anybody would otherwise make every image with an expiry refused.
+TEST_F(NodeThermal, ATimeThatJumpsIsNotBelieved) {
+  bench.bring_up();
+  time(0, kDay2030 - 100);
+  bench.wait(10'000'000);
+  time(0, kDay2030 + 1826);
+  bench.wait(1'000'000);
+  EXPECT_NEAR(static_cast<double>(bench.number(0x2704, 1)), k2030 - 100.0 * 86'400 + 11, 1.0);
+  EXPECT_TRUE(bench.emergency(ErrorCode::time_doubted, 0));
+  MachineTables tables = growing_tables();
+  tables.provenance.expires_unix_s = k2030;
+  ASSERT_EQ(bench.write({0x2110, 1}, image_of(tables)), AbortCode::none);
+  EXPECT_EQ(bench.command(TableCommand::activate), AbortCode::none);
+  // The good one takes the complaint back.
+  EXPECT_NE(bench.number(0x1001, 0), 0U);
+  time(12'000, kDay2030 - 100);
+  EXPECT_EQ(bench.number(0x1001, 0), 0U);
+}
+
+// A clock that was set, a new battery, a node with a foreign first TIME.
+TEST_F(NodeThermal, AThirdTimeInARowThatGoesOnIsBelieved) {
+  time(0, kDay2030 - 100);
+  for (std::uint32_t second = 0; second < 30; second += 10) {
+    EXPECT_LT(bench.number(0x2704, 1), k2030 - 99 * 86'400);
+    time(second * 1000, kDay2030);
+    bench.wait(10'000'000);
+  }
+  EXPECT_NEAR(static_cast<double>(bench.number(0x2704, 1)), k2030 + 30.0, 1.0);
+  EXPECT_EQ(bench.number(0x1001, 0), 0U);
+}
+
+TEST_F(NodeThermal, JumpsThatDoNotGoOnAreNeverBelieved) {
+  time(0, kDay2030);
+  for (std::uint16_t i = 1; i < 20; ++i) {
+    time(0, static_cast<std::uint16_t>(kDay2030 + 10 * i));  // every one on another day
+    bench.wait(1'000'000);
+    EXPECT_LT(bench.number(0x2704, 1), k2030 + 60);
+  }
+  for (std::uint32_t i = 0; i < 20; ++i) {  // the good one between
+    time(i * 1000, kDay2030 + 365);
+    time((i + 19) * 1000, kDay2030);
+    bench.wait(1'000'000);
+    EXPECT_LT(bench.number(0x2704, 1), k2030 + 60);
+  }
+}
+
+// Some producers send local time.
+TEST_F(NodeThermal, SummerTimeIsNoJump) {
+  time(2 * kHour_ms, kDay2030);
+  time(3 * kHour_ms, kDay2030);
+  EXPECT_EQ(bench.number(0x2704, 1), k2030 + 3 * 3600);
+  time(2 * kHour_ms, kDay2030);
+  EXPECT_EQ(bench.number(0x2704, 1), k2030 + 2 * 3600);
+  bench.wait(1'000'000);
+  EXPECT_TRUE(bench.emergencies.empty());
+}
+
+TEST_F(NodeThermal, ATimeWrittenOverSdoIsBelieved) {
+  time(0, kDay2030);
+  ASSERT_EQ(bench.set<std::uint32_t>(0x2704, 1, 1'000'000'000), AbortCode::none);
+  EXPECT_EQ(bench.number(0x2704, 1), 1'000'000'000U);
+}
+
 TEST_F(NodeThermal, ExpiredTablesAreRefusedOnceTheDateIsKnown) {
   MachineTables old = growing_tables();
   old.provenance.expires_unix_s = k2030;
@@ -202,7 +267,7 @@ TEST_F(NodeThermal, TablesThatExpireWhileActiveGoOnWithAWarning) {
   tables.provenance.expires_unix_s = k2030;
   bench.bring_up(tables);
   const auto before = bench.offsets();
-  time(86'399'000U, 16801);  // 31 December 2029, 23:59:59
+  time(86'399'000U, kDay2030 - 1);  // 31 December 2029, 23:59:59
   bench.cycles(250);
   EXPECT_EQ(bench.number(0x2704, 3), 0U);
   bench.cycles(1000);

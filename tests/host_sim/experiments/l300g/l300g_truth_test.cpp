@@ -21,13 +21,13 @@ sim::TrueMachine machine_with(const std::string& errors) {
   return make_l300g_truth(file(), grinder_errors(errors), 1);
 }
 
-// At the pitch point of the left flank: arm hardly swung, Y = 231 (section 5.2).
+// At the pitch point of the left flank: arm hardly swung, Y = 231.
 Vec3 error_um(const sim::TrueMachine& machine) {
   const Pose q{0.0, 231.0, file().axes[2].reference + 0.02, 0.0};
   return kUmPerMm * machine.error(q, {}, machine.chain.tool_point()).position_work;
 }
 
-// Section 5.4, to the tenth of a micrometre that it prints; 0.02 rad of swing move it by less.
+// To a tenth of a micrometre; 0.02 rad of swing move it by less.
 TEST(L300gTruth, P8IsTheErrorOfTheSpecification) {
   const Vec3 e = error_um(machine_with("p8"));
   EXPECT_NEAR(e.x(), -7.7, 0.2);
@@ -35,7 +35,6 @@ TEST(L300gTruth, P8IsTheErrorOfTheSpecification) {
   EXPECT_NEAR(e.z(), -8.4, 0.2);
 }
 
-// Section 5.3.
 TEST(L300gTruth, Table2IsTheErrorOfTheSpecification) {
   const Vec3 e = error_um(machine_with("table2"));
   EXPECT_NEAR(e.x(), 4.1, 0.1);
@@ -75,16 +74,17 @@ TEST(L300gTruth, ABadFileIsRefusedWithItsLine) {
   EXPECT_THROW(static_cast<void>(grinder_errors("no-such-file.toml")), host::UserError);
 }
 
-// Section 2.2 and its 1e-6; the fit is repeated, so that nothing of second order is left either.
+// The fit is repeated, so that nothing of second order is left either.
 TEST(L300gIdentification, FindsAll24FunctionsWithoutNoise) {
   for (const char* errors : {"p8", "p8-variation", "a-slope"}) {
     const sim::Identification found = sim::identify_axes(machine_with(errors), file());
-    ASSERT_EQ(found.axis.size(), 4U);
+    ASSERT_EQ(found.found.axis.size(), 4U);
     EXPECT_LT(found.max_error(), 1e-9) << errors;
   }
 }
 
-// Section 2.1: the printed equations have rank 3, and their "solution" is the mean reading.
+// docs/papers/l300g.md, eq. 18: the printed equations have rank 3, and their "solution" is the mean
+// reading.
 TEST(L300gIdentification, PrintedProcedureGivesTheMeanReadingAndNoMore) {
   const sim::Identification found = sim::identify_axes(machine_with("p8-variation"), file());
   const PrintedProcedure printed = printed_procedure(found, file());
@@ -93,11 +93,11 @@ TEST(L300gIdentification, PrintedProcedureGivesTheMeanReadingAndNoMore) {
               1e-12);
 }
 
-// Section 2.2: targets across the lever keep the noise down; all six unknowns alike.
+// Targets across the lever keep the noise down; all six unknowns alike.
 TEST(L300gIdentification, TargetsAreWellConditioned) {
   const sim::Identification found = sim::identify_axes(machine_with("none"), file());
-  EXPECT_LT(found.condition, 30.0);
-  EXPECT_LT(found.spread.head<3>().maxCoeff(), sim::kTracker_mm);
+  EXPECT_LT(found.found.condition, 30.0);
+  EXPECT_LT(found.found.spread.head<3>().maxCoeff(), host::kTracker_mm);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // of it needs one of them.
 //
 //   volcomp_host_alone build-tables MACHINE IMAGE RUNS…
+//   volcomp_host_alone setup LINK MACHINE
 //   volcomp_host_alone download LINK IMAGE
 //   volcomp_host_alone diagnose LINK
 //   volcomp_host_alone verify BEFORE AFTER
@@ -14,6 +15,7 @@
 
 #include "comp/tables/image.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/bus/setup.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/verification.hpp"
@@ -30,7 +32,7 @@ int build_tables(const std::vector<std::string>& words) {
   std::vector<volcomp::host::RunsFile> runs;
   for (std::size_t i = 3; i < words.size(); ++i)
     runs.push_back(volcomp::host::read_runs_file(words[i]));
-  const auto built = volcomp::host::commission(machine, runs, {});
+  const auto built = volcomp::host::build_tables(machine, runs, {});
   const std::vector<std::uint8_t> image = volcomp::host::make_image(built->tables);
   std::ofstream out(words.at(2), std::ios::binary);
   out.write(reinterpret_cast<const char*>(image.data()),
@@ -42,6 +44,16 @@ int build_tables(const std::vector<std::string>& words) {
 
 NodeClient connect(const std::string& link) {
   return {kNode, volcomp::host::LinkPump(volcomp::host::open_frame_link(link))};
+}
+
+int setup(const std::vector<std::string>& words) {
+  const auto machine = volcomp::host::read_machine_file(words.at(2));
+  const volcomp::host::SetupPlan plan =
+      volcomp::host::setup_plan(machine, volcomp::host::setup_bus(machine, {}, {}));
+  NodeClient client = connect(words.at(1));
+  const auto result = volcomp::host::set_up(client, machine, plan, {false, {}});
+  std::fputs(volcomp::host::describe(result).c_str(), stdout);
+  return result.ok() ? 0 : 1;
 }
 
 int download(const std::vector<std::string>& words) {
@@ -76,6 +88,7 @@ int verify(const std::vector<std::string>& words) {
 
 int run(const std::vector<std::string>& words) {
   if (words.at(0) == "build-tables") return build_tables(words);
+  if (words.at(0) == "setup") return setup(words);
   if (words.at(0) == "download") return download(words);
   if (words.at(0) == "diagnose") return diagnose(words);
   if (words.at(0) == "verify") return verify(words);

@@ -32,6 +32,8 @@ exec 9<>pipe/to_node
 "$node" --can pipe:pipe >node.txt &
 node_process=$!
 expect 0 'PRE-OPERATIONAL' "$alone" diagnose pipe:pipe
+expect 0 'read back as written' "$alone" setup pipe:pipe machine.toml
+expect 0 ' 0 of them differed before' "$volcomp" setup --machine machine.toml --can pipe:pipe --no-store
 expect 0 'active: CRC-32' "$alone" download pipe:pipe alone.vct
 "$alone" diagnose pipe:pipe >diagnose_alone.txt
 "$volcomp" diagnose --can pipe:pipe >diagnose_whole.txt

@@ -121,7 +121,7 @@ TEST(PipeLink, WatchKnowsBetterWhyTheNodeIsGone) {
             "pulled the plug");
 }
 
-// Whoever wants to end the program need not wait for a slow answer.
+// Ending the program need not wait for a slow answer.
 TEST(PipeLink, WatchIsAskedAtEveryTurn) {
   const TemporaryFolder folder;
   const PipeNode node(folder.path());
@@ -297,8 +297,8 @@ struct SlowReceiver {
   int held = 0;
   std::uint64_t progress = 0;
 
-  // Its controller takes in one frame and it comes 60 steps further each time it is asked; it
-  // fetches what its controller holds every 100 steps.
+  // Its controller takes in one frame and it comes 60 steps further at each call; it fetches what
+  // its controller holds every 100 steps.
   std::uint64_t ask() {
     if (waiting > 0) {
       --waiting;

@@ -45,7 +45,7 @@ class PipeNode {
     node->power_on(0);
     while (!stop_ && !pipe_.ended()) {
       if (!pipe_.begin_turn(1000)) continue;
-      canopen::exchange(*node, pipe_, pipe_.now_us());
+      canopen::exchange(node->device(), pipe_, pipe_.now_us());
       pipe_.end_turn();
     }
   }
@@ -56,7 +56,7 @@ class PipeNode {
   std::thread thread_;
 };
 
-// What is said on the line is kept.
+// What is sent on the line is stored.
 class SlcanNode {
  public:
   SlcanNode() {
@@ -65,7 +65,7 @@ class SlcanNode {
     std::array<char, 64> name{};
     EXPECT_EQ(::openpty(&line, &device, name.data(), nullptr, nullptr), 0);
     line_ = Descriptor(line);
-    device_ = Descriptor(device);  // so that the line stays while nobody has it open
+    device_ = Descriptor(device);  // so that the line stays while no other end is open
     device_name_ = name.data();
     static_cast<void>(::fcntl(line, F_SETFL, O_NONBLOCK));
     thread_ = std::thread([this] { serve(); });
@@ -75,7 +75,7 @@ class SlcanNode {
   ~SlcanNode() {
     if (thread_.joinable()) stop();
   }
-  // Nobody answers any more.
+  // The node answers no more.
   void stop() {
     stop_ = true;
     thread_.join();
@@ -115,7 +115,7 @@ class SlcanNode {
     const auto node = std::make_unique<node::Node>(kLinuxNode, nullptr);
     node->power_on(clock.now_us());
     while (!stop_) {
-      canopen::exchange(*node, *this, clock.now_us());
+      canopen::exchange(node->device(), *this, clock.now_us());
       pollfd waiting{line_.number(), POLLIN, 0};
       static_cast<void>(::poll(&waiting, 1, 1));
     }

@@ -9,13 +9,13 @@
 namespace volcomp::host {
 
 // The machine starts, moves, and lives through what `incident` does to it. `deadline_us`: of the
-// node, 0: 60 % of the cycle. `status_every_cycle`: of the node.
+// node, 0: 60 % of the cycle. `status_every_cycle`: of the node. `cycle_hz`: of the bus.
 template <class Incident>
 std::string record_run(const Incident& incident, std::uint32_t deadline_us = 0,
-                       bool status_every_cycle = false) {
+                       bool status_every_cycle = false, double cycle_hz = 500.0) {
   std::string log;
   const KnownMachine& machine = known_machine();
-  BusSettings settings = bus_settings(machine.file, 500.0);
+  BusSettings settings = bus_settings(machine.file, cycle_hz);
   settings.deadline_us = deadline_us;
   settings.status_every_cycle = status_every_cycle;
   sim::BusAxes axes(settings, machine.image);
@@ -41,9 +41,9 @@ inline std::string record_drive_failure() {
   return record_run([](sim::BusAxes& axes) { axes.power_drive(1, false); });
 }
 
-// Of the node, for 50 cycles. When the drives are started, they report in the middle of a cycle.
-// The simulated node has no timer, it sees its deadline with the next frame; the replayed one sees
-// it to the microsecond: none of those reports may fall between.
+// Power failure of the node, for 50 cycles. When the drives are started, they report in the middle
+// of a cycle. The simulated node has no timer, it sees its deadline with the next frame; the
+// replayed one sees it to the microsecond: none of those reports may fall between.
 inline std::string record_power_failure() {
   constexpr std::uint32_t kLateDeadline_us = 1800;
   return record_run(

@@ -82,7 +82,7 @@ TEST(ReplayOverPipe, DownloadAndRefusalAreRepeatedByteForByte) {
   EXPECT_TRUE(result.equal()) << describe(result);
 }
 
-// A node that is started may say so before the first SYNC or after it; when both reach it in the
+// A started node may report its state before the first SYNC or after it; when both reach it in the
 // same turn, its first status is that of the first cycle.
 TEST(ReplayOverPipe, StatusOfTheStartMayComeEarlyOrNotButNotWrong) {
   const std::vector<LoggedFrame> log = parse_can_log(record_quiet_run(), "bus.log");

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "firmware/node/node.hpp"
-#include "host_sim/experiments/xyfz/scenario.hpp"
 #include "host_sim/host/bus/can_log.hpp"
 #include "host_sim/host/bus/node_client.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "host_sim/sim/controller/simulated_bus.hpp"
+#include "host_sim/sim/truth/drawn_machine.hpp"
 
 namespace volcomp::host {
 
@@ -19,9 +19,9 @@ namespace volcomp::host {
 struct KnownMachine {
   KnownMachine()
       : file(read_machine_file(bundled_machine("xyfz"))),
-        truth(xyfz::make_xyfz_truth(file, xyfz::kXyfzMachineSeed, {})),
+        truth(sim::draw_machine(file, 1)),
         campaign(sim::perfect_campaign(truth, file)),
-        tables(commission(campaign.machine, campaign.runs, {})->tables),
+        tables(build_tables(campaign.machine, campaign.runs, {})->tables),
         image(make_image(tables)) {}
 
   MachineFile file;
@@ -52,7 +52,7 @@ class ServiceBench {
           return bus.now_us();
         }) {
     record(bus, log);
-    if (with_node) bus.attach(*node, "node");
+    if (with_node) bus.attach(node->device(), "node");
     bus.attach(client, "tool");
     node->power_on(0);
   }

@@ -1,4 +1,4 @@
-// What a node of a grinder says of its strokes, in words.
+// What a node of a grinder reports of its strokes, in words.
 
 #include <cstring>
 
@@ -57,14 +57,14 @@ StrokeDiagnosis grinding() {
   return d;
 }
 
-// Seed 003, embedded notes, section 5: "table is for F=...".
+// Names the feed the tables are for.
 TEST(StrokeDiagnosis, NamesTheFeedOfTheTables) {
   StrokeDiagnosis d = grinding();
   d.offset_status = kOtherFeed;
   EXPECT_THAT(describe(d), HasSubstr("the tables are for F=13.4 mm/s"));
 }
 
-// The same: "tell the user which signal rose".
+// Names the table whose signal rose.
 TEST(StrokeDiagnosis, SaysWhichTableGotWorse) {
   StrokeDiagnosis d = grinding();
   d.table[1].action = GuardAction::roll_back;

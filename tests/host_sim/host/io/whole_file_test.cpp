@@ -129,7 +129,7 @@ TEST_F(WholeFileTest, ADeviceBehindALinkStays) {
   EXPECT_EQ(entries(), 1);
 }
 
-// The one who opened the file sees what is written to the descriptor.
+// The opener of the file sees what is written to the descriptor.
 TEST_F(WholeFileTest, ADescriptorIsWrittenAndItsFileStays) {
   const int open_file = ::open(path("file").c_str(), O_RDWR | O_CREAT, 0600);
   ASSERT_GE(open_file, 0);
@@ -223,6 +223,8 @@ TEST_P(SignalTest, LeavesNoDraft) {
     WholeFiles files;
     files.add(path("file"), "new");
     files.add(path("second"), "new");
+    files.add_folder(path("folder/inner"));
+    files.add(path("folder/inner/third"), "new");
     static_cast<void>(std::raise(GetParam()));
     ::_exit(0);
   }
@@ -282,7 +284,7 @@ TEST(ReadingFiles, NoMoreIsReadThanShowsThatItIsTooMuch) {
   fs::resize_file(path, 8 * kMiB);
   const std::string text = text_of_file(path);
   EXPECT_EQ(text.size(), kMiB + 1);
-  EXPECT_THAT(sim::complaint_of([&] { refuse_monsters(text, "large.toml"); }),
+  EXPECT_THAT(sim::complaint_of([&] { check_toml_limits(text, "large.toml"); }),
               testing::HasSubstr("larger than 1 MiB"));
 }
 

@@ -80,7 +80,7 @@ body = [
 ]
 )";
 
-// `in_chain`: what an [[axis]] says of its joint.
+// `in_chain`: how an [[axis]] describes its joint.
 std::string axes(bool in_chain) {
   std::string text = "correction = { axes = [\"X\", \"Y\", \"Z\"] }\n";
   const auto axis = [&](const std::string& name, bool rotary, const std::string& joint) {

@@ -1,4 +1,4 @@
-// What a machine file says of its bus: node ids, units of the drives, software limits.
+// The bus in a machine file: node ids, units of the drives, software limits.
 
 #include <cmath>
 

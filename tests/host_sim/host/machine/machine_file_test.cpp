@@ -1,4 +1,5 @@
-// Machine files: the bundled XYFZ machine is the one of seed 001, other machines need only a file.
+// Machine files: the bundled XYFZ machine is the one of docs/papers/xyfz.md, other machines need
+// only a file.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -181,7 +182,7 @@ TEST(MachineFile, RefusalsNameLineAndField) {
               HasSubstr("'latch_delay_us' must be from 0 to 1000"));
 }
 
-// Of the last of them the TOML library reads beyond the end.
+// The TOML library reads beyond the end of the last of them.
 TEST(MachineFile, WhatIsNotUtf8IsRefusedAtItsLine) {
   using testing::HasSubstr;
   for (const char* bytes :

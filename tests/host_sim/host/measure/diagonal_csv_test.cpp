@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host_sim/host/measure/diagonal_csv.hpp"
+#include "host_sim/host/measure/map_csv.hpp"
 #include "host_sim/host/measure/volume_csv.hpp"
 #include "tests/complaint.hpp"
 
@@ -52,6 +53,23 @@ TEST(DiagonalCsv, WritesWhatItReads) {
                            "PPP,0.0000,1,up,0.0000\nPPP,10.0000,1,up,1.2500\n"
                            "XY-,0.0000,1,down,3.0000\nXY-,5.0000,1,down,-1.0000\n";
   EXPECT_EQ(diagonals_csv(parse(text)), text);
+}
+
+// As for runs: what a spreadsheet saves where the comma is the decimal point.
+TEST(DiagonalCsv, AnotherSeparatorIsNamedInEveryReader) {
+  const std::string semicolons =
+      ":1: the header is separated by semicolons; columns must be separated by commas";
+  EXPECT_EQ(refusal_of("diagonal;target [mm];run;direction;deviation [um]\n"),
+            "d.csv" + semicolons);
+  EXPECT_EQ(sim::complaint_of(
+                [] { return parse_volume("X [mm];Y [mm];Z [mm];DX [um];DY [um];DZ [um]\n"); }),
+            "v.csv" + semicolons);
+  EXPECT_EQ(sim::complaint_of([] {
+              std::istringstream stream("row;c1;c2\n");
+              return read_map(stream, "m.csv");
+            }),
+            "m.csv" + semicolons);
+  EXPECT_THAT(refusal_of("diagonal\ttarget [mm]\trun\n"), HasSubstr("separated by tabs"));
 }
 
 TEST(DiagonalCsv, RefusesWithTheLine) {

@@ -2,17 +2,18 @@
 // refused.
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "comp/tables/image.hpp"
-#include "host_sim/experiments/any_machine/campaign.hpp"
-#include "host_sim/experiments/any_machine/truth.hpp"
-#include "host_sim/experiments/xyfz/truth.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/any_axes.hpp"
 #include "host_sim/sim/campaign/campaign.hpp"
+#include "host_sim/sim/truth/drawn_machine.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::host {
@@ -21,11 +22,11 @@ namespace {
 class Commissioning : public testing::Test {
  protected:
   MachineFile file = read_machine_file(bundled_machine("xyfz"));
-  sim::TrueMachine truth = xyfz::make_xyfz_truth(file, 3, {});
+  sim::TrueMachine truth = sim::draw_machine(file, 3);
   sim::Campaign campaign = sim::perfect_campaign(truth, file);
 
   std::string refusal(const std::vector<RunsFile>& runs) const {
-    return sim::complaint_of([&] { return commission(file, runs, {}); });
+    return sim::complaint_of([&] { return build_tables(file, runs, {}); });
   }
 };
 
@@ -33,14 +34,14 @@ class Commissioning : public testing::Test {
 // diagonal sees), second-order terms and the resolution of the instrument.
 TEST_F(Commissioning, TablesReproduceTheMachineOnTheKnots) {
   const auto tables =
-      commission(campaign.machine, campaign.runs, {ModelKind::abbe_closed, SlopeFit::keep});
+      build_tables(campaign.machine, campaign.runs, {ModelKind::abbe_closed, SlopeFit::keep});
   const auto difference = [&](const Vec3& p) -> Vec3 {
     const Pose q{p.x(), p.y(), p.z()};
     return truth.error(q, {}, truth.chain.tool_point()).position_work -
            tables->model.first_order(q, kUnknownTravels, Beyond::stand_at_end);
   };
   const Vec3 zero = difference(Vec3::Zero());
-  // Slopes kept: nothing rigid is lost, so only a constant remains.
+  // Slopes not removed: nothing rigid is lost, so only a constant remains.
   for (const Vec3& p :
        {Vec3(-500, -300, -400), Vec3(-250, -150, -200), Vec3(0, -300, -40), Vec3(-450, 0, -360)}) {
     EXPECT_LT((difference(p) - zero).norm(), 0.3e-3) << p.x() << ' ' << p.y() << ' ' << p.z();
@@ -48,7 +49,7 @@ TEST_F(Commissioning, TablesReproduceTheMachineOnTheKnots) {
 }
 
 TEST_F(Commissioning, ImageOfTheTablesDecodesToTheSameTables) {
-  const auto tables = commission(campaign.machine, campaign.runs, {});
+  const auto tables = build_tables(campaign.machine, campaign.runs, {});
   const std::vector<std::uint8_t> image = make_image(tables->tables);
   const auto decoded = std::make_unique<MachineTables>();
   ASSERT_TRUE(decode_image(image, 128, *decoded).ok());
@@ -57,9 +58,9 @@ TEST_F(Commissioning, ImageOfTheTablesDecodesToTheSameTables) {
 }
 
 TEST_F(Commissioning, BoundOfTheModelIsExtraWorkThatChangesNoTable) {
-  const auto full = commission(campaign.machine, campaign.runs, {ModelKind::abbe_closed});
+  const auto full = build_tables(campaign.machine, campaign.runs, {ModelKind::abbe_closed});
   const auto quick =
-      commission(campaign.machine, campaign.runs, tables_only(ModelKind::abbe_closed));
+      build_tables(campaign.machine, campaign.runs, tables_only(ModelKind::abbe_closed));
   EXPECT_GT(full->model_bound_nm, 0.0);
   EXPECT_DOUBLE_EQ(quick->model_bound_nm, 0.0);
   EXPECT_EQ(make_image(quick->tables), make_image(full->tables));
@@ -80,7 +81,7 @@ TEST_F(Commissioning, ReferenceMustBeATarget) {
 TEST_F(Commissioning, WarningsAreSaidWithTheFile) {
   auto runs = campaign.runs;
   runs[2].down.clear();
-  const auto tables = commission(file, runs, {});
+  const auto tables = build_tables(file, runs, {});
   EXPECT_THAT(tables->warnings,
               testing::ElementsAre(testing::AllOf(
                   testing::StartsWith("runs_Z.csv: Z was measured in one direction only"),
@@ -100,12 +101,62 @@ TEST_F(Commissioning, AnOutlierIsSaidWithItsColumnPositionAndValue) {
   for (RunValues& run : runs[0].up)
     std::reverse(run.begin(), run.end());
   runs[0].up[3][2](1) += 0.030;
-  const auto tables = commission(file, runs, tables_only(ModelKind::abbe_closed));
+  const auto tables = build_tables(file, runs, tables_only(ModelKind::abbe_closed));
+  EXPECT_THAT(
+      tables->warnings,
+      testing::Contains(testing::AllOf(
+          testing::StartsWith("runs_X.csv: EYX at " + fmt::format("{:g}", runs[0].positions[2]) +
+                              " mm, run 4 up, is "),
+          testing::HasSubstr(" um instead of "), testing::EndsWith("[outlier]"))));
+}
+
+// The same runs as they come from a file: its lines 2 … are the readings in the order of writing.
+TEST_F(Commissioning, WhatIsSaidOfAReadingNamesItsLine) {
+  const auto from_file = [](const RunsFile& runs) {
+    std::istringstream text(runs_csv(runs));
+    return read_runs(text, runs.name);
+  };
+  RunsFile x = campaign.runs[0];
+  x.up.assign(5, x.up[0]);
+  x.down.clear();
+  const std::size_t targets = x.positions.size();
+  const auto with_x = [&] {
+    return std::vector<RunsFile>{from_file(x), campaign.runs[1], campaign.runs[2]};
+  };
+  x.up[3][2](1) += 0.030;
+  const std::string line = fmt::format("runs_X.csv:{}: ", 2 + 3 * targets + 2);
+  EXPECT_THAT(build_tables(file, with_x(), {})->warnings,
+              testing::Contains(testing::AllOf(testing::StartsWith(line + "EYX at "),
+                                               testing::EndsWith("[outlier]"))));
+  x.up[3][2](1) = 3.0;
+  EXPECT_THAT(refusal(with_x()),
+              testing::AllOf(testing::StartsWith(line), testing::HasSubstr("EYX"),
+                             testing::EndsWith("[unit_suspected]")));
+  x.up[3][2](1) = std::nan("");
+  EXPECT_THAT(refusal(with_x()), testing::StartsWith(line));
+}
+
+TEST_F(Commissioning, ASlopeAndAJumpAreSaidWithColumnAndSize) {
+  auto runs = campaign.runs;
+  runs[0].up.resize(1);
+  runs[0].down.clear();
+  for (std::size_t t = 0; t < runs[0].positions.size(); ++t)
+    runs[0].up[0][t](2) = 400e-6 * runs[0].positions[t];
+  const double from = runs[1].positions[3];
+  const double to = runs[1].positions[4];
+  for (RunValues* const run : {&runs[1].up[0], &runs[1].down[0]}) {
+    for (std::size_t t = 4; t < run->size(); ++t)
+      (*run)[t](1) += 0.050;
+  }
+  const auto tables = build_tables(file, runs, {});
   EXPECT_THAT(tables->warnings,
-              testing::Contains(testing::AllOf(
-                  testing::HasSubstr("EYX at " + fmt::format("{:g}", runs[0].positions[2]) +
-                                     " mm, run 4 up: "),
-                  testing::HasSubstr(" um instead of "), testing::EndsWith("[outlier]"))));
+              testing::Contains("runs_X.csv: EZX has a slope of 400 urad, steep for a straightness "
+                                "[steep_slope]"));
+  EXPECT_THAT(tables->warnings,
+              testing::Contains(
+                  testing::AllOf(testing::StartsWith("runs_Y.csv: EYY jumps by "),
+                                 testing::EndsWith(fmt::format(
+                                     " um between {:g} mm and {:g} mm [knot_jump]", from, to)))));
 }
 
 // 26 urad over 500 mm are 13 um; without the squareness of the machine nothing corrects them.
@@ -118,7 +169,7 @@ TEST_F(Commissioning, WithoutSquarenessWhatIsNotCorrectedIsSaid) {
         run[t](1) = 26e-6 * runs[0].positions[t];
     }
   }
-  const auto tables = commission(file, runs, tables_only(ModelKind::abbe_closed));
+  const auto tables = build_tables(file, runs, tables_only(ModelKind::abbe_closed));
   EXPECT_THAT(tables->warnings,
               testing::Contains(testing::HasSubstr(
                   "there is no [squareness]: X, Y and Z are taken as square to each other")));
@@ -128,7 +179,7 @@ TEST_F(Commissioning, WithoutSquarenessWhatIsNotCorrectedIsSaid) {
 }
 
 TEST_F(Commissioning, WithSquarenessTheSlopesBelongToIt) {
-  EXPECT_THAT(commission(file, campaign.runs, tables_only(ModelKind::abbe_closed))->warnings,
+  EXPECT_THAT(build_tables(file, campaign.runs, tables_only(ModelKind::abbe_closed))->warnings,
               testing::Not(testing::Contains(testing::HasSubstr("slope"))));
 }
 
@@ -145,7 +196,7 @@ TEST_F(Commissioning, TargetsMustBeThoseOfTheTravel) {
               testing::HasSubstr("travels from -500 to 0 mm [unit_suspected]"));
   EXPECT_THAT(refusal(scaled(1e-3)),
               testing::HasSubstr("runs_X.csv: targets of X from -0.5 to 0,"));
-  const auto half = commission(file, scaled(0.5), tables_only(ModelKind::abbe_closed));
+  const auto half = build_tables(file, scaled(0.5), tables_only(ModelKind::abbe_closed));
   EXPECT_THAT(half->warnings,
               testing::Contains(testing::HasSubstr("beyond them the value of the end is used")));
 }
@@ -166,7 +217,7 @@ TEST_F(Commissioning, WhatNoNodeTakesIsRefused) {
 TEST_F(Commissioning, TheNaiveModelIsOfItsMachineOnly) {
   const auto complaint = [&] {
     return sim::complaint_of(
-        [&] { return commission(file, campaign.runs, tables_only(ModelKind::naive)); });
+        [&] { return build_tables(file, campaign.runs, tables_only(ModelKind::naive)); });
   };
   EXPECT_EQ(complaint(), "accepted");
   MachineDescription d = file.chain.description();
@@ -180,7 +231,7 @@ class FullTurn : public testing::Test {
  protected:
   static constexpr std::size_t kC = 4;
 
-  std::unique_ptr<Commissioned> commission_with(const ErrorMotion& drift) {
+  std::unique_ptr<BuiltTables> build_with(const ErrorMotion& drift) {
     sim::Campaign drifting = campaign;
     for (RunValues& run : drifting.runs[kC].up)
       add(drift, run);
@@ -189,13 +240,13 @@ class FullTurn : public testing::Test {
       add(drift, run);
       std::reverse(run.begin(), run.end());
     }
-    return commission(campaign.machine, drifting.runs, tables_only(ModelKind::abbe_closed));
+    return build_tables(campaign.machine, drifting.runs, tables_only(ModelKind::abbe_closed));
   }
 
   MachineFile file = read_machine_file(bundled_machine("trunnion"));
   sim::Random random{1};
-  sim::Campaign campaign = any_machine::measure_any_machine(any_machine::draw_machine(file, 1),
-                                                            file, sim::no_noise(), 1, random);
+  sim::Campaign campaign =
+      sim::measure_any_machine(sim::draw_machine(file, 1), file, sim::no_noise(), 1, random);
 
  private:
   static void add(const ErrorMotion& drift, RunValues& run) {
@@ -208,14 +259,14 @@ class FullTurn : public testing::Test {
 TEST_F(FullTurn, DriftThatGrowsEvenlyIsNoError) {
   ErrorMotion drift;
   drift << 3e-3, -2e-3, 1e-3, 4e-6, -5e-6, 30e-6;
-  const auto still = commission_with(ErrorMotion::Zero());
-  const auto drifted = commission_with(drift);
+  const auto still = build_with(ErrorMotion::Zero());
+  const auto drifted = build_with(drift);
   ASSERT_TRUE(drifted->gaps[kC]);
   EXPECT_FALSE(drifted->gaps[0]) << "a slide does not turn";
   EXPECT_NEAR(still->gaps[kC]->mm, 0.0, 1e-12);
   EXPECT_NEAR(drifted->gaps[kC]->mm, 3e-3, 1e-12);
   EXPECT_NEAR(drifted->gaps[kC]->rad, 30e-6, 1e-12);
-  const auto shape = [&](const Commissioned& tables, std::size_t i, Travel travel) {
+  const auto shape = [&](const BuiltTables& tables, std::size_t i, Travel travel) {
     const ErrorTable& table = *tables.refined[kC];
     return ErrorMotion(table.at_knot(i, travel) - table.at_knot(0, travel));
   };
@@ -232,7 +283,7 @@ TEST_F(FullTurn, ATargetLeftOutIsSaid) {
   runs.positions.pop_back();
   runs.up[0].pop_back();
   runs.down[0].pop_back();
-  const auto tables = commission_with(ErrorMotion::Zero());
+  const auto tables = build_with(ErrorMotion::Zero());
   EXPECT_FALSE(tables->gaps[kC]);
   EXPECT_THAT(tables->warnings, testing::ElementsAre(testing::HasSubstr(
                                     "runs_C.csv: C turns once round, but its targets do not")));
@@ -240,7 +291,7 @@ TEST_F(FullTurn, ATargetLeftOutIsSaid) {
 
 TEST_F(FullTurn, EndsFartherApartThanDriftExplainsAreRefused) {
   const auto complaint = [&](Eigen::Index channel, double drift) {
-    return sim::complaint_of([&] { commission_with(drift * ErrorMotion::Unit(channel)); });
+    return sim::complaint_of([&] { build_with(drift * ErrorMotion::Unit(channel)); });
   };
   EXPECT_EQ(complaint(2, 4.9e-3), "accepted");
   EXPECT_THAT(complaint(2, 5.1e-3), testing::HasSubstr("runs_C.csv: the ends of the turn of C"));

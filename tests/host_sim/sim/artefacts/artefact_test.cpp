@@ -1,4 +1,4 @@
-// Gaps to plane, sphere and mandrel, against what a drawing says.
+// Gaps to plane, sphere and mandrel, against a drawing.
 
 #include <gtest/gtest.h>
 

@@ -27,8 +27,8 @@ std::string refusal(const host::BusSettings& settings, const std::vector<std::ui
 
 TEST(BusController, BringsUpAMachineWithoutTables) { EXPECT_EQ(refusal(xyfz()), "accepted"); }
 
-// The drives count nanometres (60A8h); a machine file that says 2 nm per unit would correct twice
-// as much as it should.
+// The drives count nanometres (60A8h); a machine file with 2 nm per unit would correct twice as
+// much as it should.
 TEST(BusController, RefusesADriveWithOtherUnits) {
   host::BusSettings settings = xyfz();
   settings.axes[1].scale_numerator = 2;
@@ -49,7 +49,7 @@ TEST(BusController, ComparesTheFeedOfARotaryDrive) {
   EXPECT_THAT(refusal(settings), HasSubstr("units per turn"));
 }
 
-// Drives that count as the file says are taken as they are: micrometres, and no power of ten.
+// Drives that count as in the file are taken as they are: micrometres, and no power of ten.
 TEST(BusController, TakesDrivesThatCountAsTheFileSays) {
   for (const auto& [numerator, denominator] :
        {std::pair{1000U, 1U}, std::pair{78125U, 65536U}, std::pair{10U, 1U}}) {

@@ -1,17 +1,17 @@
-// The simulated machine under control: it goes where it is told, and what the compensation does to
-// it is what the model says.
+// The simulated machine under control: it goes where it is commanded, and the compensation has the
+// effect that the model predicts.
 
 #include <algorithm>
 #include <memory>
 
 #include <gtest/gtest.h>
 
-#include "host_sim/experiments/xyfz/truth.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 #include "host_sim/sim/controller/motion_cell.hpp"
+#include "host_sim/sim/truth/drawn_machine.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 class Cell : public testing::Test {
  protected:
   host::MachineFile file = host::read_machine_file(host::bundled_machine("xyfz"));
-  TrueMachine truth = xyfz::make_xyfz_truth(file, 5, {});
+  TrueMachine truth = draw_machine(file, 5);
 };
 
 constexpr host::AxisKinds kThreeLinear{3, {}};
@@ -119,7 +119,7 @@ TEST_F(Cell, ArrivingFromBelowAndAboveDiffersByTheReversal) {
 TEST_F(Cell, DamagedImageNeverReachesTheMachine) {
   const Campaign campaign = perfect_campaign(truth, file);
   std::vector<std::uint8_t> image =
-      host::make_image(host::commission(campaign.machine, campaign.runs, {})->tables);
+      host::make_image(host::build_tables(campaign.machine, campaign.runs, {})->tables);
   image[image.size() / 2] ^= 1U;
   EXPECT_THROW(static_cast<void>(make_integrated_cell(truth, file.correction, image)),
                host::UserError);
@@ -132,7 +132,7 @@ TEST_F(Cell, EveryOffsetObeysLimitAndRate) {
   tight.rate_mm_per_s = 0.5;
   const auto cell = make_integrated_cell(
       truth, tight,
-      host::make_image(host::commission(campaign.machine, campaign.runs, {})->tables));
+      host::make_image(host::build_tables(campaign.machine, campaign.runs, {})->tables));
   cell->place(Vec3(-500.0, -300.0, -400.0));
   auto before = cell->axes().offset();
   bool limit_reached = false;

@@ -35,7 +35,7 @@ void travel_about(MotionCell& cell) {
   const Pose start{0.0, 230.0, -0.68, 0.0};
   cell.place(start);
   expect_at(cell, start);
-  // A goes on through more turns than 32 bits of the wire can tell apart.
+  // A goes on through more turns than 32 bits of the wire can hold.
   for (const Pose& to : {Pose{20.0, 235.0, -0.6, 0.4}, Pose{20.0, 235.0, -0.7, 9.0},
                          Pose{-20.0, 300.0, -0.7, -9.0}, start}) {
     cell.move_to(to, 20.0);

@@ -20,7 +20,7 @@ class Bench {
   [[nodiscard]] static Cia402Drive::Settings node_three();
   [[nodiscard]] static Cia402Drive::Settings rotary();
 
-  // Hands one frame over; what the drive sends before the next is kept in `sent`.
+  // Hands one frame over; what the drive sends before the next is stored in `sent`.
   void give(std::uint16_t id, const std::vector<std::uint8_t>& bytes);
   // Lets time pass in steps of 100 µs, without SYNC.
   void wait(std::uint64_t us);

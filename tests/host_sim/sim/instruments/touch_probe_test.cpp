@@ -110,7 +110,7 @@ TEST_F(Probe, LobingFollowsTheFrameOfTheProbe) {
   const double height = 173.7135 * std::sin(theta);
   EXPECT_NEAR(on_floor.margin_mm(at(62.0, kArmLevel + theta)),
               height - 20.0 - kTip - 0.004 * std::cos(theta), 1e-12);
-  // Of the probe's frame turned by +θ about Y, Z of the machine is (−sin θ, 0, cos θ).
+  // In the probe's frame, turned by +θ about Y, Z of the machine is (−sin θ, 0, cos θ).
   EXPECT_LT((seen - Vec3(-std::sin(theta), 0.0, std::cos(theta))).norm(), 1e-14);
 }
 

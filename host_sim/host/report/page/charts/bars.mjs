@@ -1,7 +1,7 @@
 // One group of bars for each category, one bar in it for each series.
 
 import { digitsFor, formatNumber } from '../format.mjs';
-import { extent } from '../series.mjs';
+import { extent, niceStep } from '../series.mjs';
 import {
   grid, limitSeries, quantity, rightMargin, tooltip, tooltipTable, valueScale, visibleSeries, xAxis, yAxis,
 } from './parts.mjs';
@@ -43,12 +43,23 @@ export function barsOption(section, theme, view) {
 
 const bar = (value) => ({ value, label: { position: value < 0 ? 'bottom' : 'top' } });
 
-// No category may go without its name: long ones break between words, crowded ones lean.
+// No category may go without its name: long ones break between words, crowded ones lean. Of numbers,
+// teeth for instance, the first and round ones are enough.
 function categoryLabel(categories, room) {
+  if (categories.every(isWhole)) return roundNumbers(categories, room);
   const longestWord = Math.max(...categories.flatMap((name) => name.split(' ')).map((word) => word.length));
   const level = { rotate: 0, width: room - 8, overflow: 'break' };
   const leaning = { rotate: 40, width: 120, overflow: 'truncate' };
   return { interval: 0, hideOverlap: false, ...(longestWord * LETTER + 8 <= room ? level : leaning) };
+}
+
+const isWhole = (name) => /^\d+$/.test(name);
+
+function roundNumbers(categories, room) {
+  const widest = Math.max(...categories.map((name) => name.length)) * LETTER + 8;
+  const step = Math.max(1, niceStep(widest / room));
+  const isFirst = (index, name) => index === 0 && name.length === 1;
+  return { rotate: 0, hideOverlap: false, interval: (index, name) => isFirst(index, name) || Number(name) % step === 0 };
 }
 
 function barTooltip(section, shown, theme, digits) {

@@ -13,6 +13,7 @@ const MEANINGS = {
   M: 'range of the mean deviation',
 };
 const COLUMN = 26;  // pixels for each dimension line beside the plot
+const LETTER_ROOM = 16;  // pixels
 const BESIDE = ['A', 'E', 'M'];
 
 // R and B may stand at the same target.
@@ -80,28 +81,41 @@ export function iso230Option(section, theme, view) {
           return tooltipTable(`${name} ${quantity(section.y, section.figures[name], digits)}`, [{ name: MEANINGS[name], text: '' }]);
         },
       }),
-      renderItem: (params, api) => dimensionLine(lines[params.dataIndex], api, params.coordSys, theme),
+      renderItem: (params, api) => dimensionLine(lines, params.dataIndex, api, params.coordSys, theme),
     }],
   };
 }
 
+// Where the letter of a dimension line stands. R at the first target is above its line, for on the
+// left are the labels of the axis; B at the same target stays below it.
+function letterPlace(lines, { name, x }, { at, low, high }, api, plot) {
+  if (x === undefined) return { ...TEXT_BESIDE[name], y: Math.max(high - 3, 20), verticalAlign: 'bottom' };
+  if (name !== 'R' || at - plot.x > LETTER_ROOM) return { ...TEXT_BESIDE[name], y: (low + high) / 2, verticalAlign: 'middle' };
+  const b = lines.find((line) => line.name === 'B');
+  const [, middleOfB] = api.coord([b.x, (b.low + b.high) / 2]);
+  const above = b.x === x ? Math.min(high - 2, middleOfB - LETTER_ROOM / 2) : high - 2;
+  return { dx: 5, align: 'left', y: above, verticalAlign: 'bottom' };
+}
+
 // Ends, shaft and letter.
-function dimensionLine({ name, x }, api, plot, theme) {
+function dimensionLine(lines, index, api, plot, theme) {
+  const { name, x } = lines[index];
   const beside = x === undefined;
   const [atTarget, low] = api.coord([api.value(0), api.value(1)]);
   const [, high] = api.coord([api.value(0), api.value(2)]);
   const at = beside ? plot.x + plot.width + (BESIDE.indexOf(name) + 0.6) * COLUMN : atTarget;
   const stroke = { stroke: theme.ink, lineWidth: beside ? 1.2 : 1 };
   const tick = (y) => ({ type: 'line', shape: { x1: at - 4, y1: y, x2: at + 4, y2: y }, style: stroke });
+  const letter = letterPlace(lines, lines[index], { at, low, high }, api, plot);
   return {
     type: 'group',
     children: [
       { type: 'line', shape: { x1: at, y1: low, x2: at, y2: high }, style: stroke }, tick(low), tick(high),
       {
-        type: 'text', x: at + TEXT_BESIDE[name].dx, y: beside ? Math.max(high - 3, 20) : (low + high) / 2,
+        type: 'text', x: at + letter.dx, y: letter.y,
         style: {
-          text: name, fill: theme.ink, font: `600 11px ${theme.font}`, align: TEXT_BESIDE[name].align,
-          verticalAlign: beside ? 'bottom' : 'middle', backgroundColor: theme.surface, padding: [0, 1],
+          text: name, fill: theme.ink, font: `600 11px ${theme.font}`, align: letter.align,
+          verticalAlign: letter.verticalAlign, backgroundColor: theme.surface, padding: [0, 1],
         },
       },
     ],

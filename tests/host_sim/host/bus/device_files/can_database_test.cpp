@@ -43,7 +43,7 @@ std::map<unsigned, std::size_t> messages_of(const std::string& dbc) {
   return messages;
 }
 
-// A node that was told its drives: what it waits for and what it sends is in the database.
+// A node with its drives set: what it waits for and what it sends is in the database.
 TEST(CommittedDatabase, HoldsEveryPdoOfTheNode) {
   const auto messages = messages_of(project_file("firmware/volcomp.dbc"));
   NodeOnTheBus node;

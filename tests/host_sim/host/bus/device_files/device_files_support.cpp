@@ -102,8 +102,8 @@ std::string name_of(ObjectId object) {
 NodeOnTheBus::NodeOnTheBus() {
   node_->power_on(0);
   hal::CanFrame boot_up;
-  while (node_->offer(boot_up, 0))
-    node_->taken(0);
+  while (node_->device().offer(boot_up, 0))
+    node_->device().taken(0);
 }
 
 AbortCode NodeOnTheBus::finish() {
@@ -111,10 +111,10 @@ AbortCode NodeOnTheBus::finish() {
   for (int i = 0; i < kMostFrames && client_.state() == canopen::SdoClient::State::busy; ++i) {
     hal::CanFrame request{0x600 + kId, 8, {}};
     while (client_.request(request.data))
-      node_->receive(request, 0);
+      node_->device().receive(request, 0);
     hal::CanFrame response;
-    while (node_->offer(response, 0)) {
-      node_->taken(0);
+    while (node_->device().offer(response, 0)) {
+      node_->device().taken(0);
       if (response.id == 0x580 + kId) client_.response(response.data, 0);
     }
   }

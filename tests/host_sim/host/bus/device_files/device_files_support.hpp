@@ -51,7 +51,21 @@ std::string name_of(canopen::ObjectId object);
 // Little-endian, two's complement.
 Bytes little_endian(std::int64_t value, std::size_t size);
 
-// Frames in, frames out; time stands still.
+// There is a memory, and nothing in it.
+class EmptyStorage final : public Storage {
+ public:
+  StoreResult save(Span<const std::uint8_t> /*parameters*/,
+                   Span<const std::uint8_t> /*image*/) override {
+    return StoreResult::done;
+  }
+  StoreResult load(Span<std::uint8_t>& /*parameters*/, Span<std::uint8_t>& /*image*/) override {
+    return StoreResult::nothing_stored;
+  }
+  StoreResult erase() override { return StoreResult::done; }
+};
+
+// A device with everything a board has, as its EDS describes it. Frames in, frames out; time stands
+// still.
 class NodeOnTheBus {
  public:
   static constexpr std::uint8_t kId = 32;
@@ -60,14 +74,15 @@ class NodeOnTheBus {
 
   canopen::AbortCode read(canopen::ObjectId object, Bytes& value);
   canopen::AbortCode write(canopen::ObjectId object, const Bytes& value);
-  // Of a value that must be readable.
+  // The number of a value that must be readable.
   std::uint32_t number(canopen::ObjectId object);
   [[nodiscard]] bool exists(canopen::ObjectId object);
 
  private:
   canopen::AbortCode finish();
 
-  std::unique_ptr<Node> node_ = std::make_unique<Node>(kId, nullptr);
+  EmptyStorage storage_;
+  std::unique_ptr<Node> node_ = std::make_unique<Node>(kId, &storage_);
   canopen::SdoClient client_;
 };
 

@@ -1,5 +1,5 @@
-// The EDS in firmware/ is what the code says: it is made from it and, read again by other code,
-// agrees with what a node answers over SDO.
+// The EDS in firmware/ matches the code: it is made from it and, read again by other code, agrees
+// with what a node answers over SDO.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -162,7 +162,7 @@ TEST_F(CommittedEds, OtherValuesHaveNoLimits) {
 
 constexpr auto kStatusMapping = static_cast<std::uint16_t>(0x1A00 + node::kStatusPdo);
 
-// Tries to map the object into a PDO whose mapping may change.
+// Tries to map the object into a PDO with a mapping that may change.
 AbortCode map(std::uint16_t mapping_parameter, ObjectId object, std::size_t bytes) {
   NodeOnTheBus node;
   const std::int64_t mapping = std::int64_t{object.index} << 16 | std::int64_t{object.sub} << 8 |

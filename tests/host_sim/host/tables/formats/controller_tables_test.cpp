@@ -36,7 +36,7 @@ host::LinuxcncComp read_linuxcnc(const std::string& text, int type = 1) {
   return host::read_linuxcnc(stream, "x.comp", type);
 }
 
-// What a reader says about a file.
+// What a reader reports about a file.
 template <class Read>
 std::string complaint(const Read& read) {
   try {
@@ -261,7 +261,7 @@ TEST(ControllerTableFile, SignsAndMarksOfEditorsAreRead) {
   EXPECT_EQ(table.reverse, (std::vector<double>{-0.5, 1.0}));
 }
 
-// Nine tables of the XYFZ machine: what they miss is what they say.
+// Nine tables of the XYFZ machine: what they miss is what they report.
 TEST(VolumetricFiles, AreTheModelUpToTheirRemainder) {
   Random random;
   VolumetricModel model;

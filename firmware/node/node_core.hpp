@@ -1,0 +1,63 @@
+#pragma once
+// What the parts of a node share: the objects, the CANopen device, the compensator, the gates of
+// the offsets, and the cycle as far as others look at it.
+
+#include "firmware/canopen/device.hpp"
+#include "firmware/node/arrivals.hpp"
+#include "firmware/node/node_objects.hpp"
+#include "firmware/node/offset_gate.hpp"
+#include "firmware/node/preemption.hpp"
+#include "firmware/node/tables/node_compensator.hpp"
+
+namespace volcomp::node {
+
+class Node;
+using NodeDevice = canopen::Device<Node>;
+
+struct NodeCore {
+  // `allowed` may be nullptr: there is one context.
+  NodeCore(Node& node, std::uint8_t node_id, Preemption* allowed);
+
+  NodeObjects objects{};
+  std::array<canopen::Pdo, kReceivePdos> receive{};
+  std::array<canopen::Pdo, kTransmitPdos> transmit{};
+  Preemption* preemption;
+  NodeDevice device;
+  NodeCompensator compensator{};
+  PerAxis<OffsetGate> gate{};  // with the scale of the axis
+
+  TickInput<kNodeAxes> input{};
+  std::uint32_t arrived = 0;      // in this cycle, see Arrival
+  std::uint32_t correcting = 0;   // axes that take offsets of any kind, a bit each
+  std::uint8_t open_counter = 0;  // of the SYNC that opened the cycle
+  bool running = false;           // the compensator ticks
+  bool overdue = false;           // the background
+
+  [[nodiscard]] canopen::Emergency& emergency() { return device.emergency(); }
+  [[nodiscard]] bool booting() const { return device.state() == canopen::NmtState::boot_up; }
+  [[nodiscard]] bool operational() const {
+    return device.state() == canopen::NmtState::operational;
+  }
+  [[nodiscard]] bool has(unsigned kind, std::size_t axis) const {
+    return (arrived & bit(kind + axis)) != 0;
+  }
+  [[nodiscard]] bool corrects(std::size_t axis) const { return (correcting & bit(axis)) != 0; }
+  // Those of 2010h.
+  [[nodiscard]] std::uint32_t used_axes() const;
+  // The compensator has another machine.
+  void note_machine();
+
+  // --- node_settings.cpp
+
+  Status configure();
+  void set_default_pdos();
+  void set_default_receive_pdos(std::size_t first, std::size_t end);
+
+ private:
+  void configure_gates();
+};
+
+// Writes a refusal (or its absence) to 2112h:02…06.
+void report(const Status& status, NodeObjects& objects);
+
+}  // namespace volcomp::node

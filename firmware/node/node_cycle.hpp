@@ -1,0 +1,80 @@
+#pragma once
+// The cycle of the node. SYNC n comes; controller and drives send their process data; when all of
+// it is there, or at the deadline, the compensator ticks and the offsets leave in the same cycle;
+// the drives take them together with 607Ah at SYNC n + 1. What is missing at the deadline is stale:
+// the axis is held, then ramped down, the others go on.
+
+#include "firmware/node/node_core.hpp"
+#include "firmware/node/probe/probe_part.hpp"
+#include "firmware/node/strokes/stroke_part.hpp"
+#include "firmware/node/wire_scale.hpp"
+
+namespace volcomp::node {
+
+class NodeCycle : public NodePart {
+ public:
+  NodeCycle(NodeCore& core, ProbePart& probe, StrokePart& strokes)
+      : core_(core), probe_(probe), strokes_(strokes) {}
+
+  // --- the contract of a part
+
+  void reset();
+  // Nothing is known of the drives, and nothing is corrected; the settings are taken over.
+  void restart(bool operational);
+  void arrived(std::uint32_t bits);
+  canopen::AbortCode before_write(canopen::ObjectId object,
+                                  Span<const std::uint8_t> /*bytes*/) const {
+    return object.index == kStartOffset ? check_start(object.sub) : canopen::AbortCode::none;
+  }
+  void written(canopen::ObjectId object) {
+    if (object.index == kStartOffset) note_start(object.sub);
+  }
+
+  // --- tick
+
+  // Offsets that drives hold and cannot report (2206h), then the status: after restart().
+  void begin();
+  void sync(std::uint8_t counter, std::uint64_t now_us);
+  void bad_sync(canopen::SyncVerdict verdict);
+  // Computes when the deadline is over.
+  void due(std::uint64_t now_us);
+  // A transmit PDO has been handed to the port.
+  void sent(std::size_t transmit_pdo);
+  // A drive has gone: what it holds is not known any more.
+  void forget_drive(std::uint8_t node);
+  void report_status();
+
+  // When due() has something to do at the latest; UINT64_MAX while no cycle is open.
+  [[nodiscard]] std::uint64_t deadline_us() const { return open_ ? deadline_us_ : UINT64_MAX; }
+  // No drive holds a correction of this node, or none can be changed any more.
+  [[nodiscard]] bool at_rest() const;
+
+ private:
+  static constexpr std::uint16_t kStartOffset = 0x2206;
+
+  [[nodiscard]] canopen::AbortCode check_start(std::uint8_t sub) const;
+  void note_start(std::uint8_t sub);
+  [[nodiscard]] bool complete() const;
+  [[nodiscard]] std::uint64_t deadline_after_sync_us() const;
+  void compute();
+  bool start_compensating();
+  [[nodiscard]] AxisSample sample(std::size_t axis);
+  void send_offset(std::size_t axis, std::int32_t learned);
+  void report_axis_errors(std::size_t axis, std::uint16_t status);
+  void raise_if(bool present, canopen::ErrorCode code, std::size_t axis, std::uint16_t status);
+  void start_at_given_offsets();
+
+  NodeCore& core_;
+  ProbePart& probe_;
+  StrokePart& strokes_;
+  PerAxis<WirePosition> position_{};
+  TickOutput<kNodeAxes> output_{};
+  std::uint64_t deadline_us_ = 0;
+  std::uint32_t used_ = 0;                 // axes, while OPERATIONAL
+  std::uint32_t start_given_ = 0;          // 2206h written since the last start, a bit per axis
+  PerAxis<std::uint16_t> clean_cycles_{};  // without trouble, per axis
+  std::uint16_t clean_syncs_ = 0;          // since the last bad SYNC
+  bool open_ = false;                      // SYNC has come, not yet computed
+};
+
+}  // namespace volcomp::node

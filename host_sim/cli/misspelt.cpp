@@ -1,0 +1,71 @@
+#include "host_sim/cli/misspelt.hpp"
+
+#include <cstddef>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host_sim/host/io/nearest_word.hpp"
+
+namespace volcomp::cli {
+namespace {
+
+const CLI::App* command_named(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == name) return command;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string unknown(const char* what, const std::string& word,
+                    const std::vector<std::string>& known, const std::string& remedy) {
+  const std::string nearest = host::nearest_word(word, known);
+  return fmt::format("unknown {} \"{}\"{}{}", what, word,
+                     nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest), remedy);
+}
+
+}  // namespace
+
+std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  std::string path = app.get_name();
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word.rfind("--", 0) == 0 && word.size() > 2) {
+      const std::string name = word.substr(0, word.find('='));
+      const CLI::Option* option = command->get_option_no_throw(name);
+      if (option == nullptr)
+        return unknown("option", name, options_of(*command),
+                       fmt::format(" (all: {} --help)", path));
+      const bool has_value = option->get_items_expected_max() > 0;
+      if (has_value && name.size() == word.size()) ++i;
+      continue;
+    }
+    if (word.rfind('-', 0) == 0 || command->get_require_subcommand_min() == 0) continue;
+    const CLI::App* below = command_named(*command, word);
+    if (below == nullptr)
+      return unknown("command", word, commands_of(*command),
+                     fmt::format(" (known: {})", fmt::join(commands_of(*command), ", ")));
+    command = below;
+    path += " " + below->get_name();
+  }
+  return {};
+}
+
+}  // namespace volcomp::cli

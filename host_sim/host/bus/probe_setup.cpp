@@ -1,0 +1,87 @@
+#include "host_sim/host/bus/probe_setup.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "firmware/node/node_objects.hpp"
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::host {
+namespace {
+
+constexpr double kNsPerUs = 1e3;
+
+void plan_ns(SetupPlan& plan, canopen::ObjectId object, double us, std::string name) {
+  plan_value<std::uint32_t>(plan, object, static_cast<std::uint32_t>(std::llround(us * kNsPerUs)),
+                            std::move(name), "ns");
+}
+
+void plan_nm(SetupPlan& plan, std::uint16_t index, std::size_t sub, double mm, const char* name) {
+  plan_value<double>(plan, {index, static_cast<std::uint8_t>(sub)}, kNmPerMm * mm, name, "nm");
+}
+
+void plan_frame(SetupPlan& plan, const Frame& frame) {
+  constexpr std::uint16_t kWorkpiece = 0x2303;
+  std::size_t sub = 1;
+  for (Eigen::Index r = 0; r < 3; ++r) {
+    for (Eigen::Index c = 0; c < 3; ++c)
+      plan_value<double>(plan, {kWorkpiece, static_cast<std::uint8_t>(sub++)}, frame.R(r, c),
+                         "rotation of the part");
+  }
+  for (Eigen::Index r = 0; r < 3; ++r)
+    plan_nm(plan, kWorkpiece, sub++, frame.t(r), "origin of the part");
+}
+
+void plan_gear(SetupPlan& plan, const NodeProbe& probe) {
+  const FaceGear& g = probe.gear;
+  const std::array<double, 11> numbers{static_cast<double>(g.shaper_teeth),
+                                       static_cast<double>(g.teeth),
+                                       g.module,
+                                       g.pressure_angle,
+                                       g.addendum,
+                                       g.shaper_addendum,
+                                       g.r_in,
+                                       g.r_out,
+                                       g.relief.amount,
+                                       g.relief.begin,
+                                       g.relief.length};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    plan_value<double>(plan, {0x2312, static_cast<std::uint8_t>(i + 1)}, numbers[i],
+                       "number of the face gear");
+  plan_value<std::uint32_t>(plan, {0x2311, 1}, probe.gear_id, "face gear");
+}
+
+}  // namespace
+
+NodeProbe node_probe(const MachineFile& machine) {
+  if (!machine.probe) throw UserError(machine.path + ": the machine has no [probe]");
+  NodeProbe probe;
+  probe.delay_us = machine.probe->delay_us;
+  probe.radius.coefficient[0] = machine.probe->radius_mm;
+  for (std::size_t a = 0; a < machine.axes.size(); ++a)
+    probe.latch_delay_us[a] = machine.axes[a].latch_delay_us;
+  return probe;
+}
+
+SetupPlan probe_plan(const NodeProbe& probe) {
+  SetupPlan plan;
+  plan_ns(plan, {0x2300, 2}, probe.delay_us, "delay from the contact to the edge");
+  for (std::size_t a = 0; a < node::kNodeAxes; ++a)
+    plan_ns(plan, {0x2301, static_cast<std::uint8_t>(a + 1)}, probe.latch_delay_us[a],
+            fmt::format("delay from the edge to the latch of axis {}", a + 1));
+  for (std::size_t k = 0; k < kLobingTerms; ++k)
+    plan_nm(plan, 0x2302, k + 1, probe.radius.coefficient[k], "effective radius, by direction");
+  plan_frame(plan, probe.workpiece);
+  plan_nm(plan, 0x2304, 1, probe.radius_uncertainty, "standard uncertainty of the radius");
+  plan_nm(plan, 0x2304, 2, probe.tool_length_uncertainty,
+          "standard uncertainty of the tool length");
+  plan_nm(plan, 0x2304, 4, probe.repeatability, "repeatability of the probe");
+  if (probe.gear_id != 0) plan_gear(plan, probe);
+  plan_value<std::uint8_t>(plan, {0x2300, 1}, static_cast<std::uint8_t>(node::ProbeCommand::on),
+                           "probe on with these settings");
+  return plan;
+}
+
+}  // namespace volcomp::host

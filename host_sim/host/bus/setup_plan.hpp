@@ -1,0 +1,82 @@
+#pragma once
+// What is written into the objects of a new compensation node, in the order of writing. `volcomp
+// setup` carries the plan out, and the simulated controller follows it at every start.
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "firmware/canopen/object_dictionary.hpp"
+#include "host_sim/host/bus/bus_settings.hpp"
+#include "host_sim/host/bus/sdo_channel.hpp"
+
+namespace volcomp::host {
+
+struct PlannedValue {
+  canopen::ObjectId object;
+  canopen::DataType type = canopen::DataType::unsigned8;
+  std::uint64_t bits = 0;  // as on the bus: two's complement, or IEEE 754 of a REAL64
+  std::string name;
+  std::string unit;          // empty: none
+  bool hexadecimal = false;  // to people
+
+  [[nodiscard]] SdoChannel::Bytes bytes() const;
+};
+
+using SetupPlan = std::vector<PlannedValue>;
+
+template <class T>
+[[nodiscard]] constexpr canopen::DataType data_type_of() {
+  using canopen::DataType;
+  if constexpr (std::is_same_v<T, double>) return DataType::real64;
+  constexpr bool with_sign = std::is_signed_v<T>;
+  switch (sizeof(T)) {
+    case 1:
+      return with_sign ? DataType::integer8 : DataType::unsigned8;
+    case 2:
+      return with_sign ? DataType::integer16 : DataType::unsigned16;
+    case 4:
+      return with_sign ? DataType::integer32 : DataType::unsigned32;
+    default:
+      return with_sign ? DataType::integer64 : DataType::unsigned64;
+  }
+}
+
+// Appends a value of type T. `name` and `unit` are for people.
+template <class T>
+void plan_value(SetupPlan& plan, canopen::ObjectId object, T value, std::string name,
+                std::string unit = {}) {
+  SdoChannel::Bytes bytes(sizeof(T));
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  plan.push_back(
+      {object, data_type_of<T>(), number(bytes), std::move(name), std::move(unit), false});
+}
+
+// The same of bits and identifiers: shown in hexadecimal.
+template <class T>
+void plan_bits(SetupPlan& plan, canopen::ObjectId object, T value, std::string name) {
+  plan_value<T>(plan, object, value, std::move(name));
+  plan.back().hexadecimal = true;
+}
+
+// Heartbeats both ways and the SYNC that all devices share: of the node and of every drive.
+[[nodiscard]] SetupPlan common_plan(const BusSettings& settings);
+
+// The same and what else a node needs to know of drives, units, limits and times. Throws UserError
+// when the machine has more axes than a node, or strokes but not the axes they need.
+[[nodiscard]] SetupPlan node_plan(const BusSettings& settings);
+
+struct NodeProbe;
+
+// Everything that a machine file determines, for a node that may have held other settings before.
+// `probe` replaces that of the file. Throws as node_plan().
+[[nodiscard]] SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
+                                   const NodeProbe* probe = nullptr);
+
+// Queues the whole plan. The name of a value names its transfer in messages.
+void queue_plan(SdoChannel& channel, const SetupPlan& plan);
+
+}  // namespace volcomp::host

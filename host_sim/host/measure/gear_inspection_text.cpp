@@ -1,0 +1,119 @@
+#include "host_sim/host/measure/gear_inspection_text.hpp"
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+
+namespace volcomp::host {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegreesPerRad = 180.0 / kPi;
+constexpr std::array<const char*, 2> kEditions{"ISO 1328-1:1995", "ISO 1328-1:2013"};
+constexpr std::array<const char*, 2> kEditionKeys{"iso1328_1995", "iso1328_2013"};
+// By GearDeviation.
+constexpr std::array<const char*, kGearDeviations> kSymbols{"f_pt", "F_p",  "F_a",  "f_fa", "f_Ha",
+                                                            "F_b",  "f_fb", "f_Hb", "F_r"};
+
+const char* symbol_of(GearDeviation deviation) {
+  return kSymbols.at(static_cast<std::size_t>(deviation));
+}
+
+// "8", ">12", or "-" where the edition has no grades for a gear of this size.
+std::string shown_grade(const InspectedGear& g, const std::optional<int>& grade, std::size_t s) {
+  if (!g.covered.at(s)) return "-";
+  return grade ? std::to_string(*grade) : fmt::format(">{}", last_grade(kGearStandards.at(s)));
+}
+
+std::string shown_tooth(const InspectedTrace& trace) {
+  return trace.kind == GearTraceKind::pitch ? "all" : std::to_string(trace.tooth + 1);
+}
+
+std::string figure_line(const InspectedGear& g, const InspectedTrace& trace,
+                        const GearFigure& figure) {
+  return fmt::format("{:<9}{:<7}{:>5}  {:<6}{:>9.2f}{:>6}{:>11.2f}{:>6}\n", name_of(trace.kind),
+                     kFlankNames.at(trace.side), shown_tooth(trace), symbol_of(figure.deviation),
+                     figure.um[0], shown_grade(g, figure.grade[0], 0), figure.um[1],
+                     shown_grade(g, figure.grade[1], 1));
+}
+
+json grade_json(const InspectedGear& g, const std::optional<int>& grade, std::size_t s) {
+  return g.covered.at(s) && grade ? json(*grade) : json();
+}
+
+json trace_json(const InspectedGear& g, const InspectedTrace& trace) {
+  json figures = json::object();
+  for (const GearFigure& figure : trace.figures) {
+    json& out = figures[symbol_of(figure.deviation)];
+    for (std::size_t s = 0; s < kEditions.size(); ++s)
+      out[kEditionKeys.at(s)] = {{"um", figure.um.at(s)},
+                                 {"grade", grade_json(g, figure.grade.at(s), s)}};
+  }
+  json out{{"trace", name_of(trace.kind)},
+           {"flank", kFlankNames.at(trace.side)},
+           {"points", trace.points},
+           {"figures", figures}};
+  out["tooth"] = trace.kind == GearTraceKind::pitch ? json() : json(trace.tooth + 1);
+  return out;
+}
+
+}  // namespace
+
+std::string inspection_text(const InvoluteGear& gear, const InspectedGear& inspected) {
+  std::string text = fmt::format(
+      "{} teeth, module {:g} mm, pressure angle {:g} deg, helix angle {:g} deg, width {:g} mm\n",
+      gear.teeth, gear.module, kDegreesPerRad * gear.pressure_angle,
+      kDegreesPerRad * gear.helix_angle, gear.width);
+  text += fmt::format("{:<9}{:<7}{:>5}  {:<6}{:>9}{:>7}{:>10}{:>7}\n", "trace", "flank", "tooth",
+                      "", "1995, µm", "grade", "2013, µm", "class");
+  for (const InspectedTrace& trace : inspected.traces)
+    for (const GearFigure& figure : trace.figures)
+      text += figure_line(inspected, trace, figure);
+  for (const std::string& warning : inspected.warnings)
+    text += fmt::format("warning: {}\n", warning);
+  for (std::size_t s = 0; s < kEditions.size(); ++s) {
+    text += inspected.covered.at(s)
+                ? fmt::format("{}: {}\n", kEditions.at(s),
+                              shown_grade(inspected, inspected.grade.at(s), s))
+                : fmt::format("{}: has no grades for a gear of this size\n", kEditions.at(s));
+  }
+  return text +
+         "The grade is the worst of F_a, F_b, f_pt and F_p as far as they were measured. No filter "
+         "was applied; the formulas were not checked against the printed standards.\n";
+}
+
+std::string inspection_csv(const InspectedGear& inspected) {
+  std::string text = "trace,flank,tooth,figure,1995 [um],1995 grade,2013 [um],2013 class\n";
+  for (const InspectedTrace& trace : inspected.traces)
+    for (const GearFigure& figure : trace.figures)
+      text +=
+          fmt::format("{},{},{},{},{:.4f},{},{:.4f},{}\n", name_of(trace.kind),
+                      kFlankNames.at(trace.side), shown_tooth(trace), symbol_of(figure.deviation),
+                      figure.um[0], shown_grade(inspected, figure.grade[0], 0), figure.um[1],
+                      shown_grade(inspected, figure.grade[1], 1));
+  return text;
+}
+
+json inspection_json(const InvoluteGear& gear, const InspectedGear& inspected) {
+  json traces = json::array();
+  for (const InspectedTrace& trace : inspected.traces)
+    traces.push_back(trace_json(inspected, trace));
+  json grades = json::object();
+  for (std::size_t s = 0; s < kEditions.size(); ++s)
+    grades[kEditionKeys.at(s)] = {{"covered", inspected.covered.at(s)},
+                                  {"grade", grade_json(inspected, inspected.grade.at(s), s)}};
+  return {{"gear",
+           {{"teeth", gear.teeth},
+            {"module_mm", gear.module},
+            {"pressure_angle_rad", gear.pressure_angle},
+            {"helix_angle_rad", gear.helix_angle},
+            {"tip_diameter_mm", gear.tip_diameter},
+            {"width_mm", gear.width}}},
+          {"grade", grades},
+          {"traces", traces},
+          {"filtered", false},
+          {"warnings", inspected.warnings}};
+}
+
+}  // namespace volcomp::host

@@ -1,0 +1,133 @@
+#include "host_sim/host/measure/probe_settings.hpp"
+
+#include <fmt/format.h>
+
+#include "comp/core/units.hpp"
+#include "host_sim/host/bus/device_files/eds_objects.hpp"
+#include "host_sim/host/io/rounded.hpp"
+#include "host_sim/host/io/user_error.hpp"
+
+namespace volcomp::host {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uint16_t kEffectiveRadius = 0x2302;
+constexpr std::uint16_t kUncertainties = 0x2304;
+constexpr std::uint8_t kOfRadius = 1;
+constexpr std::uint8_t kOfRepeatability = 4;
+constexpr double kExpanded = 2.0;  // k
+
+// The dictionary counts the values of an array: "Effective radius by direction, nm 1".
+std::string dictionary_name(std::uint16_t index) {
+  for (const EdsObject& object : node_eds_objects())
+    if (object.index == index) return object.name;
+  throw UserError(fmt::format("the node has no object {:04X}h", index));
+}
+
+std::string object_text(const NodeSetting& s) {
+  return fmt::format("{:04X}h:{:02X}", s.index, s.sub);
+}
+
+const char* shape_name(ArtefactShape shape) {
+  return shape == ArtefactShape::sphere ? "sphere" : "ring";
+}
+
+std::string unknown_terms(const ProbeCalibration& c) {
+  std::vector<std::size_t> unknown;
+  for (std::size_t k = 0; k < kLobingTerms; ++k)
+    if ((c.known >> k & 1U) == 0) unknown.push_back(k + 1);
+  return unknown.empty() ? "" : fmt::format("{}", fmt::join(unknown, " "));
+}
+
+std::string uncertainty_method(const ProbeCalibration& c, const ProbeArtefact& artefact) {
+  return fmt::format(
+      "uncertainty: k = 2, from the residuals, {} touches less {} parameters; {}\n", c.touches,
+      c.parameters,
+      artefact.expanded_um
+          ? fmt::format("diameter of the artefact ± {:g} µm (k = 2)", *artefact.expanded_um)
+          : "left out: that of the diameter of the artefact");
+}
+
+}  // namespace
+
+std::vector<NodeSetting> probe_settings(const ProbeCalibration& calibration) {
+  std::vector<NodeSetting> settings;
+  const std::string radius = dictionary_name(kEffectiveRadius);
+  for (std::size_t k = 0; k < kLobingTerms; ++k)
+    settings.push_back({kEffectiveRadius, static_cast<std::uint8_t>(k + 1), radius,
+                        kNmPerMm * calibration.radius.coefficient[k], "nm"});
+  const std::string uncertainty = dictionary_name(kUncertainties);
+  settings.push_back({kUncertainties, kOfRadius, uncertainty + ": effective radius",
+                      kNmPerMm * calibration.u_map, "nm"});
+  settings.push_back({kUncertainties, kOfRepeatability, uncertainty + ": repeatability",
+                      kNmPerMm * calibration.repeatability, "nm"});
+  return settings;
+}
+
+std::string settings_toml(const std::vector<NodeSetting>& settings, const std::string& about) {
+  std::string text = fmt::format("# {}\n", about);
+  for (const NodeSetting& s : settings)
+    text += fmt::format(
+        "\n[[setting]]\nobject = \"{}\"\nname = \"{}\"\nvalue = {:.4f}\nunit = \"{}\"\n",
+        object_text(s), s.name, rounded(s.value, 4), s.unit);
+  return text;
+}
+
+std::string calibration_title(const ProbeCalibration& calibration, const ProbeArtefact& artefact) {
+  return fmt::format("{} touches of a {} of {:g} mm diameter", calibration.touches,
+                     shape_name(artefact.shape), artefact.diameter_mm);
+}
+
+std::string calibration_text(const ProbeCalibration& c, const ProbeArtefact& artefact) {
+  std::string text = calibration_title(c, artefact) + "\n";
+  text += fmt::format("effective radius   {:.6f} mm ± {:.3f} µm\n", c.radius.coefficient[0],
+                      kExpanded * kUmPerMm * c.u_effective);
+  if (c.most_radius > c.least_radius)
+    text += fmt::format(
+        "by direction       {:.6f} … {:.6f} mm where touched, lobing {:.3f} µm, ± {:.3f} µm\n",
+        c.least_radius, c.most_radius, kUmPerMm * (c.most_radius - c.least_radius),
+        kExpanded * kUmPerMm * c.u_map);
+  text += fmt::format("repeatability      {:.3f} µm, standard deviation of a touch\n",
+                      kUmPerMm * c.repeatability);
+  text +=
+      fmt::format("largest residual   {:.3f} µm, line {}\n", kUmPerMm * c.largest, c.worst_line);
+  text += fmt::format("artefact           at {:.4f} {:.4f} {:.4f} mm\n", rounded(c.centre(0), 4),
+                      rounded(c.centre(1), 4), rounded(c.centre(2), 4));
+  text += uncertainty_method(c, artefact);
+  if (const std::string unknown = unknown_terms(c); !unknown.empty())
+    text += fmt::format("coefficients that stay 0: {}\n", unknown);
+  for (const NodeSetting& s : probe_settings(c))
+    text +=
+        fmt::format("{}  {:>14.3f} {}  {}\n", object_text(s), rounded(s.value, 3), s.unit, s.name);
+  return text;
+}
+
+json calibration_json(const ProbeCalibration& c, const ProbeArtefact& artefact) {
+  json settings = json::array();
+  for (const NodeSetting& s : probe_settings(c))
+    settings.push_back(
+        {{"object", object_text(s)}, {"name", s.name}, {"value", s.value}, {"unit", s.unit}});
+  json known = json::array();
+  for (std::size_t k = 0; k < kLobingTerms; ++k)
+    known.push_back((c.known >> k & 1U) != 0);
+  return {{"artefact", shape_name(artefact.shape)},
+          {"diameter_mm", artefact.diameter_mm},
+          {"diameter_U_um", artefact.expanded_um ? json(*artefact.expanded_um) : json()},
+          {"touches", c.touches},
+          {"parameters", c.parameters},
+          {"effective_radius_mm", c.radius.coefficient[0]},
+          {"effective_radius_U_um", kExpanded * kUmPerMm * c.u_effective},
+          {"lobing_mm", c.radius.coefficient},
+          {"lobing_known", known},
+          {"lobing_range_um", kUmPerMm * (c.most_radius - c.least_radius)},
+          {"lobing_U_um", kExpanded * kUmPerMm * c.u_map},
+          {"repeatability_um", kUmPerMm * c.repeatability},
+          {"largest_residual_um", kUmPerMm * c.largest},
+          {"largest_residual_line", c.worst_line},
+          {"centre_mm", {c.centre(0), c.centre(1), c.centre(2)}},
+          {"coverage_factor", kExpanded},
+          {"settings", settings}};
+}
+
+}  // namespace volcomp::host

@@ -1,0 +1,103 @@
+#include "host_sim/sim/campaign/any_axes.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include "host_sim/sim/instruments/ball_bar.hpp"
+#include "host_sim/sim/instruments/laser6d.hpp"
+
+namespace volcomp::sim {
+namespace {
+
+// What sphere tests with two balls leave of the place of a rotary axis, 1 sigma. Assumed.
+constexpr double kLocation_mm = 1e-3;
+constexpr double kLocation_rad = 3e-6;
+
+double nearest_target(const host::AxisFile& axis) {
+  const double part = (axis.reference - axis.lo) / (axis.hi - axis.lo);
+  return target_of(
+      axis, static_cast<std::size_t>(std::lround(part * static_cast<double>(axis.targets - 1))));
+}
+
+ErrorMotion true_value(const TrueMachine& truth, const host::MachineFile& file, std::size_t a,
+                       double q, double approach) {
+  Pose pose{};
+  pose[a] = q;
+  Approach from{};
+  from[a] = approach;
+  return in_file_terms(truth.errors(pose, from)[a], file, a, q);
+}
+
+host::RunsFile measure_axis(const TrueMachine& truth, const host::MachineFile& file, std::size_t a,
+                            const NoiseClasses& classes, std::size_t runs, Random& random) {
+  const host::AxisFile& axis = file.axes[a];
+  const Axis along = file.chain.axis(a).axis;
+  const LaserSetup setup = mount_laser(classes, random);
+  host::RunsFile result;
+  result.name = fmt::format("runs_{}.csv", axis.letter);
+  result.letter = axis.letter;
+  for (std::size_t t = 0; t < axis.targets; ++t)
+    result.positions.push_back(target_of(axis, t));
+  const auto run = [&](double approach) {
+    host::RunValues values;
+    for (const double q : result.positions) {
+      const Vec3 lever = axis.sensed.lever(along, q) + setup.arm_error;
+      const ErrorMotion seen = at_lever(true_value(truth, file, a, q, approach), lever);
+      values.push_back(laser_reading(seen, {along, q, axis.lo, axis.hi}, setup, classes, random));
+    }
+    return values;
+  };
+  for (std::size_t r = 0; r < runs; ++r) {
+    result.up.push_back(run(1.0));
+    result.down.push_back(run(-1.0));
+  }
+  return result;
+}
+
+void locate_axis(const TrueMachine& truth, const NoiseClasses& classes, std::size_t a,
+                 host::MachineFile& file, Random& random) {
+  host::AxisFile& axis = file.axes[a];
+  axis.reference = nearest_target(axis);
+  axis.at_reference = true_value(truth, file, a, axis.reference, 0.0);
+  if (!axis.rotary || classes.repeatability_mm <= 0.0) return;
+  for (Eigen::Index c = 0; c < 6; ++c)
+    axis.at_reference(c) += random.normal(c < 3 ? kLocation_mm : kLocation_rad);
+}
+
+}  // namespace
+
+double target_of(const host::AxisFile& axis, std::size_t t) {
+  return axis.lo +
+         static_cast<double>(t) * (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
+}
+
+ErrorMotion in_file_terms(const ErrorMotion& internal, const host::MachineFile& file, std::size_t a,
+                          double q) {
+  Eigen::Matrix<double, 6, 6> forth;
+  for (Eigen::Index c = 0; c < 6; ++c)
+    forth.col(c) =
+        to_internal(ErrorMotion::Unit(c), file.chain.axis(a), q, file.convention, file.side);
+  return forth.partialPivLu().solve(internal);
+}
+
+Campaign measure_any_machine(const TrueMachine& truth, const host::MachineFile& file,
+                             const NoiseClasses& classes, std::size_t runs, Random& random) {
+  Campaign campaign{file, {}};
+  for (std::size_t a = 0; a < file.axes.size(); ++a) {
+    campaign.runs.push_back(measure_axis(truth, file, a, classes, runs, random));
+    locate_axis(truth, classes, a, campaign.machine, random);
+  }
+  if (!file.squareness) return campaign;
+  const host::SquarenessFile& place = *file.squareness;
+  const std::vector<double> x = place.line(0);
+  const std::vector<double> y = place.line(1);
+  const std::vector<double> z = place.line(2);
+  campaign.machine.squareness->measured = measure_squareness(
+      truth, truth.chain.tool_point(), {place.at, x, y, z}, classes.ball_bar_rad, random,
+      {file.axis_index('X'), file.axis_index('Y'), file.axis_index('Z')});
+  return campaign;
+}
+
+}  // namespace volcomp::sim
