@@ -198,13 +198,25 @@ void BusAxes::add_states(MachineSnapshot& snapshot) const {
   snapshot.bus = bus;
 }
 
+// A node that is OPERATIONAL answers every SYNC. Its first status PDO shows that it is (CiA 301,
+// 7.3.2.2: no process data before), and an emulated node on a busy computer sends its next
+// heartbeat many cycles later.
+bool BusAxes::node_answers() {
+  const Station& node = controller_.node();
+  const bool running = node.phase == Station::Phase::running;
+  const bool operational = node.state == canopen::NmtState::operational;
+  const bool stopped = was_operational_ && !operational;
+  was_operational_ = operational;
+  const std::uint64_t reports = controller_.report().count;
+  if (!running || stopped) reports_before_start_ = reports;
+  return running && reports > reports_before_start_;
+}
+
 // Lock step while the node answers every cycle; before that, its own time.
 void BusAxes::await_node() {
   const std::uint64_t begin_us = gateway_->now_us();
   const auto period_us = static_cast<std::uint64_t>(std::llround(period_us_));
-  const bool answers = controller_.node().state == canopen::NmtState::operational &&
-                       controller_.node().phase == Station::Phase::running &&
-                       controller_.report().count > 0;
+  const bool answers = node_answers();
   while (true) {
     bus_.run_until_quiet();
     gateway_->exchange(*gateway_port_);

@@ -74,6 +74,7 @@ class BusAxes final : public AxisGroup {
   void add_states(MachineSnapshot& snapshot) const override;
   void build(const host::BusSettings& settings);
   void attach(const Cia402Drive::Settings& settings, const std::string& name);
+  [[nodiscard]] bool node_answers();
   void await_node();
   void serve_drives(std::uint64_t now_us);
   void feel();
@@ -97,6 +98,8 @@ class BusAxes final : public AxisGroup {
   host::Targets target_{};
   std::uint64_t next_sync_ns_ = 0;
   std::uint64_t cycles_ = 0;
+  std::uint64_t reports_before_start_ = 0;  // status PDOs of a node elsewhere
+  bool was_operational_ = false;            // as its last heartbeat said
   bool up_ = false;
 };
 
