@@ -4,10 +4,11 @@
     toolchain/check-recursion.py [BUILD_FOLDER]   default build/host
     toolchain/check-recursion.py --self-test      proves that each kind of offence is found
 
-Every source of comp, hal/linux, firmware/canopen and firmware/node is compiled twice into a temporary folder with the flags of BUILD_FOLDER's
-compile_commands.json: as it is built, and without optimization, where no call has been inlined and no tail
-recursion has become a loop. Both graphs must be free of cycles. The stack figures belong to the first. Without
-optimization several sources are compiled at once, for most of the time goes into the headers of others.
+Two graphs of every source of comp, hal/linux, firmware/canopen and firmware/node must be free of cycles: as it is
+built, which the preset "host" leaves beside each object, and without optimization, where no call has been inlined and
+no tail recursion has become a loop. Sources are compiled for it into a temporary folder with the flags of
+BUILD_FOLDER's compile_commands.json, several at once, for most of the time goes into the headers of others. The stack
+figures belong to the first.
 
 Calls through pointers and virtual functions have no target in the graph; they are counted and not followed.
 """
@@ -162,6 +163,12 @@ def compile_command(entry):
     return flags
 
 
+def object_of(entry):
+    """What one entry of compile_commands.json compiles to."""
+    arguments = entry.get("arguments") or shlex.split(entry["command"])
+    return arguments[arguments.index("-o") + 1]
+
+
 def call_graph_file(command, source, folder, base):
     output = pathlib.Path(base)
     run = subprocess.run(
@@ -185,7 +192,7 @@ def together(units):
 
 def call_graph_files(group, extra, base):
     """Checks all sources at once, or one by one where they share names."""
-    command, source, folder = group[0]
+    command, source, folder = group[0][:3]
     if len(group) > 1:
         source = pathlib.Path(f"{base}.cpp")
         source.write_text("".join(f'#include "{unit[1]}"\n' for unit in group))
@@ -197,8 +204,20 @@ def call_graph_files(group, extra, base):
     return [path for number, unit in enumerate(group) for path in call_graph_files([unit], extra, f"{base}-{number}")]
 
 
+def graph_beside(objects):
+    """The graph that was written with the objects. Each has its file: they are compiled without a cache."""
+    graph = Graph()
+    for number, built in enumerate(objects):
+        path = built.with_suffix(".ci")
+        if not path.exists():
+            raise Failure(f"{path} is missing: build the preset \"host\" with GCC first.")
+        graph.add_file(path, number)
+    graph.close()
+    return graph
+
+
 def build_graph(groups, extra, jobs):
-    """One graph over all groups of units; a unit is (command, source, working folder)."""
+    """One graph over all groups of units; a unit is (command, source, working folder, object)."""
     graph = Graph()
     with tempfile.TemporaryDirectory() as temporary, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         tasks = [pool.submit(call_graph_files, group, extra, f"{temporary}/{number}")
@@ -265,7 +284,8 @@ def target_units(build):
     for entry in json.loads(database.read_text()):
         source = pathlib.Path(entry["directory"], entry["file"]).resolve()
         if any(ROOT / folder in source.parents for folder in TARGET_FOLDERS) and source.exists():
-            units.append((compile_command(entry), source, entry["directory"]))
+            built = pathlib.Path(entry["directory"], object_of(entry))
+            units.append((compile_command(entry), source, entry["directory"], built))
     if not units:
         raise Failure(f"{database} names no source of {', '.join(TARGET_FOLDERS)}, so nothing can be proved.")
     return sorted(units, key=lambda unit: unit[1])
@@ -312,7 +332,7 @@ def main():
     if options.self_test:
         return self_test(jobs)
     units = target_units(options.build)
-    built = build_graph([[unit] for unit in units], [], jobs)
+    built = graph_beside([unit[3] for unit in units])
     plain = build_graph(together(units), ["-O0"], jobs)
     defined = sum(f.defined for f in built.functions.values())
     print(f"call graph of {len(units)} sources of the target: {defined} functions, "

@@ -93,7 +93,11 @@ step_can() {
   build_preset a53 --target volcomp-node
   way=$(bash toolchain/with-vcan --how)
   printf 'way to vcan0: %s\n' "$way"
-  VOLCOMP_VM_TIMEOUT=1500 VOLCOMP_BUILD=$PWD/build/host bash toolchain/with-vcan bash tests/system/run_all.sh vcan < /dev/null 2>&1 | tee "$logs/ctest-can.txt"
+  export VOLCOMP_BUILD=$PWD/build/host VOLCOMP_COMPUTED=$PWD/build/host/without-bus VOLCOMP_VM_TIMEOUT=1500
+  rm -rf "$VOLCOMP_COMPUTED"
+  mkdir -p "$VOLCOMP_COMPUTED"
+  bash tests/system/run_all.sh vcan --compute
+  bash toolchain/with-vcan bash tests/system/run_all.sh vcan < /dev/null 2>&1 | tee "$logs/ctest-can.txt"
   bash toolchain/with-vcan --vm --how > /dev/null
   bash tests/system/run_all.sh vm 2>&1 | tee "$logs/ctest-vm.txt"
 }

@@ -27,8 +27,8 @@ FOLDERS = ("comp", "hal", "firmware", "host_sim")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIG = ROOT / ".clang-tidy"
 AT_A_TIME, ANALYZED_AT_A_TIME = 8, 4  # 8: UNITY_BUILD_BATCH_SIZE of CMake
-# Another compiler's; without it, too, a file has to include what it uses.
-PRECOMPILED = re.compile(r" -Winvalid-pch| -include \S+/cmake_pch\.hxx")
+# Of another compiler; without precompiled headers, too, a file has to include what it uses.
+OF_GCC = re.compile(r" -Winvalid-pch| -include \S+/cmake_pch\.hxx| -fcallgraph-info=\S+")
 
 
 class Failure(Exception):
@@ -62,7 +62,7 @@ def read_entries(folder):
     for entry in json.loads(database.read_text()):
         source = pathlib.Path(entry["directory"], entry["file"]).resolve()
         if is_ours(source):
-            entries[source] = dict(entry, command=PRECOMPILED.sub("", entry["command"]))
+            entries[source] = dict(entry, command=OF_GCC.sub("", entry["command"]))
     if not entries:
         raise Failure(f"{database} names no source of {', '.join(FOLDERS)}.")
     return entries

@@ -7,8 +7,8 @@
 
 namespace volcomp {
 
-// Both four bits at a time: background only. `before`: the checksum of what comes before these
-// bytes, 0 for nothing.
+// Both by a table, a few bits at a time: background only. `before`: the checksum of what comes
+// before these bytes, 0 for nothing.
 //
 // Two of them, because a CRC cannot hold what ends with a CRC of the same polynomial: data followed
 // by their own CRC-32 have the CRC-32 2144DF1Ch, whatever the data are.

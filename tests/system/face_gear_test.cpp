@@ -14,6 +14,7 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
 #include "host_sim/sim/truth/noise.hpp"
+#include "tests/system/seeds.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -210,7 +211,7 @@ TEST(FaceGear, TheProfileOfTheTablesHasTheGradeOfTheMeasuringCentre) {
 }
 
 TEST(FaceGear, OtherGearsFormsAndSeedsPassToo) {
-  for (const std::uint64_t seed : {2U, 3U}) {
+  for (const std::uint64_t seed : each_of({2, 3})) {
     EXPECT_TRUE(
         face_gear::face_gear_verdict(run("table1", face_gear::FormTruth::synthetic, seed)).ok)
         << seed;

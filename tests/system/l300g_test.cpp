@@ -9,6 +9,7 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/experiments/l300g/figures.hpp"
+#include "tests/system/seeds.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -146,7 +147,7 @@ TEST(L300g, ASlopeOfASpoilsTheGeneratingPath) {
 // --- rows that depend on phases that are not known
 
 TEST(L300g, SmallVariationIsCompensatedWhateverItsPhases) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+  for (const std::uint64_t seed : each_of({1, 2, 3})) {
     const l300g::L300gResult result =
         run("p8-variation", PathStyle::fixed_a, l300g::Origin::nominal, host::TableKind::identified,
             seed);

@@ -8,6 +8,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../../.."
 # shellcheck disable=SC2034  # for the tests
 readonly build=${VOLCOMP_BUILD:-build/host} python=/usr/bin/python3
 work=$(mktemp -d)
+only_compute=no
+[ "${1:-}" != --compute ] || only_compute=yes
 background=()
 
 end_test() {
@@ -59,6 +61,26 @@ listeners_are() {
 # lines_are NUMBER FILE: the file has so many lines.
 lines_are() {
   [ "$(wc -l < "$2")" = "$1" ]
+}
+
+# without_bus FILE COMMAND...: runs a command that needs no vcan0 and leaves the file in $work. An emulated processor
+# takes thirty times as long: called with --compute, a test does no more than these and leaves the files in the folder
+# VOLCOMP_COMPUTED; called without, it takes them from there, where there is one.
+without_bus() {
+  local file=$1 kept
+  kept=${VOLCOMP_COMPUTED:-}/$(basename "$0" .sh).$1
+  shift
+  if [ -n "${VOLCOMP_COMPUTED:-}" ] && [ "$only_compute" = no ]; then
+    cp "$kept" "$work/$file"
+    return
+  fi
+  "$@" > "$work/without_bus.txt" 2>&1 || fail "without a bus: $*"
+  [ "$only_compute" = no ] || cp "$work/$file" "$kept"
+}
+
+# bus_begins: after the last of these.
+bus_begins() {
+  [ "$only_compute" = no ] || exit 0
 }
 
 # crc32_of IMAGE: the CRC-32 in hexadecimal that names it; its last four bytes hold the same.
