@@ -147,9 +147,13 @@ class Graph:
         return seen
 
 
+def arguments_of(entry):
+    return entry.get("arguments") or shlex.split(entry["command"])
+
+
 def compile_command(entry):
     """The compiler and its flags for one entry of compile_commands.json, without launcher, output and source."""
-    arguments = entry.get("arguments") or shlex.split(entry["command"])
+    arguments = arguments_of(entry)
     while pathlib.Path(arguments[0]).name in LAUNCHERS:
         arguments = arguments[1:]
     flags, skip = [], False
@@ -165,7 +169,7 @@ def compile_command(entry):
 
 def object_of(entry):
     """What one entry of compile_commands.json compiles to."""
-    arguments = entry.get("arguments") or shlex.split(entry["command"])
+    arguments = arguments_of(entry)
     return arguments[arguments.index("-o") + 1]
 
 
