@@ -22,13 +22,15 @@ installed() {
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
 }
 
-# The package with clang's fuzzer and sanitizer libraries carries clang's version in its name.
-clang_runtime_package() {
+# Packages that carry clang's version in their names: its fuzzer and sanitizer libraries, and what a plugin of clang-tidy
+# is compiled with (own_code.cpp).
+clang_packages() {
   local version
   version=$(dpkg-query -W -f='${Version}' clang 2> /dev/null) || version=
   [ -n "$version" ] || version=$(apt-cache policy clang 2> /dev/null | awk '/Candidate:/ { print $2 }')
   version=${version#*:}
-  printf 'libclang-rt-%s-dev\n' "${version%%.*}"
+  version=${version%%.*}
+  printf '%s\n' "libclang-rt-$version-dev" "libclang-$version-dev" "llvm-$version-dev"
 }
 
 # Node may come from elsewhere than Debian and bring its own npm, with which Debian's npm conflicts:
@@ -37,7 +39,8 @@ missing_packages() {
   local package
   local wanted=("${build_packages[@]}")
   if [ "$mode" = all ]; then
-    wanted+=("${check_packages[@]}" "$(clang_runtime_package)" "${bus_packages[@]}" "${board_packages[@]}"
+    mapfile -t -O "${#wanted[@]}" wanted < <(clang_packages)
+    wanted+=("${check_packages[@]}" "${bus_packages[@]}" "${board_packages[@]}"
       "${vm_packages[@]}")
   fi
   for package in "${wanted[@]}"; do

@@ -151,6 +151,7 @@ step_evidence() {
 step_tidy() {
   need python3
   build_preset host
+  python3 toolchain/tidy.py --self-test
   python3 toolchain/tidy.py build/host
 }
 

@@ -8,8 +8,11 @@ A header that no source of these folders includes is checked through a source th
 that was clean is checked again only after it, a header of ours that it includes, its flags, .clang-tidy or
 clang-tidy itself has changed; delete BUILD_FOLDER/tidy to check everything again. The path-sensitive analyzer
 looks at the code of the target only: programs of the host meet the sanitizers in every test. Sources are
-checked several at a time, for most of the time goes into the headers of others; those that do not compile
-together are checked apart. The price: an unused using-declaration is not seen there.
+checked several at a time, as the build compiles them; those that do not compile together with clang are
+checked apart. The price: an unused using-declaration is not seen there. The plugin own_code.cpp,
+compiled here, keeps the checks out of the headers of others, where nothing is reported.
+
+    toolchain/tidy.py --self-test      with the plugin each of a few planted faults is found, with it and without alike
 """
 import concurrent.futures
 import hashlib
@@ -26,7 +29,8 @@ import time
 FOLDERS = ("comp", "hal", "firmware", "host_sim")
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONFIG = ROOT / ".clang-tidy"
-AT_A_TIME, ANALYZED_AT_A_TIME = 8, 4  # 8: UNITY_BUILD_BATCH_SIZE of CMake
+AT_A_TIME = 4  # of those that the build compiles alone
+PLUGIN_SOURCE = ROOT / "toolchain/own_code.cpp"
 # Of another compiler; without precompiled headers, too, a file has to include what it uses.
 OF_GCC = re.compile(r" -Winvalid-pch| -include \S+/cmake_pch\.hxx| -fcallgraph-info=\S+")
 
@@ -111,17 +115,31 @@ class Task:
         return f"{first} and {more} more" if more else str(first)
 
 
-def tasks_of_sources(entries, includes, everything, folder):
-    """Sources of one target with the same flags, a few at a time: those of the host as the build has compiled them."""
-    alike = {}
-    for source, entry in entries.items():
-        flags = re.sub(r" -(o|c) \S+", "", entry["command"])
-        target = re.search(r" -o (\S+?\.dir)/", entry["command"])
-        alike.setdefault((flags, target and target[1], is_analyzed(source)), []).append(source)
-    for (_, _, analyzed), sources in alike.items():
-        count = ANALYZED_AT_A_TIME if analyzed else AT_A_TIME
-        for at in range(0, len(sources), count):
-            yield task_of(sources[at:at + count], entries, includes, everything, folder)
+def read_batches(build):
+    """The sources that the build compiles at once, as the unity files of CMake name them; others alone."""
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        source = pathlib.Path(entry["directory"], entry["file"])
+        if source.parent.name == "Unity":
+            yield [pathlib.Path(name) for name in re.findall(r'#include "(.+)"', source.read_text())]
+        else:
+            yield [source]
+
+
+def tasks_of_sources(build, entries, includes, everything, folder):
+    waiting, alone = dict(entries), {}  # a source may be compiled for two targets
+    for batch in read_batches(build):
+        group = [source.resolve() for source in batch if source.resolve() in waiting]
+        for source in group:
+            del waiting[source]
+        if len(group) > 1:
+            yield task_of(group, entries, includes, everything, folder)
+        elif group:
+            command = entries[group[0]]["command"]
+            target = re.search(r" -o (\S+?\.dir)/", command)
+            alone.setdefault((re.sub(r" -(o|c) \S+", "", command), target and target[1]), []).extend(group)
+    for sources in alone.values():
+        for at in range(0, len(sources), AT_A_TIME):
+            yield task_of(sources[at:at + AT_A_TIME], entries, includes, everything, folder)
 
 
 def task_of(group, entries, includes, everything, folder):
@@ -135,17 +153,37 @@ def task_of(group, entries, includes, everything, folder):
     return Task(wrapper, group, dict(entry, file=str(wrapper), command=command), files)
 
 
+def tidy_version():
+    return subprocess.run(["clang-tidy", "--version"], capture_output=True, text=True, check=True).stdout
+
+
 def fingerprint(version, entry, files):
-    digest = hashlib.sha256(version + CONFIG.read_bytes() + entry["command"].encode())
+    digest = hashlib.sha256(version.encode() + CONFIG.read_bytes() + PLUGIN_SOURCE.read_bytes() + entry["command"].encode())
     for path in sorted(files):
         digest.update(str(path).encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
 
+def build_plugin(version, folder):
+    """own_code.cpp as a plugin for exactly this version of clang-tidy."""
+    major = re.search(r"version (\d+)", version)[1]
+    plugin = folder / "own_code.so"
+    config = f"llvm-config-{major}"
+    if shutil.which(config) is None:
+        raise Failure(f'the command "{config}" is missing: run toolchain/setup.sh first.')
+    flags = subprocess.run([config, "--cppflags"], capture_output=True, text=True, check=True).stdout.split()
+    # As LLVM itself: without run-time type information. Its headers are not ours to warn about.
+    run = subprocess.run(["c++", "-std=c++17", "-O1", "-fPIC", "-shared", "-fno-rtti", "-w", *flags, str(PLUGIN_SOURCE),
+                          "-o", str(plugin)], capture_output=True, text=True, check=False)
+    if run.returncode != 0:
+        raise Failure(f"{PLUGIN_SOURCE} cannot be compiled (toolchain/setup.sh installs what it needs):\n{run.stderr}")
+    return plugin
+
+
 def run_tidy(source, analyzed, database):
     """Findings, or nothing."""
     run = subprocess.run(
-        ["clang-tidy", f"-p={database}", f"--config-file={CONFIG}", "--quiet",
+        ["clang-tidy", f"--load={database / 'own_code.so'}", f"-p={database}", f"--config-file={CONFIG}", "--quiet",
          "--header-filter=" + "/(" + "|".join(FOLDERS) + r")/[^:]*\.[ch]pp$",
          *([] if analyzed else ["--checks=-clang-analyzer-*"]),
          "--extra-arg=-Wno-unknown-warning-option", str(source)],
@@ -171,7 +209,7 @@ def all_tasks(build, temporary):
                   if "node_modules" not in path.parts}
     # Which other headers such a header includes is not known, so it depends on all of them.
     wrapped = wrap_headers(sorted(everything - seen), entries, temporary)
-    tasks = list(tasks_of_sources(entries, includes, everything, temporary))
+    tasks = list(tasks_of_sources(build, entries, includes, everything, temporary))
     tasks += [Task(wrapper, [header], entry, everything) for wrapper, (header, entry) in wrapped.items()]
     database = list(entries.values()) + [task.entry for task in tasks if task.source not in entries]
     (temporary / "compile_commands.json").write_text(json.dumps(database))
@@ -180,7 +218,8 @@ def all_tasks(build, temporary):
 
 def check_all(build, temporary):
     tasks = all_tasks(build, temporary)
-    version = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
+    version = tidy_version()
+    build_plugin(version, temporary)
     memory = build / "tidy" / "clean"
     memory.mkdir(exist_ok=True)
     waiting = []
@@ -208,9 +247,45 @@ def check_all(build, temporary):
         raise Failure(f"findings in {', '.join(sorted(bad))}.")
 
 
+PLANTED = r"""
+#include <Eigen/Core>
+#include <vector>
+int planted(int* p, bool b) { int x; if (b) p = nullptr; if (b) x = 2; return *p + x; }
+double planted(const std::vector<int>& v) { return v.size() == 0 ? 0.0 : (double)v[0]; }
+template <class T> T in_template(T a) { T b; Eigen::Matrix<T, 3, 1> m; m.setZero(); return a + b + m.sum(); }
+double instantiate() { return in_template(2.0); }
+namespace std { template <> struct hash<Eigen::Vector2d> { hash(int salt); }; }
+"""
+PLANTED_FAULTS = ("readability-non-const-parameter", "cppcoreguidelines-init-variables", "core.NullDereference",
+                  "readability-container-size-empty", "core.UndefinedBinaryOperatorResult",
+                  "google-explicit-constructor")
+
+
+def self_test():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        source = folder / "planted.cpp"
+        source.write_text(PLANTED)
+        command = ["clang-tidy", f"--config-file={CONFIG}", "--quiet", str(source), "--", "-std=c++17",
+                   "-isystem", "/usr/include/eigen3"]
+        plugin = build_plugin(tidy_version(), folder)
+        found = []
+        for load in ([], [f"--load={plugin}"]):
+            run = subprocess.run([command[0], *load, *command[1:]], capture_output=True, text=True, check=False)
+            found.append([line for line in run.stdout.splitlines() if re.search(r": (error|warning): ", line)])
+        missing = [fault for fault in PLANTED_FAULTS if not any(fault in line for line in found[0])]
+        if missing or found[0] != found[1]:
+            raise Failure("self-test: not found: " + ", ".join(missing) + "\nwithout the plugin:\n" +
+                          "\n".join(found[0]) + "\nwith it:\n" + "\n".join(found[1]))
+        print(f"self-test: {len(found[1])} planted faults are found, with the plugin as without")
+
+
 def main():
     if len(sys.argv) > 1 and sys.argv[1] in ("-h", "--help"):
         print(__doc__.strip())
+        return
+    if sys.argv[1:] == ["--self-test"]:
+        self_test()
         return
     for command in ("clang-tidy", "cmake", "ninja"):
         if shutil.which(command) is None:
