@@ -2,40 +2,65 @@
 
 #include <array>
 
+#include "comp/core/little_endian.hpp"
+
 namespace volcomp {
 namespace {
 
-// Bits at a time: 4 take tables of 64 bytes; 8 take 1 KB and half the time, for computers.
+// Bits at a time: 4 take tables of 64 bytes; 8 take 1 KB and half the time. 64 take 8 KB and an
+// eighth of the time, for computers: the tables of the eight bytes are looked up independently of
+// each other.
 #ifdef VOLCOMP_CRC_BITS
 constexpr unsigned kBits = VOLCOMP_CRC_BITS;
 #else
 constexpr unsigned kBits = 4;
 #endif
-static_assert(kBits == 4 || kBits == 8);
+static_assert(kBits == 4 || kBits == 8 || kBits == 64);
+constexpr unsigned kStepBits = kBits == 64 ? 8 : kBits;
+constexpr std::size_t kBytes = kBits == 64 ? 8 : 1;
 
-using Steps = std::array<std::uint32_t, 1U << kBits>;
+using Steps = std::array<std::uint32_t, 1U << kStepBits>;
+using Tables = std::array<Steps, kBytes>;
 
-// What kBits bits do to the register. The polynomial is reflected.
-constexpr Steps make_steps(std::uint32_t polynomial) {
-  Steps steps{};
-  for (std::uint32_t i = 0; i < steps.size(); ++i) {
+// tables[n]: what kStepBits bits and n bytes of zeros after them do to the register. The polynomial
+// is reflected.
+constexpr Tables make_tables(std::uint32_t polynomial) {
+  Tables tables{};
+  for (std::uint32_t i = 0; i < tables[0].size(); ++i) {
     std::uint32_t crc = i;
-    for (unsigned bit = 0; bit < kBits; ++bit)
+    for (unsigned bit = 0; bit < kStepBits; ++bit)
       crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? polynomial : 0U);
-    steps[i] = crc;
+    tables[0][i] = crc;
   }
-  return steps;
+  for (std::size_t n = 1; n < kBytes; ++n) {
+    for (std::size_t i = 0; i < tables[n].size(); ++i) {
+      const std::uint32_t crc = tables[n - 1][i];
+      tables[n][i] = (crc >> 8U) ^ tables[0][crc & 0xFFU];
+    }
+  }
+  return tables;
 }
 
-constexpr Steps kEthernet = make_steps(0xEDB88320U);    // 04C11DB7h
-constexpr Steps kCastagnoli = make_steps(0x82F63B78U);  // 1EDC6F41h
+constexpr Tables kEthernet = make_tables(0xEDB88320U);    // 04C11DB7h
+constexpr Tables kCastagnoli = make_tables(0x82F63B78U);  // 1EDC6F41h
 
-std::uint32_t checksum(const Steps& steps, Span<const std::uint8_t> bytes, std::uint32_t before) {
+std::uint32_t checksum(const Tables& tables, Span<const std::uint8_t> bytes, std::uint32_t before) {
   std::uint32_t crc = ~before;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (unsigned bit = 0; bit < 8; bit += kBits)
-      crc = (crc >> kBits) ^ steps[crc & (steps.size() - 1)];
+  std::size_t at = 0;
+  if constexpr (kBytes > 1) {
+    for (; at + kBytes <= bytes.size(); at += kBytes) {
+      const std::uint8_t* next = bytes.data() + at;
+      const std::uint64_t all = std::uint64_t{load_u32(next + 4)} << 32U | (load_u32(next) ^ crc);
+      crc = 0;
+      for (std::size_t n = 0; n < kBytes; ++n)
+        crc ^= tables[kBytes - 1 - n][(all >> (8U * n)) & 0xFFU];
+    }
+  }
+  const Steps& steps = tables[0];
+  for (; at < bytes.size(); ++at) {
+    crc ^= bytes[at];
+    for (unsigned bit = 0; bit < 8; bit += kStepBits)
+      crc = (crc >> kStepBits) ^ steps[crc & (steps.size() - 1)];
   }
   return ~crc;
 }

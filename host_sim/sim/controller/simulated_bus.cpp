@@ -5,8 +5,11 @@
 namespace volcomp::sim {
 namespace {
 
-// Every port is served at least so often, with or without frames.
+// Every port is served at least so often, with or without frames; on a bus that has been quiet for a while as often as
+// timers of CANopen count (CiA 301: milliseconds).
 constexpr std::uint64_t kSlice_ns = 200'000;
+constexpr std::uint64_t kQuietSlice_ns = 1'000'000;
+constexpr std::uint64_t kQuietAfter_ns = 2'000'000;
 
 }  // namespace
 
@@ -38,16 +41,22 @@ void SimulatedBus::serve_concerned() {
 void SimulatedBus::run_until(std::uint64_t time_ns) {
   while (bus_.now_ns() < time_ns) {
     serve_all();
-    const std::uint64_t slice_end = std::min(time_ns, bus_.now_ns() + kSlice_ns);
-    while (bus_.step(slice_end))
+    const bool quiet = bus_.now_ns() - last_frame_ns_ >= kQuietAfter_ns;
+    const std::uint64_t slice = quiet ? kQuietSlice_ns : kSlice_ns;
+    const std::uint64_t slice_end = std::min(time_ns, bus_.now_ns() + slice);
+    while (bus_.step(slice_end)) {
+      last_frame_ns_ = bus_.now_ns();
       serve_concerned();
+    }
   }
 }
 
 void SimulatedBus::run_until_quiet() {
   serve_all();
-  while (bus_.step(bus_.now_ns() + 1))
+  while (bus_.step(bus_.now_ns() + 1)) {
+    last_frame_ns_ = bus_.now_ns();
     serve_concerned();
+  }
 }
 
 }  // namespace volcomp::sim

@@ -48,6 +48,7 @@ class SimulatedBus {
   void serve_concerned();
 
   hal::LoopbackBus bus_;
+  std::uint64_t last_frame_ns_ = 0;
   std::vector<Participant> participants_;
 };
 
