@@ -74,7 +74,7 @@ namespace detail {
 // √x for x in 1e-30…1e30. The root of the float is right to 2^-24; its square is exact in double,
 // and so is what is missing from x. With d = x/s² − 1, the series of √(1 + d) needs two terms: the
 // third is below 2^-70.
-inline double root_of_usual(double x) {
+inline double root_of_mid_range(double x) {
   const auto s = static_cast<double>(std::sqrt(static_cast<float>(x)));
   const double square = s * s;
   const double d = (x - square) / square;
@@ -97,7 +97,7 @@ inline double root_of_any(double x) {
   std::memcpy(&bits, &normal, sizeof bits);
   const int exponent = static_cast<int>(bits >> 52U) - 1023;
   const int half = (exponent + 1024) / 2 - 512;
-  const double root = root_of_usual(normal * power_of_two(-2 * half)) * power_of_two(half);
+  const double root = root_of_mid_range(normal * power_of_two(-2 * half)) * power_of_two(half);
   return tiny ? root * 0x1p-54 : root;
 }
 
@@ -138,12 +138,12 @@ inline constexpr ArcTurn kArcEighth{1.0, 0x1.921fb54442d18p-1, 0x1.1a62633145c07
 }  // namespace detail
 
 // √x of x in 1e-30…1e30, as fine_root() has it, which a processor without double need not carry.
-inline double usual_root(double x) { return detail::root_of_usual(x); }
+inline double mid_range_root(double x) { return detail::root_of_mid_range(x); }
 
 // √x, at most one unit in the last place off; 0 of 0, infinity of infinity, NaN of anything else
 // that is not positive. Interrupt-safe.
 inline double fine_root(double x) {
-  if (x > 1e-30 && x < 1e30) return detail::root_of_usual(x);
+  if (x > 1e-30 && x < 1e30) return detail::root_of_mid_range(x);
   if (x > 0.0) return x <= std::numeric_limits<double>::max() ? detail::root_of_any(x) : x;
   return x < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x;
 }

@@ -63,7 +63,7 @@ void set_constants(FaceGear& g) {
   const double involute = alpha.sine / alpha.cosine - g.pressure_angle;
   g.theta0 = kPi / (2.0 * g.shaper_teeth) + involute;
   const double tip = (g.r_ps + g.shaper_addendum * g.module) / g.r_bs;
-  g.theta_tip = usual_root((tip - 1.0) * (tip + 1.0));
+  g.theta_tip = mid_range_root((tip - 1.0) * (tip + 1.0));
   g.z_tip = g.r_ps - g.addendum * g.module;
 }
 
@@ -79,7 +79,7 @@ void find_undercut(FaceGear& g) {
   const FineSineCosine beta = fine_sine_cosine_rad(g.undercut_beta);
   const double u = g.arm / beta.cosine;
   const double t = g.r_bs * (g.theta_tip * beta.cosine - beta.sine);
-  g.undercut_radius = usual_root(u * u + t * t);
+  g.undercut_radius = mid_range_root(u * u + t * t);
 }
 
 // Where a slot is as wide as a pitch at the tips. Slots get wider outwards.
@@ -112,7 +112,7 @@ Status derive(FaceGear& gear) {
 double undercut_roll(const FaceGear& gear, double beta) {
   const FineSineCosine at = fine_sine_cosine_rad(beta);
   const double q = 2.0 / (gear.ratio * at.cosine);
-  return 0.5 * (at.sine / at.cosine) * (1.0 + usual_root(1.0 + q * q));
+  return 0.5 * (at.sine / at.cosine) * (1.0 + mid_range_root(1.0 + q * q));
 }
 
 double half_slot_angle(const FaceGear& gear, double rho, double z) {

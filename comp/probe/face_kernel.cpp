@@ -19,7 +19,7 @@ struct Newton {
 // (w² − ρ²)(w² − 1) + (z − i w)² = 0. ρ/C is at or beyond its largest root, the one wanted, and
 // from there the steps fall towards it.
 Newton largest_root(double ratio, double square, double z) {
-  double w = usual_root(square);
+  double w = mid_range_root(square);
   for (int step = 1; step <= kMaxFaceSteps; ++step) {
     const double w2 = w * w;
     const double d = z - ratio * w;
@@ -106,7 +106,7 @@ Reason cut_flank(const FaceGear& gear, double rho_squared, double z, FaceSection
   const Newton root = largest_root(gear.ratio, square, z * scale);
   if (!root.settled) return Reason::no_regular_flank;
   const double w = root.w;
-  const double tangent = usual_root((w - 1.0) * (w + 1.0));
+  const double tangent = mid_range_root((w - 1.0) * (w + 1.0));
   out.inverse_cosine = w;
   out.tangent = tangent;
   out.beta = fine_arc_tangent(tangent, 1.0);

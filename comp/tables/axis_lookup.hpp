@@ -19,8 +19,9 @@ inline constexpr std::uint32_t kMaxLookupKnots = 1U << (31 - kFractionBits);
 
 struct AxisLookup {
   std::int64_t q0 = 0;
-  std::uint32_t usual_travel = 0;  // travel, or 0 for a table that is too long for the fast path
-  std::uint32_t scale = 0;         // 2^(32 + fraction) / (pitch << shift)
+  std::uint32_t fast_path_travel =
+      0;                    // travel, or 0 for a table that is too long for the fast path
+  std::uint32_t scale = 0;  // 2^(32 + fraction) / (pitch << shift)
   std::uint32_t shift = 0;
   std::uint32_t counted = ~0U;  // upper half of a distance that must be 0: none of it if periodic
   float origin_nm = 0.0F;       // q0 of a linear axis
@@ -32,8 +33,8 @@ struct AxisLookup {
 // The fast path compares the low 32 bits of a linear position with the last one. Within a table
 // they determine how far the axis has moved as long as table, step and the largest offset on both
 // ends do not fill 2^32 nm together.
-inline constexpr std::uint32_t kMaxUsualStep = 1U << 28U;  // 0.27 m per tick
-inline constexpr std::uint32_t kMaxUsualTravel = UINT32_MAX - kMaxUsualStep - (1U << 23U);
+inline constexpr std::uint32_t kMaxFastPathStep = 1U << 28U;  // 0.27 m per tick
+inline constexpr std::uint32_t kMaxFastPathTravel = UINT32_MAX - kMaxFastPathStep - (1U << 23U);
 
 // Where an axis stands in its table, at whose ends it is held.
 struct Located {

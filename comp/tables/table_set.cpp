@@ -26,7 +26,7 @@ AxisLookup make_lookup(const TableGrid& table, bool rotary) {
   l.phase = rotary ? static_cast<std::uint32_t>(table.q0 >> 8) : 0U;
   if (table.periodic) {
     l.counted = 0;
-    l.travel = l.usual_travel = 0xFFFFFFFFU;
+    l.travel = l.fast_path_travel = 0xFFFFFFFFU;
     l.scale = table.knots << kFractionBits;
     return l;
   }
@@ -36,7 +36,7 @@ AxisLookup make_lookup(const TableGrid& table, bool rotary) {
   while ((travel << (l.shift + 1U)) < (std::uint64_t{1} << 32U))
     ++l.shift;
   l.travel = static_cast<std::uint32_t>(travel);
-  l.usual_travel = rotary || l.travel <= kMaxUsualTravel ? l.travel : 0U;
+  l.fast_path_travel = rotary || l.travel <= kMaxFastPathTravel ? l.travel : 0U;
   l.scale = static_cast<std::uint32_t>((segments << (32U + kFractionBits)) / (travel << l.shift));
   l.margin = static_cast<std::uint32_t>(travel / segments / 2U);
   return l;

@@ -23,7 +23,7 @@
 #include "comp/core/published.hpp"
 #include "comp/core/span.hpp"
 #include "comp/tables/direction.hpp"
-#include "comp/tick/everyday_tally.hpp"
+#include "comp/tick/fast_path_tally.hpp"
 #include "comp/tick/limiter.hpp"
 #include "comp/tick/motion_inverse.hpp"
 #include "comp/tick/tick_types.hpp"
@@ -40,8 +40,8 @@ namespace detail {
 // Slow path. Internal linkage lets the compiler tail-jump, which frees the fast path's frame: GCC
 // tail-jumps to nothing the linker may replace, such as instances of templates.
 template <class Unit>
-static void tick_unusual(Unit& unit, const typename Unit::Input& in, float ramp,
-                         typename Unit::Output& out);
+static void tick_slow_path(Unit& unit, const typename Unit::Input& in, float ramp,
+                           typename Unit::Output& out);
 
 }  // namespace detail
 
@@ -170,7 +170,7 @@ class Compensator {
   struct AxisState {
     // what the fast path reads and writes, in its order
     std::int64_t seen = 0;    // position given last, good or implausible
-    std::uint64_t reach = 0;  // usual_step while a sample may take the fast path, else 0
+    std::uint64_t reach = 0;  // fast_path_step while a sample may take the fast path, else 0
     Published<std::int32_t> hysteresis = 0;  // may become wider between two ticks
     DirectionTracker direction;
     Magnitude limit;
@@ -180,7 +180,7 @@ class Compensator {
     Published<std::int32_t> largest = 0;
 
     // what only the exceptions need
-    std::uint64_t usual_step = 0;        // samples of the fast path are closer to the last one
+    std::uint64_t fast_path_step = 0;    // samples of the fast path are closer to the last one
     std::uint64_t most_step = kAnyStep;  // largest plausible |Δposition|
     std::int64_t position = 0;           // last good one, unless steady: then it is the one seen
     std::int32_t soft_rate = 1;
@@ -237,13 +237,13 @@ class Compensator {
   template <bool Turns>
   static bool within_reach(const AxisState& s, std::int64_t position);
   template <bool Turns>
-  bool is_usual(std::size_t axis, const AxisSample& sample, const Tables& set,
-                std::uint32_t& place) const;
+  bool takes_fast_path(std::size_t axis, const AxisSample& sample, const Tables& set,
+                       std::uint32_t& place) const;
   template <bool Turns>
   bool follow(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
   bool follow_one(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
-  bool follow_usual(const Input& in, const Tables& set, std::uint32_t status, Places& at,
-                    Output& out);
+  bool follow_fast_path(const Input& in, const Tables& set, std::uint32_t status, Places& at,
+                        Output& out);
   bool find_excess(const Tables& set, Work& work, Float3& error_nm) const;
   bool find_kept_excess(const Tables& set, Work& work, Float3& error_nm) const;
 
@@ -254,10 +254,10 @@ class Compensator {
   [[nodiscard]] float* excess_of(std::size_t axis);
   template <class Visit>
   void for_each_orienting(const Visit& visit);
-  void put_out_turns(const Work& work, float ramp, std::uint32_t usual, Output& out);
+  void put_out_turns(const Work& work, float ramp, std::uint32_t common, Output& out);
 
-  void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t usual,
-               EverydayBits& changed, Output& out);
+  void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t common,
+               FastPathBits& changed, Output& out);
 
   // compensator_exceptions.inl
   void take_request();
@@ -266,14 +266,14 @@ class Compensator {
   bool all_known(const Input& in);
   std::uint32_t take_sample(std::size_t axis, const AxisSample& sample);
   void place(std::size_t axis, const Tables& set, Located& at, std::uint32_t& status);
-  bool follow_unusual(const Input& in);
-  void put_out_unusual(AxisState& s, float excess, float ramp, std::uint32_t& status);
+  bool follow_slow_path(const Input& in);
+  void put_out_slow_path(AxisState& s, float excess, float ramp, std::uint32_t& status);
   std::uint32_t idle(const Input& in);
-  void finish_unusual(std::uint32_t gate, float ramp, Output& out);
-  void tick_unusual(const Input& in, float ramp, Output& out);
+  void finish_slow_path(std::uint32_t gate, float ramp, Output& out);
+  void tick_slow_path(const Input& in, float ramp, Output& out);
   template <class Unit>
-  friend void detail::tick_unusual(Unit& unit, const typename Unit::Input& in, float ramp,
-                                   typename Unit::Output& out);
+  friend void detail::tick_slow_path(Unit& unit, const typename Unit::Input& in, float ramp,
+                                     typename Unit::Output& out);
   bool count_changes(std::size_t axis, std::uint32_t status);
 
   // compensator_background.inl
@@ -322,7 +322,7 @@ class Compensator {
   std::array<AxisState*, kMaxCorrecting> corrected_{};
   Work work_{};
   std::array<AxisState, kAxes> axis_{};
-  EverydayTally tally_{};
+  FastPathTally tally_{};
 
   std::atomic<const Tables*> wanted_{nullptr};  // to be in force
   const Tables* latest_ = nullptr;              // ever handed over

@@ -46,8 +46,9 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
   const std::int64_t any = rotary(axis) ? kAnyTurn : kAnyStep;
   const std::int64_t most = l.max_step == 0 || l.max_step > any ? any : l.max_step;
   s.most_step = static_cast<std::uint64_t>(most);
-  s.usual_step = rotary(axis) || s.most_step < kMaxUsualStep ? s.most_step : kMaxUsualStep;
-  if (s.reach != 0) s.reach = s.usual_step;
+  s.fast_path_step =
+      rotary(axis) || s.most_step < kMaxFastPathStep ? s.most_step : kMaxFastPathStep;
+  if (s.reach != 0) s.reach = s.fast_path_step;
   s.limit = Magnitude(static_cast<float>(l.limit));
   s.rate = l.rate;
   s.soft_rate = l.soft_rate;
@@ -262,7 +263,7 @@ std::uint32_t Compensator<Machine, Knots>::settings_checksum() const {
       Magnitude limit;
       std::int32_t rate, soft_rate, filler;  // no padding, whose bytes are anything
       std::uint64_t plausible;
-    } derived{s.limit, s.rate, s.soft_rate, 0, s.usual_step ^ ~s.most_step};
+    } derived{s.limit, s.rate, s.soft_rate, 0, s.fast_path_step ^ ~s.most_step};
     crc = crc32(bytes_of(derived), crc);
   }
   return crc;
@@ -336,7 +337,7 @@ Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::dia
   }
   for (std::size_t c = 0; c < machine_.chain.correcting_count; ++c) {
     auto& began = d.began[machine_.chain.correcting[c]];
-    std::array<std::uint32_t, kEverydayWidth> more{};
+    std::array<std::uint32_t, kFastPathWidth> more{};
     tally_.add_to(more, c);
     began[bit_of(kValid)] = saturated(began[bit_of(kValid)] + more[0]);
     began[bit_of(kClamped)] = saturated(began[bit_of(kClamped)] + more[1]);

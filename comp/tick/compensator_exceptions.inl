@@ -121,7 +121,7 @@ template <class Machine, std::size_t Knots>
 
 // Follows all axes, whatever they show. False until every axis has reported.
 template <class Machine, std::size_t Knots>
-[[gnu::noinline]] bool Compensator<Machine, Knots>::follow_unusual(const Input& in) {
+[[gnu::noinline]] bool Compensator<Machine, Knots>::follow_slow_path(const Input& in) {
   if (unknown_axes_ != 0 && !all_known(in)) return false;
   const Tables& set = *now_.active.own();
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
@@ -129,8 +129,8 @@ template <class Machine, std::size_t Knots>
     if (follow_one(a, in.axis[a], set, work_.at[a])) continue;
     std::uint32_t status = take_sample(a, in.axis[a]);
     place(a, set, work_.at[a], status);
-    constexpr std::uint32_t kNextIsUnusual = kStale | kOutOfRange | kDirectionUnknown;
-    if ((status & kNextIsUnusual) == 0) s.reach = s.usual_step;
+    constexpr std::uint32_t kSlowPathNext = kStale | kOutOfRange | kDirectionUnknown;
+    if ((status & kSlowPathNext) == 0) s.reach = s.fast_path_step;
     s.exception = static_cast<std::uint16_t>(status);
     guarded_axes_ |= 1U << a;
   }
@@ -140,9 +140,9 @@ template <class Machine, std::size_t Knots>
 // Clamp, ramp, round and slew with everything that can be going on: hold, gating to 0 and the soft
 // way back.
 template <class Machine, std::size_t Knots>
-[[gnu::noinline]] void Compensator<Machine, Knots>::put_out_unusual(AxisState& s, float excess,
-                                                                    float ramp,
-                                                                    std::uint32_t& status) {
+[[gnu::noinline]] void Compensator<Machine, Knots>::put_out_slow_path(AxisState& s, float excess,
+                                                                      float ramp,
+                                                                      std::uint32_t& status) {
   // Accepted tables do not lead to what is not finite: they, or the machine, have changed in
   // memory.
   if (VOLCOMP_UNLIKELY(!Magnitude::finite(excess))) status |= kClamped | kTableDamaged;
@@ -175,8 +175,8 @@ bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t 
   AxisState& s = axis_[axis];
   const std::size_t c = machine_.chain.correcting_index[axis];
   const bool corrects = c != kNotCorrecting;
-  const EverydayBits last = corrects ? tally_.last(c) : everyday_bits(kValid);
-  const std::uint32_t before = s.status == 0 ? everyday_status(last) : std::uint32_t{s.status};
+  const FastPathBits last = corrects ? tally_.last(c) : fast_path_bits(kValid);
+  const std::uint32_t before = s.status == 0 ? fast_path_status(last) : std::uint32_t{s.status};
   std::uint32_t began = status & ~before;
   while (began != 0) {  // at most kStatusBits times
     const auto bit = static_cast<std::size_t>(__builtin_ctz(began));
@@ -184,19 +184,19 @@ bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t 
     if (count.own() < UINT16_MAX) count.set(static_cast<std::uint16_t>(count.own() + 1U));
     began &= began - 1U;
   }
-  const EverydayBits bits = everyday_bits(status);
-  bool everyday = status == everyday_status(bits);
-  if constexpr (kOrients) everyday = everyday && (corrects || status == kValid);  // no tally
+  const FastPathBits bits = fast_path_bits(status);
+  bool fast = status == fast_path_status(bits);
+  if constexpr (kOrients) fast = fast && (corrects || status == kValid);  // no tally
   if (corrects) tally_.resume(c, bits);
-  s.status = static_cast<std::uint16_t>(everyday ? 0U : status);
-  return everyday && !s.soft && !beyond_limit(s);
+  s.status = static_cast<std::uint16_t>(fast ? 0U : status);
+  return fast && !s.soft && !beyond_limit(s);
 }
 
 // Outputs and reports of all axes in a tick on the slow path. `gate`: what applies to every
 // correcting axis.
 template <class Machine, std::size_t Knots>
-[[gnu::noinline]] void Compensator<Machine, Knots>::finish_unusual(std::uint32_t gate, float ramp,
-                                                                   Output& out) {
+[[gnu::noinline]] void Compensator<Machine, Knots>::finish_slow_path(std::uint32_t gate, float ramp,
+                                                                     Output& out) {
   const RuntimeChain& chain = machine_.chain;
   const bool damaged = damaged_.load(std::memory_order_relaxed) != 0;
   const std::uint32_t ramping = now_.ramp.at_rest() ? 0U : std::uint32_t{kRamping};
@@ -206,7 +206,7 @@ template <class Machine, std::size_t Knots>
     axis_[a].exception = 0;
     if (const float* const excess = excess_of(a); excess != nullptr) {
       status |= gate;
-      put_out_unusual(axis_[a], *excess, ramp, status);
+      put_out_slow_path(axis_[a], *excess, ramp, status);
     }
     if (damaged) status |= kTableDamaged;
     if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
@@ -229,22 +229,22 @@ template <class Machine, std::size_t Knots>
 
 // A tick from its beginning on, for whatever can happen.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::tick_unusual(const Input& in, float ramp,
-                                                              Output& out) {
+VOLCOMP_INLINE void Compensator<Machine, Knots>::tick_slow_path(const Input& in, float ramp,
+                                                                Output& out) {
   std::uint32_t gate = 0;
-  if (now_.active.own() == nullptr || !follow_unusual(in)) {
+  if (now_.active.own() == nullptr || !follow_slow_path(in)) {
     gate = idle(in);
   } else {
     allow_turns(work_);
     if (!find_kept_excess(*now_.active.own(), work_, error_nm_)) gate = kNoAuthority;
   }
-  finish_unusual(gate, ramp, out);
+  finish_slow_path(gate, ramp, out);
 }
 
 template <class Unit>
-[[gnu::noinline]] static void detail::tick_unusual(Unit& unit, const typename Unit::Input& in,
-                                                   float ramp, typename Unit::Output& out) {
-  unit.tick_unusual(in, ramp, out);
+[[gnu::noinline]] static void detail::tick_slow_path(Unit& unit, const typename Unit::Input& in,
+                                                     float ramp, typename Unit::Output& out) {
+  unit.tick_slow_path(in, ramp, out);
 }
 
 }  // namespace volcomp

@@ -59,7 +59,7 @@ template <class Machine, std::size_t Knots>
       const TurnRange& range = work.turns.range[o];
       const float wanted = excess[o] * kTurnsPerRad;
       float taken = wanted > range.high ? range.high : wanted >= range.low ? wanted : range.low;
-      if (!Magnitude::finite(wanted)) taken = 0.0F;  // put_out_unusual() lets the axis go
+      if (!Magnitude::finite(wanted)) taken = 0.0F;  // put_out_slow_path() lets the axis go
       work.turns.excess[o] = wanted;
       t.turn_back(o, taken / kTurnsPerRad, error_nm);
     }
@@ -81,19 +81,18 @@ float* Compensator<Machine, Knots>::excess_of(std::size_t axis) {
 // After the fast path. Takes the way of the slow path to an output: the budget of the fast path is
 // that of machines that do not orient.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out_turns([[maybe_unused]] const Work& work,
-                                                               [[maybe_unused]] float ramp,
-                                                               [[maybe_unused]] std::uint32_t usual,
-                                                               [[maybe_unused]] Output& out) {
+VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out_turns(
+    [[maybe_unused]] const Work& work, [[maybe_unused]] float ramp,
+    [[maybe_unused]] std::uint32_t common, [[maybe_unused]] Output& out) {
   if constexpr (kOrients) {
     for_each_orienting([&](AxisState& s, std::size_t o) VOLCOMP_INLINE_LAMBDA {
       const std::size_t a = machine_.chain.orienting[o];
       std::uint32_t status = 0;
-      put_out_unusual(s, work.turns.excess[o], ramp, status);
+      put_out_slow_path(s, work.turns.excess[o], ramp, status);
       if (status == 0) status = kValid;
       if (!count_changes(a, status)) guarded_axes_ |= 1U << a;
       out.offset[a] = s.output;
-      out.status[a] = static_cast<std::uint16_t>(status | (usual & kRamping));
+      out.status[a] = static_cast<std::uint16_t>(status | (common & kRamping));
     });
   }
 }

@@ -42,17 +42,17 @@ VOLCOMP_INLINE std::int32_t Compensator<Machine, Knots>::followed_offset(const A
 // the offset the drive will have applied.
 template <class Machine, std::size_t Knots>
 template <bool Turns>
-VOLCOMP_INLINE bool Compensator<Machine, Knots>::is_usual(std::size_t axis,
-                                                          const AxisSample& sample,
-                                                          const Tables& set,
-                                                          std::uint32_t& place) const {
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::takes_fast_path(std::size_t axis,
+                                                                 const AxisSample& sample,
+                                                                 const Tables& set,
+                                                                 std::uint32_t& place) const {
   const AxisState& s = axis_[axis];
   const AxisLookup& lookup = set.lookup[axis];
   if (VOLCOMP_UNLIKELY(!sample.good())) return false;
   if (VOLCOMP_UNLIKELY(!within_reach<Turns>(s, sample.position))) return false;
   const std::int64_t r = distance(lookup, sample.position, s.output & masks_.target, Turns);
   place = static_cast<std::uint32_t>(r);
-  return !VOLCOMP_UNLIKELY(outside(lookup, r, Turns, lookup.usual_travel));
+  return !VOLCOMP_UNLIKELY(outside(lookup, r, Turns, lookup.fast_path_travel));
 }
 
 template <class Machine, std::size_t Knots>
@@ -60,7 +60,7 @@ template <bool Turns>
 VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow(std::size_t axis, const AxisSample& sample,
                                                         const Tables& set, Located& at) {
   std::uint32_t place = 0;
-  if (VOLCOMP_UNLIKELY(!is_usual<Turns>(axis, sample, set, place))) return false;
+  if (VOLCOMP_UNLIKELY(!takes_fast_path<Turns>(axis, sample, set, place))) return false;
   AxisState& s = axis_[axis];
   s.seen = sample.position;
   const auto low = Turns ? static_cast<std::uint32_t>(sample.position >> 8)
@@ -78,23 +78,24 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_one(std::size_t axis,
   return rotary(axis) ? follow<true>(axis, sample, set, at) : follow<false>(axis, sample, set, at);
 }
 
-// Returns false at the first axis that needs the slow path. follow_unusual() then follows all once
-// more: for those that came before it nothing changes, they stand where they stood. Reports on the
-// way what holds unless a correction changes it.
+// Returns false at the first axis that needs the slow path. follow_slow_path() then follows all
+// once more: for those that came before it nothing changes, they stand where they stood. Reports on
+// the way what holds unless a correction changes it.
 template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_usual(const Input& in, const Tables& set,
-                                                              std::uint32_t status, Places& at,
-                                                              Output& out) {
-  bool usual = true;
+VOLCOMP_INLINE bool Compensator<Machine, Knots>::follow_fast_path(const Input& in,
+                                                                  const Tables& set,
+                                                                  std::uint32_t status, Places& at,
+                                                                  Output& out) {
+  bool fast = true;
   for_each_axis([&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
-    usual = usual && follow_one(a, in.axis[a], set, at[a]);
+    fast = fast && follow_one(a, in.axis[a], set, at[a]);
     const bool corrects = machine_.chain.correcting_index[a] != kNotCorrecting;
     if (Machine::kCompiledIn && corrects)
       return;  // on a loaded machine storing is cheaper than branching
     out.status[a] = static_cast<std::uint16_t>(status);
     out.offset[a] = axis_[a].output;
   });
-  return usual;
+  return fast;
 }
 
 // The error in base, and what the correcting axes have to take away of it, nm or 2^-32 turn. False
@@ -131,21 +132,21 @@ template <class Machine, std::size_t Knots>
 // not as in kAllValid.
 template <class Machine, std::size_t Knots>
 VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out(std::size_t correcting, float excess,
-                                                         float ramp, std::uint32_t usual,
-                                                         EverydayBits& changed, Output& out) {
+                                                         float ramp, std::uint32_t common,
+                                                         FastPathBits& changed, Output& out) {
   const std::size_t a = machine_.chain.correcting[correcting];
   AxisState& s = corrected(correcting);
-  std::uint32_t status = usual;
+  std::uint32_t status = common;
   if (exceeds(excess, s.limit)) {
     excess = s.limit.signed_like(excess);
     status ^= kValid | kClamped;
-    changed |= everyday_of(correcting, everyday_bits(kValid | kClamped));
+    changed |= bits_of_axis(correcting, fast_path_bits(kValid | kClamped));
   }
   std::int32_t output = round_half_even(s.ramp_from - ramp * (excess + s.ramp_from));
   if (further(output, s.output, s.rate)) {
     output = output < s.output ? s.output - s.rate : s.output + s.rate;
     status = (status & ~std::uint32_t{kValid}) + kRateLimited;
-    changed |= everyday_of(correcting, everyday_bits(kValid | kRateLimited));
+    changed |= bits_of_axis(correcting, fast_path_bits(kValid | kRateLimited));
   }
   s.output = output;
   if (VOLCOMP_UNLIKELY(further(output, 0, s.largest.own())))
@@ -158,12 +159,12 @@ template <class Machine, std::size_t Knots>
 void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
   ticks_.set(ticks_.own() + 1U);
   if (VOLCOMP_UNLIKELY(ticks_.own() == 0)) ticks_wrapped_.set(true);
-  std::uint32_t usual = kValid;
+  std::uint32_t common = kValid;
   float ramp = 1.0F;
   if (VOLCOMP_UNLIKELY(requested_.load(std::memory_order_relaxed) != 0)) {
     take_request();
     ramp = now_.ramp.begin();
-    usual |= kRamping;
+    common |= kRamping;
     if (!now_.ramp.running()) end_change();
   } else if (VOLCOMP_UNLIKELY(!now_.ramp.at_rest())) {
     ramp = now_.ramp.advance();
@@ -171,7 +172,7 @@ void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
     if (now_.ramp.at_rest()) {
       ramps_.set(ramps_.own() + 1U);
     } else {
-      usual |= kRamping;
+      common |= kRamping;
     }
   }
   const Tables* const set = now_.active.own();
@@ -179,21 +180,21 @@ void Compensator<Machine, Knots>::tick(const Input& in, Output& out) {
   Work local;  // NOLINT(cppcoreguidelines-pro-type-member-init)
   Work& w = Machine::kCompiledIn ? local : work_;
   if (VOLCOMP_UNLIKELY(set == nullptr || guarded_axes_ != 0) ||
-      !follow_usual(in, *set, usual, w.at, out))
-    return detail::tick_unusual(*this, in, ramp, out);
+      !follow_fast_path(in, *set, common, w.at, out))
+    return detail::tick_slow_path(*this, in, ramp, out);
   allow_turns(w);
   const bool possible = Machine::kCompiledIn ? find_excess(*set, w, error_nm_)
                                              : find_kept_excess(*set, work_, error_nm_);
   // A sum is finite only if all in it is (IEEE 754-2019, 6.1 and 6.2); where fewer axes correct,
   // the rest is 0.
   if (VOLCOMP_UNLIKELY(!possible || !Magnitude::finite(w.excess[0] + w.excess[1] + w.excess[2])))
-    return detail::tick_unusual(*this, in, ramp, out);
-  EverydayBits changed = 0;
+    return detail::tick_slow_path(*this, in, ramp, out);
+  FastPathBits changed = 0;
   for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
-    put_out(c, w.excess[c], ramp, usual, changed, out);
+    put_out(c, w.excess[c], ramp, common, changed, out);
   });
   tally_.enter(kAllValid ^ changed);
-  put_out_turns(w, ramp, usual, out);
+  put_out_turns(w, ramp, common, out);
 }
 
 }  // namespace volcomp

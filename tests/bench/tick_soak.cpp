@@ -38,7 +38,7 @@ struct Counts {
   std::uint64_t staged = 0;
   std::uint64_t refused = 0;
   std::uint64_t configured = 0;
-  std::uint64_t everyday = 0;  // axes that had nothing to report
+  std::uint64_t without_news = 0;  // axes that had nothing to report
 };
 
 // Where one axis goes: a while in one manner, then in another.
@@ -204,7 +204,7 @@ class Soak {
     unit_->tick(in_, out_);
     ++counts_.ticks;
     for (const std::uint16_t status : out_.status)
-      counts_.everyday += status == kValid ? 1U : 0U;
+      counts_.without_news += status == kValid ? 1U : 0U;
     std::size_t axis = 0;
     const char* const broken = promise_.broken_by(*unit_, out_, axis);
     if (broken == nullptr) return true;
@@ -244,9 +244,10 @@ bool run(std::uint64_t ticks, std::uint64_t seed) {
     kept = position.episode(seeds[i], share) && orienting.episode(seeds[i], share) &&
            (!is_compiled_in(i) || compiled.episode(seeds[i], share));
   }
-  fmt::print("{} ticks, {} tables active, {} refused, {} times configured, {} axes everyday; {}\n",
-             counts.ticks, counts.staged, counts.refused, counts.configured, counts.everyday,
-             random.trace());
+  fmt::print(
+      "{} ticks, {} tables active, {} refused, {} times configured, {} axes without news; {}\n",
+      counts.ticks, counts.staged, counts.refused, counts.configured, counts.without_news,
+      random.trace());
   return kept;
 }
 

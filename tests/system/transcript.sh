@@ -22,9 +22,10 @@ help_of() {
 }
 
 # same_every_time: without temporary folders, times, speeds and process numbers.
-same_every_time() {
+same_every_time() { # an image holds the moment it was built
   sed -E -e "s#$work#WORK#g; s#$build#BUILD#g; s#/tmp/tmp\.[A-Za-z0-9]+#WORK#g" \
     -e 's/[0-9.]+ (ns|ms|s)\b/T \1/g; s/"(elapsed|seconds|duration|median|ns)[^"]*": [0-9.e+-]+/"T"/g' \
+    -e 's/CRC-32 [0-9A-F]{8}/CRC-32 C/g; s/"crc32": "[0-9A-F]{8}"/"crc32": C/g' \
     -e 's/20[0-9]{2}-[0-9]{2}-[0-9]{2}[T ][0-9:.]+Z?/DATE/g; s/process [0-9]+/process P/g'
 }
 
@@ -66,8 +67,11 @@ for test in "$project"/tests/system/cli_*_test.sh "$project/tests/system/cli_tes
   export TRANSCRIPT=$work/$name
   mkdir -p "$TRANSCRIPT"
   printf '0\n' > "$TRANSCRIPT.count"
-  bash "$test" "$work/volcomp" "${arguments[@]}" > "$work/$name.log" 2>&1 || printf '%s fails\n' "$name"
+  bash "$test" "$work/volcomp" "${arguments[@]}" > "$work/$name.log" 2>&1 || { printf '%s:\n' "$name"; tail -n 4 "$work/$name.log"; }
   mkdir -p "$folder/calls/$name"
-  for record in "$TRANSCRIPT"/*; do same_every_time < "$record" > "$folder/calls/$name/$(basename "$record")"; done
+  for record in "$TRANSCRIPT"/*; do
+    # shellcheck disable=SC2094 # two folders
+    same_every_time < "$record" > "$folder/calls/$name/$(basename "$record")"
+  done
 done
 printf '%s files in %s\n' "$(find "$folder" -type f | wc -l)" "$folder"

@@ -43,7 +43,7 @@ class WheelSurface {
 
 }  // namespace
 
-ContactWindow usual_contact_window() { return {kPi - 0.35, kPi + 0.35}; }
+ContactWindow default_contact_window() { return {kPi - 0.35, kPi + 0.35}; }
 
 // Illinois rule: false position, which keeps the bracket, with the weight of an end that stays
 // halved.
@@ -81,7 +81,7 @@ Status regenerated_flank(const InternalGear& gear, const WheelSetup& setup, Flan
                          const WheelProfile& profile, double rho, RegeneratedPoint& out) {
   GeneratedPoint g;
   if (const Status s = generated_point({setup, gear.turn_per_mm}, rho, profile.at(rho),
-                                       usual_contact_window(), g);
+                                       default_contact_window(), g);
       !s.ok())
     return s;
   double deviation = 0.0;

@@ -19,7 +19,7 @@ struct ContactWindow {
   double low = 0.0;
   double high = 0.0;
 };
-[[nodiscard]] ContactWindow usual_contact_window();
+[[nodiscard]] ContactWindow default_contact_window();
 
 struct GeneratedPoint {
   double phi = 0.0;

@@ -6,7 +6,7 @@ namespace volcomp::node {
 
 namespace {
 
-constexpr std::uint32_t kUsualPeriod_us = 1000;  // while 1006h is 0
+constexpr std::uint32_t kDefaultPeriod_us = 1000;  // while 1006h is 0
 constexpr std::uint32_t kLongestPeriod_us = 1'000'000;
 constexpr std::int32_t kNsPerUs = 1000;
 
@@ -38,7 +38,7 @@ Status StrokeService::bad(const char* field) {
 // 0, which the monitor refuses, for a period that no stroke is watched with.
 std::int32_t StrokeService::tick_ns(std::uint32_t period_us) {
   if (period_us > kLongestPeriod_us) return 0;
-  return static_cast<std::int32_t>(period_us == 0 ? kUsualPeriod_us : period_us) * kNsPerUs;
+  return static_cast<std::int32_t>(period_us == 0 ? kDefaultPeriod_us : period_us) * kNsPerUs;
 }
 
 HelixMonitorSettings StrokeService::monitor_settings(std::uint32_t period_us) const {

@@ -25,7 +25,7 @@ sim::TrueAxis draw_axis(const host::AxisFile& file, std::size_t own, const XyfzT
   axis.hi = file.hi;
   for (std::size_t c = 0; c < 6; ++c) {
     const bool angle = c >= 3;
-    const double amplitude = sim::usual_amplitude(c, own) * (angle ? tuning.angle_scale : 1.0);
+    const double amplitude = sim::default_amplitude(c, own) * (angle ? tuning.angle_scale : 1.0);
     const double rise = angle || c == own ? amplitude * random.uniform(-1.0, 1.0) : 0.0;
     axis.channel[c] = sim::waves_on_line(rise, amplitude, random);
   }

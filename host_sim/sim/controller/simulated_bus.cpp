@@ -5,8 +5,8 @@
 namespace volcomp::sim {
 namespace {
 
-// Every port is served at least so often, with or without frames; on a bus that has been quiet for a while as often as
-// timers of CANopen count (CiA 301: milliseconds).
+// Every port is served at least so often, with or without frames; on a bus that has been quiet for
+// a while as often as timers of CANopen count (CiA 301: milliseconds).
 constexpr std::uint64_t kSlice_ns = 200'000;
 constexpr std::uint64_t kQuietSlice_ns = 1'000'000;
 constexpr std::uint64_t kQuietAfter_ns = 2'000'000;

@@ -13,7 +13,7 @@ constexpr double kRipple_mm = 0.15e-3;
 
 }  // namespace
 
-double usual_amplitude(std::size_t channel, std::size_t own) {
+double default_amplitude(std::size_t channel, std::size_t own) {
   if (channel == own) return kOwnAxis_mm;
   if (channel < 3) return kStraightness_mm;
   return channel == own + 3 ? kRoll_rad : kPitchYaw_rad;

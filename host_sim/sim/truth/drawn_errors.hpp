@@ -8,7 +8,7 @@
 namespace volcomp::sim {
 
 // Amplitude of one of the six error motions of a linear axis; `own` is the channel of positioning.
-[[nodiscard]] double usual_amplitude(std::size_t channel, std::size_t own);
+[[nodiscard]] double default_amplitude(std::size_t channel, std::size_t own);
 
 // Waves at random phases on a straight line that rises by `rise` over the travel.
 [[nodiscard]] ErrorFunction waves_on_line(double rise, double amplitude, Random& random);

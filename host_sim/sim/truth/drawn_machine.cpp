@@ -50,7 +50,7 @@ TrueAxis draw_linear(const host::AxisFile& file, std::size_t own, Random& random
   axis.lo = file.lo;
   axis.hi = file.hi;
   for (std::size_t c = 0; c < 6; ++c) {
-    const double amplitude = usual_amplitude(c, own);
+    const double amplitude = default_amplitude(c, own);
     const bool straightness = c < 3 && c != own;
     const double rise = (straightness ? 0.0 : amplitude) * random.uniform(-1.0, 1.0);
     axis.channel[c] = waves_on_line(rise, amplitude, random);

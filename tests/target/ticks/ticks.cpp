@@ -19,7 +19,7 @@
 namespace volcomp::target {
 namespace {
 
-constexpr std::uint32_t kUsualTicks = 100'000;
+constexpr std::uint32_t kOrdinaryTicks = 100'000;
 constexpr std::uint32_t kFaultTicks = 20'000;
 constexpr std::size_t kFewKnots = 11;
 
@@ -67,7 +67,7 @@ void measure(const Variant& variant, std::unique_ptr<Unit> unit) {
   TickRun<Unit> run(*unit, {one.get(), other.get()}, counter);
   Tally usual;
   Tally faults;
-  run.operate(kUsualTicks, usual);
+  run.operate(kOrdinaryTicks, usual);
   run.suffer(kFaultTicks, faults);
   print(variant, "usual", usual);
   print(variant, "faults", faults);

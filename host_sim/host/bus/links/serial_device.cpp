@@ -20,7 +20,7 @@
 namespace volcomp::host {
 namespace {
 
-constexpr const char* kUsualBaud = "115200";
+constexpr const char* kDefaultBaud = "115200";
 
 // B0 (hang up) where there is no such rate.
 speed_t speed_of(const std::string& baud) {
@@ -28,7 +28,7 @@ speed_t speed_of(const std::string& baud) {
                                                                             {"19200", B19200},
                                                                             {"38400", B38400},
                                                                             {"57600", B57600},
-                                                                            {kUsualBaud, B115200},
+                                                                            {kDefaultBaud, B115200},
                                                                             {"230400", B230400},
                                                                             {"460800", B460800},
                                                                             {"921600", B921600},
@@ -43,7 +43,7 @@ speed_t speed_of(const std::string& baud) {
 }  // namespace
 
 SerialDevice::SerialDevice(const std::string& name) : path_(name.substr(0, name.rfind('@'))) {
-  const std::string baud = path_ == name ? kUsualBaud : name.substr(path_.size() + 1);
+  const std::string baud = path_ == name ? kDefaultBaud : name.substr(path_.size() + 1);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path_, error);
   if (!std::filesystem::exists(status)) fail_for(ENOENT);

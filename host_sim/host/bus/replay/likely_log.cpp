@@ -27,7 +27,7 @@ struct Choice {
 
 constexpr std::uint64_t kImpossible = UINT64_MAX / 4;
 constexpr std::uint64_t kTwoInACycle = 1'000'000'000;
-constexpr std::uint64_t kFromUsualSide = 1000;
+constexpr std::uint64_t kFromExpectedSide = 1000;
 constexpr std::size_t kStay = 1;
 
 class Cycles {
@@ -66,7 +66,7 @@ void choose(std::vector<Choice>& frames, const Cycles& cycles) {
     for (std::size_t c = 0; c < 3; ++c) {
       Choice& f = frames[i];
       const bool possible = c == kStay || cycles.over(f.at, c) != f.at;
-      f.cost[c] = !possible ? kImpossible : c == kStay ? 0 : c == usual ? kFromUsualSide : 1;
+      f.cost[c] = !possible ? kImpossible : c == kStay ? 0 : c == usual ? kFromExpectedSide : 1;
       if (i == 0 || !possible) continue;
       const Choice& before = frames[i - 1];
       std::uint64_t least = kImpossible;

@@ -139,7 +139,7 @@ TEST(ContactLine, PrintedEquationHasNoRoot) {
   GeneratedPoint point;
   point.phi = 7.0;
   const auto solve = [&](double p) {
-    return generated_point({setup, 1.0 / p}, at.rho, {at.y, at.slope}, usual_contact_window(),
+    return generated_point({setup, 1.0 / p}, at.rho, {at.y, at.slope}, default_contact_window(),
                            point);
   };
   EXPECT_EQ(solve(1.0).reason, Reason::no_contact);

@@ -14,36 +14,36 @@
 namespace volcomp {
 
 // Three bits for each correcting axis.
-using EverydayBits = std::uint32_t;
-inline constexpr unsigned kEverydayWidth = 3;
+using FastPathBits = std::uint32_t;
+inline constexpr unsigned kFastPathWidth = 3;
 
-constexpr EverydayBits everyday_bits(std::uint32_t status) {
+constexpr FastPathBits fast_path_bits(std::uint32_t status) {
   const bool valid = (status & kValid) != 0;
   const bool clamped = (status & kClamped) != 0;
   const bool limited = (status & kRateLimited) != 0;
   return (valid ? 1U : 0U) | (clamped ? 2U : 0U) | (limited ? 4U : 0U);
 }
-constexpr std::uint32_t everyday_status(EverydayBits bits) {
+constexpr std::uint32_t fast_path_status(FastPathBits bits) {
   const std::uint32_t valid = (bits & 1U) != 0 ? kValid : 0;
   const std::uint32_t clamped = (bits & 2U) != 0 ? kClamped : 0;
   const std::uint32_t limited = (bits & 4U) != 0 ? kRateLimited : 0;
   return valid | clamped | limited;
 }
 // The same bits of the correcting axis `c`.
-constexpr EverydayBits everyday_of(std::size_t c, EverydayBits bits) {
-  return bits << (kEverydayWidth * c);
+constexpr FastPathBits bits_of_axis(std::size_t c, FastPathBits bits) {
+  return bits << (kFastPathWidth * c);
 }
 
 // Valid bits of all axes. Counts of absent axes are never read.
-inline constexpr EverydayBits kAllValid = everyday_of(0, everyday_bits(kValid)) |
-                                          everyday_of(1, everyday_bits(kValid)) |
-                                          everyday_of(2, everyday_bits(kValid));
+inline constexpr FastPathBits kAllValid = bits_of_axis(0, fast_path_bits(kValid)) |
+                                          bits_of_axis(1, fast_path_bits(kValid)) |
+                                          bits_of_axis(2, fast_path_bits(kValid));
 static_assert(kMaxCorrecting == 3);
 
-class EverydayTally {
+class FastPathTally {
  public:
   // All correcting axes in this tick. Interrupt-safe.
-  VOLCOMP_INLINE void enter(EverydayBits now) {
+  VOLCOMP_INLINE void enter(FastPathBits now) {
     Published<std::uint16_t>& count = count_[now & ~last_];
     const std::uint32_t n = count.own() + 1U;
     count.set(static_cast<std::uint16_t>(n - (n >> 16U)));  // saturates
@@ -51,27 +51,27 @@ class EverydayTally {
   }
 
   // One axis, its changes counted elsewhere.
-  void resume(std::size_t c, EverydayBits bits) {
-    last_ = (last_ & ~everyday_of(c, kAxisBits)) | everyday_of(c, bits);
+  void resume(std::size_t c, FastPathBits bits) {
+    last_ = (last_ & ~bits_of_axis(c, kAxisBits)) | bits_of_axis(c, bits);
   }
-  [[nodiscard]] EverydayBits last(std::size_t c) const {
-    return (last_ >> (kEverydayWidth * c)) & kAxisBits;
+  [[nodiscard]] FastPathBits last(std::size_t c) const {
+    return (last_ >> (kFastPathWidth * c)) & kAxisBits;
   }
 
   // Adds to `began`, bit by bit of the axis `c`, how often each began.
-  void add_to(std::array<std::uint32_t, kEverydayWidth>& began, std::size_t c) const {
+  void add_to(std::array<std::uint32_t, kFastPathWidth>& began, std::size_t c) const {
     for (std::size_t pattern = 1; pattern < count_.size(); ++pattern) {
-      for (std::size_t bit = 0; bit < kEverydayWidth; ++bit) {
-        if ((pattern >> (kEverydayWidth * c + bit) & 1U) != 0) began[bit] += count_[pattern].get();
+      for (std::size_t bit = 0; bit < kFastPathWidth; ++bit) {
+        if ((pattern >> (kFastPathWidth * c + bit) & 1U) != 0) began[bit] += count_[pattern].get();
       }
     }
   }
 
  private:
-  static constexpr EverydayBits kAxisBits = (1U << kEverydayWidth) - 1U;
+  static constexpr FastPathBits kAxisBits = (1U << kFastPathWidth) - 1U;
 
-  EverydayBits last_ = 0;
-  std::array<Published<std::uint16_t>, 1U << (kEverydayWidth * kMaxCorrecting)> count_{};
+  FastPathBits last_ = 0;
+  std::array<Published<std::uint16_t>, 1U << (kFastPathWidth * kMaxCorrecting)> count_{};
 };
 
 }  // namespace volcomp
