@@ -3,7 +3,7 @@
 
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/pdo.hpp"
-#include "firmware/node/node_objects.hpp"
+#include "firmware/node/object_handles.hpp"
 
 namespace volcomp::node {
 namespace {
@@ -21,20 +21,23 @@ struct AxisPdo {
   std::array<std::uint32_t, 3> mapping;
 };
 
-constexpr std::uint32_t at_axis(std::uint16_t index, std::uint8_t bits) {
-  return canopen::mapped(index, 0, bits);
+template <class T>
+constexpr std::uint32_t at_axis(const object_lines::Handle<T>& object) {
+  return canopen::mapped(object.index, 0, 8 * sizeof(T));
 }
 
 // The node listens to what controller and drives tell each other: RPDO1 of the drive, and its
 // TPDO1, TPDO4, TPDO2 and TPDO3.
 constexpr std::array<AxisPdo, 5> kHeard{
-    {{canopen::kRpdo1, 2, {at_axis(0x2012, 16), at_axis(0x2011, 32)}},
-     {canopen::kTpdo1, 3, {at_axis(0x2013, 32), at_axis(0x2014, 16), at_axis(0x2015, 16)}},
-     {canopen::kTpdo1 + 0x300U, 1, {at_axis(0x2016, 32)}},
-     {canopen::kTpdo1 + 0x100U, 2, {at_axis(0x2017, 32), at_axis(0x2018, 32)}},
-     {canopen::kTpdo1 + 0x200U, 2, {at_axis(0x2019, 16), kFollowingError}}}};
+    {{canopen::kRpdo1, 2, {at_axis(object::control), at_axis(object::target)}},
+     {canopen::kTpdo1,
+      3,
+      {at_axis(object::actual), at_axis(object::drive_status), at_axis(object::probe_status)}},
+     {canopen::kTpdo1 + 0x300U, 1, {at_axis(object::held_offset)}},
+     {canopen::kTpdo1 + 0x100U, 2, {at_axis(object::latched), at_axis(object::latch_time)}},
+     {canopen::kTpdo1 + 0x200U, 2, {at_axis(object::edge_count), kFollowingError}}}};
 
-constexpr AxisPdo kOffset{canopen::kRpdo1 + 0x100U, 1, {at_axis(0x2020, 32)}};
+constexpr AxisPdo kOffset{canopen::kRpdo1 + 0x100U, 1, {at_axis(object::offset)}};
 
 canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8_t drive,
                                 std::uint32_t flags) {
@@ -54,9 +57,9 @@ canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8
   canopen::PdoParameters p;
   p.cob_id = std::uint32_t{canopen::kTpdo1} + controller;
   p.count = 3;
-  p.mapping[0] = canopen::mapped(0x201A, 1, 16);
-  p.mapping[1] = canopen::mapped(0x201A, 2, 16);
-  p.mapping[2] = canopen::mapped(0x201A, 3, 32);
+  p.mapping[0] = object::stroke::slot.mapped();
+  p.mapping[1] = object::stroke::flags.mapped();
+  p.mapping[2] = object::stroke::feed_nm_per_s.mapped();
   return p;
 }
 
@@ -66,18 +69,18 @@ canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8
   p.cob_id = std::uint32_t{canopen::kTpdo2} + controller;
   p.count = kTemperatureInputs;
   for (std::size_t i = 0; i < kTemperatureInputs; ++i)
-    p.mapping[i] = canopen::mapped(kTemperatureObject, sub(i), 16);
+    p.mapping[i] = object::thermal::reading[i].mapped();
   return p;
 }
 
 // Of the node itself: state, then the three of a point.
 constexpr std::array<std::array<std::uint32_t, 4>, 1 + kPointPdos> kOwnMapping{
-    {{canopen::mapped(0x2112, 7, 32), canopen::mapped(0x2600, 1, 8), canopen::mapped(0x2600, 2, 8),
-      canopen::mapped(0x2600, 3, 16)},
-     {canopen::mapped(0x2401, 1, 32), canopen::mapped(0x2401, 2, 8), canopen::mapped(0x2401, 3, 8),
-      canopen::mapped(0x2401, 4, 16)},
-     {canopen::mapped(0x2401, 5, 32), canopen::mapped(0x2401, 6, 32)},
-     {canopen::mapped(0x2401, 7, 32), canopen::mapped(0x2401, 8, 32)}}};
+    {{object::active_crc.mapped(), object::state.mapped(), object::sync_counter.mapped(),
+      object::any_status.mapped()},
+     {object::probe::sequence.mapped(), object::probe::verdict.mapped(),
+      object::probe::axis.mapped(), object::probe::feature_low.mapped()},
+     {object::probe::workpiece_nm[0].mapped(), object::probe::workpiece_nm[1].mapped()},
+     {object::probe::workpiece_nm[2].mapped(), object::probe::uncertainty_nm.mapped()}}};
 
 }  // namespace
 

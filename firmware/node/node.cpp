@@ -1,6 +1,7 @@
 #include "firmware/node/node.hpp"
 
 #include "firmware/canopen/device.inl"
+#include "firmware/node/object_handles.hpp"
 
 namespace volcomp::node {
 
@@ -10,8 +11,8 @@ using canopen::NmtState;
 
 namespace {
 
-constexpr canopen::ObjectId kController{0x2000, 2};
-constexpr canopen::ObjectId kDrivesReport{0x2200, 5};
+constexpr canopen::ObjectId kController = object::controller.id();
+constexpr canopen::ObjectId kDrivesReport = object::drives_report.id();
 
 // What the cycle and its supervision rely on may change only while there is no cycle.
 bool is_setting(std::uint16_t index) {
@@ -156,7 +157,7 @@ AbortCode Node::before_write(canopen::ObjectId object, Span<const std::uint8_t> 
 
 void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
   const bool names_controller = (kWatchesStrokes || kFollowsTemperature) && object == kController;
-  if (object.index == 0x2010 || names_controller) core_.set_default_pdos();
+  if (object.index == object::drive.index || names_controller) core_.set_default_pdos();
   if (object == kDrivesReport)
     core_.set_default_receive_pdos(kFirstHeldPdo, kFirstHeldPdo + kNodeAxes);
   each_part([object](auto& part) { part.written(object); });

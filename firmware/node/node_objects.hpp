@@ -1,15 +1,7 @@
 #pragma once
 // The values behind the object dictionary of the compensation node, with their defaults, and the
-// table that describes them (firmware/volcomp.eds says the same to configuration tools).
-//
-//   2000h machine and identity      2010h…201Fh process data of the axes, drive position units
-//   2020h offsets to the drives     2030h scaling between drive and run-time units
-//   2100h tables                    2200h limits and ramps
-//   2300h probe and feature         2400h points
-//   2500h strokes of a grinder
-//   2600h diagnostics               2700h temperatures, expansion, date
-//
-// Run-time units: nm, or 2^-32 turn for offsets and limits of a rotary axis.
+// table that describes them: objects.def (firmware/volcomp.eds says the same to configuration
+// tools).
 
 #include <array>
 #include <cstdint>
@@ -18,6 +10,7 @@
 #include "firmware/canopen/communication_objects.hpp"
 #include "firmware/canopen/pdo.hpp"
 #include "firmware/node/node_features.hpp"
+#include "firmware/node/object_lines.hpp"
 #include "firmware/node/probe/probe_objects.hpp"
 #include "firmware/node/strokes/stroke_objects.hpp"
 #include "firmware/node/tables/node_compensator.hpp"
@@ -70,80 +63,14 @@ enum class NodeState : std::uint8_t {
 
 struct NodeObjects {
   canopen::CommunicationObjects communication{};
-  std::uint32_t store = 0x1;    // 1010h:01; reads: saves on command; 0: there is no store
-  std::uint32_t restore = 0x1;  // 1011h:01; reads: restores on command; 0: there is no store
-
-  std::uint32_t machine_id = 0;        // 2000h:01; 0: any machine's tables
-  std::uint8_t controller = 127;       // 2000h:02 node id of the motion controller
-  std::uint8_t position_source = 0;    // 2000h:03 0 target (607Ah), 1 actual (6064h)
-  std::uint8_t axes = 0;               // 2000h:04 of the active machine
-  std::array<char, 8> axis_letters{};  // 2000h:05
-
-  PerAxis<std::uint8_t> drive{};          // 2010h node id, 0: axis not there
-  PerAxis<std::int32_t> target{};         // 2011h as 607Ah
-  PerAxis<std::uint16_t> control{};       // 2012h as 6040h
-  PerAxis<std::int32_t> actual{};         // 2013h as 6064h
-  PerAxis<std::uint16_t> drive_status{};  // 2014h as 6041h
-  PerAxis<std::uint16_t> probe_status{};  // 2015h as 60B9h
-  PerAxis<std::int32_t> held_offset{};    // 2016h as 60B0h, reported by the drive
-  PerAxis<std::int32_t> latched{};        // 2017h as 60BAh
-  PerAxis<std::uint32_t> latch_time{};    // 2018h as 60D1h, ns since SYNC
-  PerAxis<std::uint16_t> edge_count{};    // 2019h as 60D5h
-  PerAxis<std::int32_t> offset{};         // 2020h to 60B0h
-
-  PerAxis<std::uint32_t> scale_numerator{1, 1, 1, 1, 1};                 // 2030h run-time units per
-  PerAxis<std::uint32_t> scale_denominator{1, 1, 1, 1, 1};               // 2031h drive unit
-  PerAxis<std::uint8_t> rotary{};                                        // 2032h
-  PerAxis<std::uint16_t> homed_mask{0x100, 0x100, 0x100, 0x100, 0x100};  // 2033h bits of 6041h
-
-  std::uint8_t table_command = 0;                   // 2111h
-  std::uint8_t table_state = 0;                     // 2112h:01
-  std::uint8_t reason = 0;                          // 2112h:02 Reason of the last refusal
-  std::uint8_t where_axis = 0;                      // 2112h:03 letter, 0: does not apply
-  std::int16_t where_index = -1;                    // 2112h:04 knot or entry, from 0
-  std::int8_t where_channel = -1;                   // 2112h:05 0…5 = EX EY EZ EA EB EC
-  std::array<char, kMostReasonText> reason_text{};  // 2112h:06
-  std::uint32_t staged_crc = 0;                     // 2110h:02
-  std::uint32_t staged_bytes = 0;                   // 2110h:03
-  std::uint32_t image_capacity = 0;                 // 2110h:04
-  std::uint32_t active_crc = 0;                     // 2112h:07
-  std::uint32_t active_sequence = 0;                // 2112h:08
-
-  std::uint32_t ramp_cycles = 100;  // 2200h:01
-  std::uint16_t drop_cycles = 10;   // 2200h:02 stale for longer: ramped to zero
-  std::uint32_t deadline_us = 0;    // 2200h:03 0: 60 % of 1006h
-  std::uint8_t late_cycles = 2;     // 2200h:04 a frame may be late by so many cycles
-  std::uint8_t drives_report = 1;   // 2200h:05 drives report 60B0h in a TPDO
-  PerAxis<std::int32_t> limit{200'000, 200'000, 200'000, 200'000, 200'000};  // 2201h
-  PerAxis<std::int32_t> slew{20'000, 20'000, 20'000, 20'000, 20'000};        // 2202h
-  PerAxis<std::int32_t> soft_rate{1'000, 1'000, 1'000, 1'000, 1'000};        // 2203h
-  PerAxis<std::int32_t> hysteresis{2'000, 2'000, 2'000, 2'000, 2'000};       // 2204h
-  PerAxis<std::int64_t> max_step{};                                          // 2205h 0: unchecked
-  PerAxis<std::int32_t> start_offset{};  // 2206h offset a drive holds that cannot report it
-
-  ProbeObjects probe{};                                                          // 2300h…2411h
-  std::conditional_t<kWatchesStrokes, StrokeObjects, NoStrokeObjects> stroke{};  // 201Ah, 2500h
-
-  std::uint8_t state = 0;             // 2600h:01 NodeState
-  std::uint8_t sync_counter = 0;      // 2600h:02 of the cycle last computed
-  std::uint16_t any_status = 0;       // 2600h:03 status bits of all axes together
-  std::uint32_t cycles = 0;           // 2600h:04 computed
-  std::uint32_t deadline_missed = 0;  // 2600h:05 cycles that were incomplete at the deadline
-  std::uint32_t cycles_skipped = 0;   // 2600h:06 SYNC came before the cycle was computed
-  std::uint32_t sync_missed = 0;      // 2600h:07
-  std::uint32_t sync_foreign = 0;     // 2600h:08
-  std::uint32_t activations = 0;      // 2600h:09
-  std::uint32_t rejections = 0;       // 2600h:0A
-  std::uint8_t stored = 0;            // 2600h:0B StoreResult of the start
-  std::uint8_t store_result = 0;      // 2600h:0C StoreResult of the last save or restore, 0: none
-  std::uint8_t reset_cause = 0;       // 2600h:0D hal::ResetCause
-  std::uint32_t frames_lost = 0;      // 2600h:0E before the node saw them
-  PerAxis<std::uint16_t> status{};    // 2601h
-  PerAxis<std::int32_t> largest{};    // 2602h
+#define NODE(index, sub, count, type, member, use, value, range, name) \
+  OBJECT_MEMBER(type, count, member, value)
+#include "firmware/node/objects.def"
   PerAxis<std::array<std::uint16_t, kStatusBits>> began{};  // 2610h… how often each bit began
 
-  std::conditional_t<kFollowsTemperature, ThermalObjects, NoThermalObjects>
-      thermal{};  // 1012h, 2700h
+  ProbeObjects probe{};
+  std::conditional_t<kWatchesStrokes, StrokeObjects, NoStrokeObjects> stroke{};
+  std::conditional_t<kFollowsTemperature, ThermalObjects, NoThermalObjects> thermal{};
 };
 
 [[nodiscard]] canopen::Dictionary node_dictionary();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "firmware/canopen/bytes.hpp"
+#include "firmware/node/object_handles.hpp"
 
 namespace volcomp::node {
 
@@ -12,10 +13,10 @@ using canopen::ErrorCode;
 
 namespace {
 
-constexpr canopen::ObjectId kProbe{0x2300, 1};
-constexpr canopen::ObjectId kFeature{0x2310, 1};
-constexpr canopen::ObjectId kGear{0x2311, 1};
-constexpr canopen::ObjectId kRelease{0x2411, 0};
+constexpr canopen::ObjectId kProbe = object::probe::command.id();
+constexpr canopen::ObjectId kFeature = object::probe::feature.id();
+constexpr canopen::ObjectId kGear = object::probe::gear.id();
+constexpr canopen::ObjectId kRelease = object::probe::release.id();
 
 std::int64_t position_from_wire(std::int32_t wire, const WireScale& scale) {
   WirePosition position;

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
+#include "firmware/node/object_handles.hpp"
+
 namespace volcomp::node {
 
 using canopen::AbortCode;
 
 namespace {
 
-constexpr canopen::ObjectId kStrokes{0x2500, 1};
-constexpr canopen::ObjectId kLearn{0x2520, 1};
+constexpr canopen::ObjectId kStrokes = object::stroke::command.id();
+constexpr canopen::ObjectId kLearn = object::stroke::learn.id();
 constexpr std::uint16_t kMeans = 0x2516;
 constexpr std::size_t kC = 2;  // of a StrokeService
 

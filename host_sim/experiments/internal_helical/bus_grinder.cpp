@@ -153,9 +153,11 @@ std::vector<double> BusGrinder::read_floats(canopen::ObjectId object, std::size_
 }
 
 std::string BusGrinder::feed_trouble() {
-  const std::uint64_t status = host::number(read({0x2524, 3}, 2, "status of the learned offset"));
+  const std::uint64_t status = host::number(
+      read(node::object::stroke::offset_status.id(), 2, "status of the learned offset"));
   if ((status & kOtherFeed) == 0) return {};
-  const std::uint64_t feed = host::number(read({0x2524, 2}, 4, "feed of the learned tables"));
+  const std::uint64_t feed =
+      host::number(read(node::object::stroke::table_feed.id(), 4, "feed of the learned tables"));
   return fmt::format(
       "the node adds no learned offset: its tables are for F={:g} mm/s, the stroke has F={:g} mm/s",
       static_cast<double>(feed) / kNmPerMm, last_.feed_nm_per_s / kNmPerMm);
@@ -164,12 +166,12 @@ std::string BusGrinder::feed_trouble() {
 void BusGrinder::learn() {
   if (const std::string trouble = feed_trouble(); !trouble.empty()) throw host::UserError(trouble);
   host::SdoChannel& sdo = axes_->controller().node_objects();
-  sdo.write_value<std::uint8_t>({0x2520, 1}, static_cast<std::uint8_t>(node::LearnCommand::learn),
-                                "learning");
+  sdo.write(node::object::stroke::learn, static_cast<std::uint8_t>(node::LearnCommand::learn));
   rest_until_answered();
   if (sdo.failure().empty()) return;
   sdo.clear();
-  const auto reason = static_cast<Reason>(host::number(read({0x2520, 4}, 1, "reason")));
+  const auto reason =
+      static_cast<Reason>(host::number(read(node::object::stroke::learn_reason.id(), 1, "reason")));
   throw host::UserError(
       fmt::format("the node refuses to learn: {} [{}]", sentence(reason), code(reason)));
 }

@@ -3,6 +3,8 @@
 namespace volcomp::host {
 namespace {
 
+namespace object = node::object;
+
 // 2^40 (positions) and 2^32 (offsets, limits) units per turn of a rotary axis.
 constexpr double kMicroradPerTurn = 2e6 * 3.14159265358979323846;
 constexpr double kPositionUnitsPerTurn = 1099511627776.0;
@@ -12,19 +14,18 @@ constexpr double kUmPerNm = 1e-3;
 constexpr std::uint8_t sub_of(std::size_t axis) { return static_cast<std::uint8_t>(axis + 1); }
 
 AxisDiagnosis diagnose_axis(NodeClient& client, std::size_t axis, const std::string& letters) {
-  const std::uint8_t sub = sub_of(axis);
   AxisDiagnosis d;
   d.number = axis + 1;
   d.letter = axis < letters.size() ? letters[axis] : '\0';
-  d.drive = client.read_value<std::uint8_t>({0x2010, sub}, "drive of an axis");
+  d.drive = client.read(object::drive[axis]);
   if (d.drive == 0) return d;
-  d.rotary = client.read_value<std::uint8_t>({0x2032, sub}, "kind of axis") != 0;
-  d.drive_status = client.read_value<std::uint16_t>({0x2014, sub}, "status word of a drive");
-  d.status = client.read_value<std::uint16_t>({0x2601, sub}, "status of an axis");
-  const auto numerator = client.read_value<std::uint32_t>({0x2030, sub}, "scale numerator");
-  const auto denominator = client.read_value<std::uint32_t>({0x2031, sub}, "scale denominator");
-  const auto offset = client.read_value<std::int32_t>({0x2020, sub}, "offset of an axis");
-  const auto largest = client.read_value<std::int32_t>({0x2602, sub}, "largest offset");
+  d.rotary = client.read(object::rotary[axis]) != 0;
+  d.drive_status = client.read(object::drive_status[axis]);
+  d.status = client.read(object::status[axis]);
+  const std::uint32_t numerator = client.read(object::scale_numerator[axis]);
+  const std::uint32_t denominator = client.read(object::scale_denominator[axis]);
+  const std::int32_t offset = client.read(object::offset[axis]);
+  const std::int32_t largest = client.read(object::largest[axis]);
   d.offset = static_cast<double>(offset) * numerator / denominator *
              (d.rotary ? kMicroradPerTurn / kPositionUnitsPerTurn : kUmPerNm);
   d.largest_offset =
@@ -54,33 +55,25 @@ void read_errors(NodeClient& client, Diagnosis& d) {
 }
 
 void read_tables(NodeClient& client, Diagnosis& d) {
-  d.state = static_cast<node::NodeState>(
-      client.read_value<std::uint8_t>({0x2600, 1}, "state of the node"));
-  d.table_state = static_cast<node::TableState>(
-      client.read_value<std::uint8_t>(node::table_verdict(1), "state of the tables"));
+  d.state = client.read<node::NodeState>(object::state);
+  d.table_state = client.read<node::TableState>(object::table_state);
   d.tables = active_tables(client);
-  d.machine_id = client.read_value<std::uint32_t>({0x2000, 1}, "machine id");
+  d.machine_id = client.read(object::machine_id);
   d.refusal = refusal(client);
 }
 
 void read_counters(NodeClient& client, Diagnosis& d) {
-  const auto counter = [&client](std::uint8_t sub) {
-    return client.read_value<std::uint32_t>({0x2600, sub}, "counter");
-  };
-  d.cycles = counter(4);
-  d.deadline_missed = counter(5);
-  d.cycles_skipped = counter(6);
-  d.sync_missed = counter(7);
-  d.sync_foreign = counter(8);
-  d.activations = counter(9);
-  d.rejections = counter(10);
-  d.stored = static_cast<node::StoreResult>(
-      client.read_value<std::uint8_t>({0x2600, 11}, "result of reading the store"));
-  d.saved = static_cast<node::StoreResult>(
-      client.read_value<std::uint8_t>({0x2600, 12}, "result of the last save"));
-  d.start = static_cast<hal::ResetCause>(
-      client.read_value<std::uint8_t>({0x2600, 13}, "reason of the start"));
-  d.frames_lost = counter(14);
+  d.cycles = client.read(object::cycles);
+  d.deadline_missed = client.read(object::deadline_missed);
+  d.cycles_skipped = client.read(object::cycles_skipped);
+  d.sync_missed = client.read(object::sync_missed);
+  d.sync_foreign = client.read(object::sync_foreign);
+  d.activations = client.read(object::activations);
+  d.rejections = client.read(object::rejections);
+  d.stored = client.read<node::StoreResult>(object::stored);
+  d.saved = client.read<node::StoreResult>(object::store_result);
+  d.start = client.read<hal::ResetCause>(object::reset_cause);
+  d.frames_lost = client.read(object::frames_lost);
 }
 
 }  // namespace
@@ -92,8 +85,9 @@ Diagnosis diagnose(NodeClient& client) {
   read_errors(client, d);
   read_tables(client, d);
   read_counters(client, d);
-  const std::string letters =
-      d.tables.crc == 0 ? std::string() : client.read_text({0x2000, 5}, 8, "axis letters");
+  const std::string letters = d.tables.crc == 0
+                                  ? std::string()
+                                  : client.read_text(object::axis_letters.id(), 8, "axis letters");
   for (std::size_t axis = 0; axis < node::kNodeAxes; ++axis) {
     const AxisDiagnosis a = diagnose_axis(client, axis, letters);
     if (a.drive != 0) d.axes.push_back(a);

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "firmware/canopen/nmt.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/bus/links/frame_link.hpp"
 #include "host_sim/host/bus/sdo_channel.hpp"
 
@@ -42,6 +43,15 @@ class NodeClient {
   template <class T>
   [[nodiscard]] T read_value(canopen::ObjectId object, const std::string& what) {
     return static_cast<T>(number(read(object, sizeof(T), what)));
+  }
+  // By its handle (object_handles.hpp), perhaps as another type.
+  template <class T>
+  [[nodiscard]] T read(const node::object_lines::Handle<T>& object) {
+    return read_value<T>(object.id(), object.name);
+  }
+  template <class As, class T>
+  [[nodiscard]] As read(const node::object_lines::Handle<T>& object) {
+    return static_cast<As>(read_value<T>(object.id(), object.name));
   }
   // Up to `most` characters.
   [[nodiscard]] std::string read_text(canopen::ObjectId object, std::size_t most,

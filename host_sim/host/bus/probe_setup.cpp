@@ -18,20 +18,20 @@ void plan_ns(SetupPlan& plan, canopen::ObjectId object, double us, std::string n
                             std::move(name), "ns");
 }
 
-void plan_nm(SetupPlan& plan, std::uint16_t index, std::size_t sub, double mm, const char* name) {
-  plan_value<double>(plan, {index, static_cast<std::uint8_t>(sub)}, kNmPerMm * mm, name, "nm");
+void plan_nm(SetupPlan& plan, const node::object_lines::Handle<double>& object, double mm,
+             const char* name) {
+  plan_value(plan, object, kNmPerMm * mm, name, "nm");
 }
 
 void plan_frame(SetupPlan& plan, const Frame& frame) {
-  constexpr std::uint16_t kWorkpiece = 0x2303;
-  std::size_t sub = 1;
+  std::size_t next = 0;
   for (Eigen::Index r = 0; r < 3; ++r) {
     for (Eigen::Index c = 0; c < 3; ++c)
-      plan_value<double>(plan, {kWorkpiece, static_cast<std::uint8_t>(sub++)}, frame.R(r, c),
-                         "rotation of the part");
+      plan_value(plan, node::object::probe::workpiece[next++], frame.R(r, c),
+                 "rotation of the part");
   }
   for (Eigen::Index r = 0; r < 3; ++r)
-    plan_nm(plan, kWorkpiece, sub++, frame.t(r), "origin of the part");
+    plan_nm(plan, node::object::probe::workpiece[next++], frame.t(r), "origin of the part");
 }
 
 void plan_gear(SetupPlan& plan, const NodeProbe& probe) {
@@ -48,9 +48,8 @@ void plan_gear(SetupPlan& plan, const NodeProbe& probe) {
                                        g.relief.begin,
                                        g.relief.length};
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    plan_value<double>(plan, {0x2312, static_cast<std::uint8_t>(i + 1)}, numbers[i],
-                       "number of the face gear");
-  plan_value<std::uint32_t>(plan, {0x2311, 1}, probe.gear_id, "face gear");
+    plan_value(plan, node::object::probe::gear_number[i], numbers[i], "number of the face gear");
+  plan_value(plan, node::object::probe::gear, probe.gear_id, "face gear");
 }
 
 }  // namespace
@@ -67,20 +66,24 @@ NodeProbe node_probe(const MachineFile& machine) {
 
 SetupPlan probe_plan(const NodeProbe& probe) {
   SetupPlan plan;
-  plan_ns(plan, {0x2300, 2}, probe.delay_us, "delay from the contact to the edge");
+  plan_ns(plan, node::object::probe::delay_ns.id(), probe.delay_us,
+          "delay from the contact to the edge");
   for (std::size_t a = 0; a < node::kNodeAxes; ++a)
-    plan_ns(plan, {0x2301, static_cast<std::uint8_t>(a + 1)}, probe.latch_delay_us[a],
+    plan_ns(plan, node::object::probe::latch_delay_ns[a].id(), probe.latch_delay_us[a],
             fmt::format("delay from the edge to the latch of axis {}", a + 1));
   for (std::size_t k = 0; k < kLobingTerms; ++k)
-    plan_nm(plan, 0x2302, k + 1, probe.radius.coefficient[k], "effective radius, by direction");
+    plan_nm(plan, node::object::probe::lobing[k], probe.radius.coefficient[k],
+            "effective radius, by direction");
   plan_frame(plan, probe.workpiece);
-  plan_nm(plan, 0x2304, 1, probe.radius_uncertainty, "standard uncertainty of the radius");
-  plan_nm(plan, 0x2304, 2, probe.tool_length_uncertainty,
+  plan_nm(plan, node::object::probe::uncertainty[0], probe.radius_uncertainty,
+          "standard uncertainty of the radius");
+  plan_nm(plan, node::object::probe::uncertainty[1], probe.tool_length_uncertainty,
           "standard uncertainty of the tool length");
-  plan_nm(plan, 0x2304, 4, probe.repeatability, "repeatability of the probe");
+  plan_nm(plan, node::object::probe::uncertainty[3], probe.repeatability,
+          "repeatability of the probe");
   if (probe.gear_id != 0) plan_gear(plan, probe);
-  plan_value<std::uint8_t>(plan, {0x2300, 1}, static_cast<std::uint8_t>(node::ProbeCommand::on),
-                           "probe on with these settings");
+  plan_value(plan, node::object::probe::command, static_cast<std::uint8_t>(node::ProbeCommand::on),
+             "probe on with these settings");
   return plan;
 }
 

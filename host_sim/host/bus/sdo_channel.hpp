@@ -9,6 +9,7 @@
 
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/sdo_client.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "hal/can_port.hpp"
 
 namespace volcomp::host {
@@ -28,6 +29,10 @@ class SdoChannel {
     Bytes bytes(sizeof(T));
     canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
     write(object, std::move(bytes), std::move(what), std::move(done));
+  }
+  template <class T>
+  void write(const node::object_lines::Handle<T>& object, std::common_type_t<T> value) {
+    write_value<T>(object.id(), value, object.name);
   }
   // `most`: bytes the value may have.
   void read(canopen::ObjectId object, std::size_t most, std::string what, OnRead done);

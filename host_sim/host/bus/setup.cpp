@@ -60,7 +60,7 @@ std::optional<std::uint32_t> machine_of_tables(NodeClient& client) {
 }
 
 void check_machine(NodeClient& client, const MachineFile& machine) {
-  const auto set = client.read_value<std::uint32_t>({0x2000, 1}, "machine id");
+  const auto set = client.read(node::object::machine_id);
   if (set != 0 && set != machine.id)
     throw UserError(
         fmt::format("node {} belongs to machine {} (2000h:01), {} is machine {}; 1011h:01 "

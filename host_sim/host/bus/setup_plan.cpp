@@ -32,7 +32,6 @@ constexpr std::uint8_t sub_of_heartbeat(std::size_t axis) {
 void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
   const BusAxis& a = b.axes[axis];
   const AxisLimits& l = b.limits.axis.at(axis);
-  const std::uint8_t sub = sub_of_axis(axis);
   const char* const position = a.rotary ? "2^-40 turn" : "nm";
   const char* const offset = a.rotary ? "2^-32 turn" : "nm";
   const char* const offset_rate = a.rotary ? "2^-32 turn/cycle" : "nm/cycle";
@@ -41,24 +40,24 @@ void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
   };
   plan_bits<std::uint32_t>(plan, {0x1016, sub_of_heartbeat(axis)}, supervision(a.drive, b),
                            heartbeat_name(name("drive"), a.drive, b));
-  plan_value<std::uint8_t>(plan, {0x2010, sub}, a.drive, name("node id of the drive of"));
-  plan_value<std::uint32_t>(plan, {0x2030, sub}, a.scale_numerator,
-                            name("numerator of the drive unit of"), position);
-  plan_value<std::uint32_t>(plan, {0x2031, sub}, a.scale_denominator,
-                            name("denominator of the drive unit of"));
-  plan_value<std::uint8_t>(plan, {0x2032, sub}, a.rotary ? 1 : 0,
-                           name("kind of", " (0 linear, 1 rotary)"));
-  plan_bits<std::uint16_t>(plan, {0x2033, sub}, kStatusReferenced,
+  plan_value(plan, node::object::drive[axis], a.drive, name("node id of the drive of"));
+  plan_value(plan, node::object::scale_numerator[axis], a.scale_numerator,
+             name("numerator of the drive unit of"), position);
+  plan_value(plan, node::object::scale_denominator[axis], a.scale_denominator,
+             name("denominator of the drive unit of"));
+  plan_value(plan, node::object::rotary[axis], a.rotary ? 1 : 0,
+             name("kind of", " (0 linear, 1 rotary)"));
+  plan_bits<std::uint16_t>(plan, node::object::homed_mask[axis].id(), kStatusReferenced,
                            name("bits of 6041h of", " that mean referenced"));
-  plan_value<std::int32_t>(plan, {0x2201, sub}, l.limit, name("largest offset of"), offset);
-  plan_value<std::int32_t>(plan, {0x2202, sub}, l.rate, name("fastest change of the offset of"),
-                           offset_rate);
-  plan_value<std::int32_t>(plan, {0x2203, sub}, l.soft_rate, name("gentle change of the offset of"),
-                           offset_rate);
-  plan_value<std::int32_t>(plan, {0x2204, sub}, l.hysteresis,
-                           name("hysteresis of the direction of"), offset);
-  plan_value<std::int64_t>(plan, {0x2205, sub}, l.max_step,
-                           name("largest plausible step of", " (0: unchecked)"), position);
+  plan_value(plan, node::object::limit[axis], l.limit, name("largest offset of"), offset);
+  plan_value(plan, node::object::slew[axis], l.rate, name("fastest change of the offset of"),
+             offset_rate);
+  plan_value(plan, node::object::soft_rate[axis], l.soft_rate,
+             name("gentle change of the offset of"), offset_rate);
+  plan_value(plan, node::object::hysteresis[axis], l.hysteresis,
+             name("hysteresis of the direction of"), offset);
+  plan_value(plan, node::object::max_step[axis], l.max_step,
+             name("largest plausible step of", " (0: unchecked)"), position);
 }
 
 // CiA 301, 7.5.2.37: the inhibit time may change only while the PDO does not exist.
@@ -99,17 +98,17 @@ SetupPlan node_plan(const BusSettings& settings) {
     throw UserError(fmt::format("a compensation node has {} axes, the machine {}", node::kNodeAxes,
                                 settings.axes.size()));
   SetupPlan plan = common_plan(settings);
-  plan_value<std::uint32_t>(plan, {0x2000, 1}, settings.machine_id, "machine id");
-  plan_value<std::uint8_t>(plan, {0x2000, 2}, settings.controller, "node id of the controller");
-  plan_value<std::uint8_t>(plan, {0x2000, 3}, static_cast<std::uint8_t>(settings.limits.source),
-                           "position source (0 target, 1 actual)");
-  plan_value<std::uint32_t>(plan, {0x2200, 1}, settings.limits.ramp_ticks, "ramp", "cycles");
-  plan_value<std::uint16_t>(plan, {0x2200, 2}, settings.limits.stale_drop_ticks,
-                            "missing positions until an offset is dropped", "cycles");
-  plan_value<std::uint32_t>(plan, {0x2200, 3}, settings.deadline_us,
-                            "deadline after SYNC (0: 60 % of the period)", "us");
+  plan_value(plan, node::object::machine_id, settings.machine_id, "machine id");
+  plan_value(plan, node::object::controller, settings.controller, "node id of the controller");
+  plan_value(plan, node::object::position_source, static_cast<std::uint8_t>(settings.limits.source),
+             "position source (0 target, 1 actual)");
+  plan_value(plan, node::object::ramp_cycles, settings.limits.ramp_ticks, "ramp", "cycles");
+  plan_value(plan, node::object::drop_cycles, settings.limits.stale_drop_ticks,
+             "missing positions until an offset is dropped", "cycles");
+  plan_value(plan, node::object::deadline_us, settings.deadline_us,
+             "deadline after SYNC (0: 60 % of the period)", "us");
   if (!settings.drives_report_offsets)
-    plan_value<std::uint8_t>(plan, {0x2200, 5}, 0, "drives report their offsets");
+    plan_value(plan, node::object::drives_report, 0, "drives report their offsets");
   for (std::size_t i = 0; i < settings.axes.size(); ++i)
     plan_axis(plan, settings, i);
   if (settings.status_every_cycle) plan_status_every_cycle(plan, settings);
@@ -126,8 +125,7 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
     plan_bits<std::uint32_t>(plan, {0x1016, static_cast<std::uint8_t>(i + 1)}, 0,
                              "no heartbeat is awaited");
   for (std::size_t i = settings.axes.size(); i < node::kNodeAxes; ++i)
-    plan_value<std::uint8_t>(plan, {0x2010, sub_of_axis(i)}, 0,
-                             fmt::format("no drive of axis {}", i + 1));
+    plan_value(plan, node::object::drive[i], 0, fmt::format("no drive of axis {}", i + 1));
   append(plan, node_plan(settings));
   if (probe != nullptr)
     append(plan, probe_plan(*probe));

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware/canopen/object_dictionary.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/bus/bus_settings.hpp"
 #include "host_sim/host/bus/sdo_channel.hpp"
 
@@ -53,6 +53,12 @@ void plan_value(SetupPlan& plan, canopen::ObjectId object, T value, std::string 
   std::memcpy(bytes.data(), &value, sizeof(T));
   plan.push_back(
       {object, data_type_of<T>(), number(bytes), std::move(name), std::move(unit), false});
+}
+
+template <class T>
+void plan_value(SetupPlan& plan, const node::object_lines::Handle<T>& object,
+                std::common_type_t<T> value, std::string name, std::string unit = {}) {
+  plan_value<T>(plan, object.id(), value, std::move(name), std::move(unit));
 }
 
 // The same of bits and identifiers: shown in hexadecimal.

@@ -11,6 +11,7 @@
 namespace volcomp::host {
 namespace {
 
+namespace object = node::object::stroke;
 using canopen::ObjectId;
 
 constexpr std::array<const char*, node::kStrokeTables> kTableNames{"forward", "backward", "slots"};
@@ -37,32 +38,28 @@ LearnedTableDiagnosis diagnose_table(NodeClient& client, std::size_t table) {
 }
 
 void read_watched(NodeClient& client, StrokeDiagnosis& d) {
-  const auto counter = [&client](std::size_t sub) {
-    return client.read_value<std::uint32_t>({0x2510, static_cast<std::uint8_t>(sub)},
-                                            "counter of strokes");
-  };
   for (std::size_t use = 0; use < kFrameUses; ++use)
-    d.frames[use] = counter(use + 1);
-  d.passes_lost = counter(7);
-  d.discarded = counter(9);
+    d.frames[use] = client.read(object::frames[use]);
+  d.passes_lost = client.read(object::passes_lost);
+  d.discarded = client.read(object::discarded);
   for (std::size_t side = 0; side < 2; ++side) {
     const auto figures = static_cast<std::uint16_t>(0x2512U + side);
-    d.passes[side] = counter(10 + side);
+    d.passes[side] = client.read(object::passes[side]);
     d.sync_rms_um[side] = read_real<double>(client, {figures, node::kFigures}, "RMS on the flank");
     d.x_rms_um[side] = read_real<double>(client, {figures, 3 * node::kFigures}, "RMS of X");
   }
 }
 
 void read_learned(NodeClient& client, StrokeDiagnosis& d) {
-  d.learning = client.read_value<Reason>({0x2520, 4}, "refusal to learn");
-  for (std::uint8_t i = 0; i < 3; ++i)
+  d.learning = client.read<Reason>(object::learn_reason);
+  for (std::size_t i = 0; i < 3; ++i)
     d.prediction_um.at(i) =
-        read_real<float>(client, {0x2525, static_cast<std::uint8_t>(i + 1)}, "predicted effect");
-  d.tables = client.read_value<node::StrokeTableState>({0x2524, 1}, "state of learned tables");
-  const auto feed = client.read_value<std::int32_t>({0x2524, 2}, "feed of learned tables");
+        read_real<float>(client, object::prediction_um[i].id(), "predicted effect");
+  d.tables = client.read<node::StrokeTableState>(object::table_state);
+  const std::int32_t feed = client.read(object::table_feed);
   d.table_feed_mm_per_s = feed / kNmPerMm;
-  d.offset_status = client.read_value<std::uint16_t>({0x2524, 3}, "status of the learned offset");
-  const auto offset = client.read_value<std::int32_t>({0x2524, 4}, "learned offset");
+  d.offset_status = client.read(object::offset_status);
+  const std::int32_t offset = client.read(object::offset);
   d.offset_urad = 1e6 * 256.0 / kUnitsPerRad * offset;
   for (std::size_t table = 0; table < d.table.size(); ++table)
     d.table[table] = diagnose_table(client, table);
@@ -114,7 +111,7 @@ std::string offset_words(const StrokeDiagnosis& d) {
 std::optional<StrokeDiagnosis> diagnose_strokes(NodeClient& client) {
   StrokeDiagnosis d;
   try {
-    d.on = client.read_value<std::uint8_t>({0x2500, 1}, "strokes") != 0;
+    d.on = client.read(object::command) != 0;
   } catch (const NodeRefused& refused) {
     if (refused.code == canopen::AbortCode::no_object) return std::nullopt;
     throw;

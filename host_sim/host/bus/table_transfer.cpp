@@ -32,8 +32,7 @@ void command(NodeClient& client, TableCommand what, const char* name) {
 }
 
 std::string why_not_saved(NodeClient& client) {
-  const auto result = static_cast<node::StoreResult>(
-      client.read_value<std::uint8_t>({0x2600, 12}, "result of the save"));
+  const auto result = client.read<node::StoreResult>(node::object::store_result);
   return result == node::StoreResult::nothing_stored ? "the node has no store" : sentence(result);
 }
 

@@ -8,15 +8,14 @@
 namespace volcomp::host {
 namespace {
 
-constexpr std::uint8_t sub_of(std::size_t input) { return static_cast<std::uint8_t>(input + 1); }
+namespace object = node::object::thermal;
 
 TemperatureDiagnosis diagnose_input(NodeClient& client, std::size_t input) {
   TemperatureDiagnosis d;
-  const auto reading =
-      client.read_value<std::int16_t>({node::kTemperatureObject, sub_of(input)}, "temperature");
+  const std::int16_t reading = client.read(object::reading[input]);
   d.connected = reading != TemperatureInput::kNone;
   d.latest_C = 0.01 * reading;
-  d.state = client.read_value<TemperatureState>({0x2701, sub_of(input)}, "state of a temperature");
+  d.state = client.read<TemperatureState>(object::input[input]);
   return d;
 }
 
@@ -69,18 +68,18 @@ std::string date_text(std::int64_t unix_s) {
 std::optional<ThermalDiagnosis> diagnose_thermal(NodeClient& client) {
   ThermalDiagnosis d;
   try {
-    d.state = client.read_value<node::ThermalState>({0x2703, 1}, "expansion");
+    d.state = client.read<node::ThermalState>(object::state);
   } catch (const NodeRefused& refused) {
     if (refused.code == canopen::AbortCode::no_object) return std::nullopt;
     throw;
   }
-  d.behind_um = 1e-3 * client.read_value<std::uint32_t>({0x2703, 2}, "growth not in the tables");
-  d.followed = client.read_value<std::uint32_t>({0x2703, 3}, "times tables followed");
+  d.behind_um = 1e-3 * client.read(object::behind_nm);
+  d.followed = client.read(object::followed);
   for (std::size_t i = 0; i < d.input.size(); ++i)
     d.input[i] = diagnose_input(client, i);
-  d.unix_s = client.read_value<std::uint32_t>({node::kClockObject, 1}, "time");
-  d.expires_unix_s = client.read_value<std::uint32_t>({node::kClockObject, 2}, "expiry");
-  d.expired = client.read_value<std::uint8_t>({node::kClockObject, 3}, "expired") != 0;
+  d.unix_s = client.read(object::unix_s);
+  d.expires_unix_s = client.read(object::expires_unix_s);
+  d.expired = client.read(object::expired) != 0;
   return d;
 }
 

@@ -18,38 +18,37 @@ double mm_at(const hal::CanFrame& frame, std::size_t at) {
 }  // namespace
 
 void queue_flank(host::SdoChannel& node, const FlankFeature& flank, const FlankFeature& known) {
-  constexpr const char* kWhat = "flank";
-  constexpr std::uint16_t kFlank = 0x2313;
-  if (flank.gear_id != known.gear_id)
-    node.write_value<std::uint32_t>({kFlank, 1}, flank.gear_id, kWhat);
+  namespace object = volcomp::node::object::flank;
+  if (flank.gear_id != known.gear_id) node.write(object::gear, flank.gear_id);
   if (flank.gear_id == 0) return;
   const bool all = known.gear_id == 0;
   if (all || flank.side != known.side)
-    node.write_value<std::int8_t>({kFlank, 2}, static_cast<std::int8_t>(flank.side), kWhat);
+    node.write(object::side, static_cast<std::int8_t>(flank.side));
   if (all || flank.slot != known.slot)
-    node.write_value<std::uint16_t>({kFlank, 3}, static_cast<std::uint16_t>(flank.slot), kWhat);
-  if (all || flank.row != known.row)
-    node.write_value<std::uint8_t>({kFlank, 4}, static_cast<std::uint8_t>(flank.row), kWhat);
+    node.write(object::slot, static_cast<std::uint16_t>(flank.slot));
+  if (all || flank.row != known.row) node.write(object::row, static_cast<std::uint8_t>(flank.row));
   if (all || flank.column != known.column)
-    node.write_value<std::uint8_t>({kFlank, 5}, static_cast<std::uint8_t>(flank.column), kWhat);
+    node.write(object::column, static_cast<std::uint8_t>(flank.column));
   if (all || nm_of(flank.ball_radius) != nm_of(known.ball_radius))
-    node.write_value<std::uint32_t>({kFlank, 6}, nm_of(flank.ball_radius), kWhat);
-  if (all || nm_of(flank.gate) != nm_of(known.gate))
-    node.write_value<std::uint32_t>({kFlank, 7}, nm_of(flank.gate), kWhat);
+    node.write(object::radius_nm, nm_of(flank.ball_radius));
+  if (all || nm_of(flank.gate) != nm_of(known.gate)) node.write(object::gate_nm, nm_of(flank.gate));
 }
 
 void queue_judgement(host::SdoChannel& node, FlankJudgement& judgement) {
   constexpr const char* kWhat = "judgement of a touch";
-  const auto read = [&](std::uint8_t sub, auto take) {
-    node.read({0x2401, sub}, 4, kWhat,
+  namespace object = volcomp::node::object::probe;
+  const auto read = [&](const auto& value, auto take) {
+    node.read(value.id(), 4, kWhat,
               [take](const host::SdoChannel::Bytes& b) { take(host::number(b)); });
   };
-  read(12, [&judgement](std::uint64_t n) {
+  read(object::distance_nm, [&judgement](std::uint64_t n) {
     judgement.distance_nm = static_cast<std::int32_t>(static_cast<std::uint32_t>(n));
   });
-  read(13, [&judgement](std::uint64_t n) { judgement.verdict = static_cast<Reason>(n); });
-  read(14, [&judgement](std::uint64_t n) { judgement.foot = static_cast<Reason>(n); });
-  read(15, [&judgement](std::uint64_t n) { judgement.sequence = static_cast<std::uint32_t>(n); });
+  read(object::flank_verdict,
+       [&judgement](std::uint64_t n) { judgement.verdict = static_cast<Reason>(n); });
+  read(object::foot, [&judgement](std::uint64_t n) { judgement.foot = static_cast<Reason>(n); });
+  read(object::judged,
+       [&judgement](std::uint64_t n) { judgement.sequence = static_cast<std::uint32_t>(n); });
 }
 
 // The mapping of 2401h: node_objects.cpp.

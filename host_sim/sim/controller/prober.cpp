@@ -38,12 +38,13 @@ void Prober::announce(const Vec3& normal, const FlankFeature& flank) {
   host::SdoChannel& node = axes_.controller().node_objects();
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (normal(k) < normal_(k) || normal(k) > normal_(k))
-      node.write({0x2310, static_cast<std::uint8_t>(k + 2)}, bytes_of(normal(k)), "normal");
+      node.write(volcomp::node::object::probe::normal[static_cast<std::size_t>(k)].id(),
+                 bytes_of(normal(k)), "normal");
   }
   normal_ = normal;
   queue_flank(node, flank, flank_);
   flank_ = flank;
-  node.write_value<std::uint32_t>({0x2310, 1}, ++feature_, "feature");
+  node.write(volcomp::node::object::probe::feature, ++feature_);
 }
 
 NodePoint Prober::touch(const Pose& from, const Pose& beyond, const Vec3& normal,
@@ -78,7 +79,7 @@ std::vector<NodePoint> Prober::take_points() {
   host::SdoChannel& node = axes_.controller().node_objects();
   std::vector<NodePoint> points = axes_.controller().take_points();
   for (const NodePoint& point : points)
-    node.write_value<std::uint32_t>({0x2411, 0}, point.sequence, "release of a point");
+    node.write(volcomp::node::object::probe::release, point.sequence);
   finish_transfers();
   return points;
 }

@@ -30,25 +30,13 @@ constexpr std::uint16_t kSdoServer = 0x1200;
 // Titles of objects whose values have names of their own; standard objects as in CiA 301.
 std::string_view title(std::uint16_t index) {
   static const std::map<std::uint16_t, std::string_view> titles{
-      {0x1003, "Pre-defined error field"},
-      {0x1010, "Store parameters"},
-      {0x1011, "Restore default parameters"},
-      {0x1018, "Identity object"},
-      {0x1020, "Verify configuration"},
-      {0x1029, "Error behaviour object"},
+      {0x1003, "Pre-defined error field"},    {0x1010, "Store parameters"},
+      {0x1011, "Restore default parameters"}, {0x1018, "Identity object"},
+      {0x1020, "Verify configuration"},       {0x1029, "Error behaviour object"},
       {0x1200, "SDO server parameter"},
-      {0x2000, "Machine and identity"},
-      {0x2110, "Staged table image"},
-      {0x2112, "Tables: state, last refusal, active image"},
-      {0x2200, "Limits and ramps"},
-      {0x2300, "Probe"},
-      {0x2310, "Feature"},
-      {0x2311, "Face gear"},
-      {0x2313, "Flank to be touched"},
-      {0x2400, "Points"},
-      {0x2401, "Latest point"},
-      {0x2410, "Points that wait"},
-      {0x2600, "Diagnostics"}};
+#define TITLE(index, text) {index, text},
+#include "firmware/node/objects.def"
+  };
   const auto found = titles.find(index);
   return found == titles.end() ? std::string_view{} : found->second;
 }

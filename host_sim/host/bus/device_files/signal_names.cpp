@@ -8,11 +8,13 @@
 #include "comp/tick/touch.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/nmt.hpp"
-#include "firmware/node/node_objects.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/bus/cia402_objects.hpp"
 
 namespace volcomp::host {
 namespace {
+
+namespace object = node::object;
 
 template <class Enum>
 std::pair<unsigned, std::string> named(Enum value, const char* name) {
@@ -37,28 +39,27 @@ const std::vector<SignalText>& texts() {
       {{0x60D1, 0}, "ProbeTime", Quantity::time, "Since the last SYNC"},
       {{0x60D5, 0}, "EdgeCounter", Quantity::count},
       {{0x60F4, 0}, "FollowingError", Quantity::position},
-      {{0x201A, 1}, "Slot", Quantity::count, "From 0"},
-      {{0x201A, 2},
-       "StrokeFlags",
-       Quantity::code,
+      {object::stroke::slot.id(), "Slot", Quantity::count, "From 0"},
+      {object::stroke::flags.id(), "StrokeFlags", Quantity::code,
        "Bits: 0 in the face, 1 end of a stroke, 2 forward, 3 backward"},
-      {{0x201A, 3}, "StrokeFeed", Quantity::speed, "Programmed, magnitude"},
-      {{0x2112, 7}, "ActiveCrc", Quantity::code},
-      {{0x2401, 1}, "PointNumber", Quantity::count},
-      {{0x2401, 2}, "Verdict", Quantity::code, nullptr, touch_verdicts()},
-      {{0x2401, 3}, "VerdictAxis", Quantity::code, "From 1; 0: none in particular"},
-      {{0x2401, 4}, "Feature", Quantity::code, "Low half of 2310h:01"},
-      {{0x2401, 5}, "PointX", Quantity::position},
-      {{0x2401, 6}, "PointY", Quantity::position},
-      {{0x2401, 7}, "PointZ", Quantity::position},
-      {{0x2401, 8}, "PointUncertainty", Quantity::position, "Largest of the three coordinates"},
-      {{0x2600, 1}, "NodeState", Quantity::code, nullptr, node_states()},
-      {{0x2600, 2}, "SyncCounter", Quantity::count},
-      {{0x2600, 3}, "AxisStatusBits", Quantity::code, kStatusBitNames},
-      {{0x2700, 1}, "Temperature0", Quantity::temperature},
-      {{0x2700, 2}, "Temperature1", Quantity::temperature},
-      {{0x2700, 3}, "Temperature2", Quantity::temperature},
-      {{0x2700, 4}, "Temperature3", Quantity::temperature}};
+      {object::stroke::feed_nm_per_s.id(), "StrokeFeed", Quantity::speed, "Programmed, magnitude"},
+      {object::active_crc.id(), "ActiveCrc", Quantity::code},
+      {object::probe::sequence.id(), "PointNumber", Quantity::count},
+      {object::probe::verdict.id(), "Verdict", Quantity::code, nullptr, touch_verdicts()},
+      {object::probe::axis.id(), "VerdictAxis", Quantity::code, "From 1; 0: none in particular"},
+      {object::probe::feature_low.id(), "Feature", Quantity::code, "Low half of 2310h:01"},
+      {object::probe::workpiece_nm.id(), "PointX", Quantity::position},
+      {object::probe::workpiece_nm[1].id(), "PointY", Quantity::position},
+      {object::probe::workpiece_nm[2].id(), "PointZ", Quantity::position},
+      {object::probe::uncertainty_nm.id(), "PointUncertainty", Quantity::position,
+       "Largest of the three coordinates"},
+      {object::state.id(), "NodeState", Quantity::code, nullptr, node_states()},
+      {object::sync_counter.id(), "SyncCounter", Quantity::count},
+      {object::any_status.id(), "AxisStatusBits", Quantity::code, kStatusBitNames},
+      {object::thermal::reading.id(), "Temperature0", Quantity::temperature},
+      {object::thermal::reading[1].id(), "Temperature1", Quantity::temperature},
+      {object::thermal::reading[2].id(), "Temperature2", Quantity::temperature},
+      {object::thermal::reading[3].id(), "Temperature3", Quantity::temperature}};
   return all;
 }
 

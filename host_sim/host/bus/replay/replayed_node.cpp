@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "firmware/canopen/cob_id.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -137,7 +138,8 @@ bool ReplayedNode::awaits(std::uint16_t id) const {
   const canopen::PdoParameters& p = pdos[number].parameters();
   return std::any_of(p.mapping.begin(), p.mapping.begin() + p.count, [](std::uint32_t mapping) {
     const std::uint16_t index = canopen::object_of(mapping).index;
-    return index == 0x2011 || index == 0x2014 || index == 0x2016;
+    return index == node::object::target.index || index == node::object::drive_status.index ||
+           index == node::object::held_offset.index;
   });
 }
 
