@@ -7,15 +7,14 @@
 namespace volcomp {
 namespace {
 
-// Bits at a time: 4 take tables of 64 bytes; 8 take 1 KB and half the time. 64 take 8 KB and an
-// eighth of the time, for computers: the tables of the eight bytes are looked up independently of
-// each other.
+// Bits at a time: 4 take tables of 64 bytes; 64 take 8 KB, for computers: the tables of the eight
+// bytes are looked up independently of each other.
 #ifdef VOLCOMP_CRC_BITS
 constexpr unsigned kBits = VOLCOMP_CRC_BITS;
 #else
 constexpr unsigned kBits = 4;
 #endif
-static_assert(kBits == 4 || kBits == 8 || kBits == 64);
+static_assert(kBits == 4 || kBits == 64);
 constexpr unsigned kStepBits = kBits == 64 ? 8 : kBits;
 constexpr std::size_t kBytes = kBits == 64 ? 8 : 1;
 

@@ -62,6 +62,17 @@ constexpr std::array kLines{
 #undef DOMAIN_LINE
 };
 
+constexpr bool in_order() {
+  for (std::size_t i = 1; i < kLines.size(); ++i) {
+    const NamedEntry &before = kLines[i - 1].entry, &entry = kLines[i].entry;
+    if (before.index > entry.index) return false;
+    if (before.index == entry.index && before.last_sub >= entry.first_sub) return false;
+  }
+  return true;
+}
+static_assert(in_order(),
+              "objects.def: lines stand in the order of index and sub-index, each once");
+
 constexpr std::size_t count_own() {
   std::size_t count = 0;
   for (const Line& line : kLines)

@@ -63,8 +63,7 @@ enum class NodeState : std::uint8_t {
 
 struct NodeObjects {
   canopen::CommunicationObjects communication{};
-#define NODE(index, sub, count, type, member, use, value, range, name) \
-  OBJECT_MEMBER(type, count, member, value)
+#define NODE OBJECT_MEMBER
 #include "firmware/node/objects.def"
   PerAxis<std::array<std::uint16_t, kStatusBits>> began{};  // 2610h… how often each bit began
 

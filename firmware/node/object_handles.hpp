@@ -6,34 +6,29 @@
 
 namespace volcomp::node::object {
 
-#define HANDLE(index, sub, type, member, name) \
+#define HANDLE(index, sub, count, type, member, use, value, range, name) \
   inline constexpr object_lines::Handle<object_lines::type> member{index, sub, name};
 
-#define NODE(index, sub, count, type, member, use, value, range, name) \
-  HANDLE(index, sub, type, member, name)
+#define NODE HANDLE
 #include "firmware/node/objects.def"
 
 namespace probe {
-#define PROBE(index, sub, count, type, member, use, value, range, name) \
-  HANDLE(index, sub, type, member, name)
+#define PROBE HANDLE
 #include "firmware/node/objects.def"
 }  // namespace probe
 
 namespace flank {
-#define FLANK(index, sub, count, type, member, use, value, range, name) \
-  HANDLE(index, sub, type, member, name)
+#define FLANK HANDLE
 #include "firmware/node/objects.def"
 }  // namespace flank
 
 namespace stroke {
-#define STROKE(index, sub, count, type, member, use, value, range, name) \
-  HANDLE(index, sub, type, member, name)
+#define STROKE HANDLE
 #include "firmware/node/objects.def"
 }  // namespace stroke
 
 namespace thermal {
-#define THERMAL(index, sub, count, type, member, use, value, range, name) \
-  HANDLE(index, sub, type, member, name)
+#define THERMAL HANDLE
 #include "firmware/node/objects.def"
 }  // namespace thermal
 

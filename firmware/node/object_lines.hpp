@@ -56,7 +56,10 @@ constexpr canopen::DataType type_of() {
            : k == 4 ? DataType::integer32
                     : DataType::integer64;
   }
-  return k == 1 ? DataType::unsigned8 : k == 2 ? DataType::unsigned16 : DataType::unsigned32;
+  return k == 1   ? DataType::unsigned8
+         : k == 2 ? DataType::unsigned16
+         : k == 4 ? DataType::unsigned32
+                  : DataType::unsigned64;
 }
 
 struct Use {
@@ -80,6 +83,7 @@ struct Handle {
   std::uint8_t sub;
   const char* name;
 
+  // A constructor, so that no {index, sub} of an ObjectId becomes one.
   constexpr Handle(std::uint16_t i, std::uint8_t s, const char* n) : index(i), sub(s), name(n) {}
   // One of several, from 0.
   [[nodiscard]] constexpr Handle operator[](std::size_t which) const {
@@ -125,8 +129,8 @@ namespace volcomp::node {
 using object_lines::each;
 }
 
-// A line as a member of its structure. NOLINTBEGIN(bugprone-macro-parentheses): a name stands in
-// none
-#define OBJECT_MEMBER(type, count, member, value) \
+// A line as a member of its structure.
+// NOLINTBEGIN(bugprone-macro-parentheses): the name of a member
+#define OBJECT_MEMBER(index, sub, count, type, member, use, value, range, name) \
   ::volcomp::node::object_lines::Values<::volcomp::node::object_lines::type, count> member value;
 // NOLINTEND(bugprone-macro-parentheses)

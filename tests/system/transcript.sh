@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What a program says, to compare two versions of it: help of every command, files about the node, and every call that the
-# tests of the command line make, with its output, exit code and JSON files. Times and temporary names are left out.
+# tests of the command line make, with its output, exit code and JSON files. Times, temporary names
+# and checksums of images are left out: an image holds the moment it was built.
 #
 #   tests/system/transcript.sh BUILD_FOLDER FOLDER    then compare two FOLDERs: diff -r BEFORE AFTER
 set -euo pipefail
@@ -22,7 +23,7 @@ help_of() {
 }
 
 # same_every_time: without temporary folders, times, speeds and process numbers.
-same_every_time() { # an image holds the moment it was built
+same_every_time() {
   sed -E -e "s#$work#WORK#g; s#$build#BUILD#g; s#/tmp/tmp\.[A-Za-z0-9]+#WORK#g" \
     -e 's/[0-9.]+ (ns|ms|s)\b/T \1/g; s/"(elapsed|seconds|duration|median|ns)[^"]*": [0-9.e+-]+/"T"/g' \
     -e 's/CRC-32 [0-9A-F]{8}/CRC-32 C/g; s/"crc32": "[0-9A-F]{8}"/"crc32": C/g' \

@@ -34,16 +34,14 @@ constexpr std::array<double, 12> part_on_holder() {
 
 // 2313h: the flank that is touched next. Taken over by writing 2310h:01.
 struct FlankObjects {
-#define FLANK(index, sub, count, type, member, use, value, range, name) \
-  OBJECT_MEMBER(type, count, member, value)
+#define FLANK OBJECT_MEMBER
 #include "firmware/node/objects.def"
 };
 
 // 2304h: radius, tool length, correlation of the two, repeatability, tables, normal, probe delay
 // (ns). 2401h:0C…0F describe the latest point on an announced flank.
 struct ProbeObjects {
-#define PROBE(index, sub, count, type, member, use, value, range, name) \
-  OBJECT_MEMBER(type, count, member, value)
+#define PROBE OBJECT_MEMBER
 #include "firmware/node/objects.def"
   FlankObjects flank{};
 };

@@ -64,8 +64,7 @@ inline constexpr std::array<double, 6> kLearningRules{0.5, 0.0, 1e-3, 2e-3, 1e-3
 inline constexpr std::array<std::uint32_t, 2> kLeastSamples{8, 2};
 
 struct StrokeObjects {
-#define STROKE(index, sub, count, type, member, use, value, range, name) \
-  OBJECT_MEMBER(type, count, member, value)
+#define STROKE OBJECT_MEMBER
 #include "firmware/node/objects.def"
   // By direction: figures of each signal (2512h, 2513h), amplitudes of the lines along Z, then in
   // time (2514h, 2515h), um.

@@ -23,8 +23,7 @@ inline constexpr std::uint16_t kTemperatureObject = 0x2700;
 inline constexpr std::uint16_t kClockObject = 0x2704;
 
 struct ThermalObjects {
-#define THERMAL(index, sub, count, type, member, use, value, range, name) \
-  OBJECT_MEMBER(type, count, member, value)
+#define THERMAL OBJECT_MEMBER
 #include "firmware/node/objects.def"
 
   // --- not on the bus

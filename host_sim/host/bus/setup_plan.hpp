@@ -28,31 +28,14 @@ struct PlannedValue {
 
 using SetupPlan = std::vector<PlannedValue>;
 
-template <class T>
-[[nodiscard]] constexpr canopen::DataType data_type_of() {
-  using canopen::DataType;
-  if constexpr (std::is_same_v<T, double>) return DataType::real64;
-  constexpr bool with_sign = std::is_signed_v<T>;
-  switch (sizeof(T)) {
-    case 1:
-      return with_sign ? DataType::integer8 : DataType::unsigned8;
-    case 2:
-      return with_sign ? DataType::integer16 : DataType::unsigned16;
-    case 4:
-      return with_sign ? DataType::integer32 : DataType::unsigned32;
-    default:
-      return with_sign ? DataType::integer64 : DataType::unsigned64;
-  }
-}
-
 // Appends a value of type T. `name` and `unit` are for people.
 template <class T>
 void plan_value(SetupPlan& plan, canopen::ObjectId object, T value, std::string name,
                 std::string unit = {}) {
   SdoChannel::Bytes bytes(sizeof(T));
   std::memcpy(bytes.data(), &value, sizeof(T));
-  plan.push_back(
-      {object, data_type_of<T>(), number(bytes), std::move(name), std::move(unit), false});
+  plan.push_back({object, node::object_lines::type_of<T>(), number(bytes), std::move(name),
+                  std::move(unit), false});
 }
 
 template <class T>

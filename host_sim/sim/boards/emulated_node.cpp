@@ -19,9 +19,9 @@ constexpr int kEndPatience_ms = 10'000;
 constexpr int kCanBootPatience_ms = 60'000;  // in an emulator inside an emulator
 constexpr std::size_t kLastLines = 24;       // a whole fault report
 constexpr const char* kMonitor = "monitor";
-// The controller has room for five frames. Its processor has fetched four within two thirds of a
-// millisecond of its own time, though it computes a cycle meanwhile; on a bus of 1 Mbit/s they take
-// half of one.
+// The controller has room for five frames. After four its processor gets 10 000 instructions, 0.64
+// ms of its own time, in which it may also compute a cycle; a bus of 1 Mbit/s would take half a
+// millisecond for them.
 constexpr int kCanBurst = 4;
 constexpr std::uint64_t kInstructionsPerBurst = 10'000;
 
