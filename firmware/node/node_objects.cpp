@@ -64,7 +64,8 @@ constexpr std::array kLines{
 
 constexpr bool in_order() {
   for (std::size_t i = 1; i < kLines.size(); ++i) {
-    const NamedEntry &before = kLines[i - 1].entry, &entry = kLines[i].entry;
+    const NamedEntry& before = kLines[i - 1].entry;
+    const NamedEntry& entry = kLines[i].entry;
     if (before.index > entry.index) return false;
     if (before.index == entry.index && before.last_sub >= entry.first_sub) return false;
   }
