@@ -227,7 +227,7 @@ AbortCode Device<Application>::begin_upload(ObjectId object, Span<const std::uin
   if (!found.entry->readable()) return AbortCode::write_only;
   // CiA 301, 7.5.2.4: beyond the errors that have happened there is nothing to read.
   if (object.index == 0x1003 && object.sub > values_.error_count) return AbortCode::no_data;
-  if (found.entry->type == DataType::domain) return application_.read_domain(object, source);
+  if (found.entry->type() == DataType::domain) return application_.read_domain(object, source);
   application_.before_read(object);
   return copy_value(found, source);
 }
@@ -240,7 +240,7 @@ AbortCode Device<Application>::begin_download(ObjectId object, std::size_t annou
     found = objects_.find(object);
     if (found.why != AbortCode::none) return found.why;
     if (found.entry == nullptr || !found.entry->writable()) return AbortCode::read_only;
-    if (found.entry->type == DataType::domain)
+    if (found.entry->type() == DataType::domain)
       return application_.begin_domain(object, announced, sink);
   }
   return room_for(object, found, announced, sink);

@@ -36,8 +36,8 @@ AbortCode DeviceBase::room_for(ObjectId object, const ObjectDictionary::Found& f
     if (why != AbortCode::none) return why;
     most = bytes;
   } else {
-    most = found.entry->type == DataType::visible_string ? found.entry->extra
-                                                         : size_of(found.entry->type);
+    most =
+        found.entry->type() == DataType::visible_string ? found.entry->extra : found.entry->size();
   }
   sink = {scratch_.data(), std::min(most, scratch_.size())};
   return announced > sink.size() ? AbortCode::too_long : AbortCode::none;
@@ -45,7 +45,7 @@ AbortCode DeviceBase::room_for(ObjectId object, const ObjectDictionary::Found& f
 
 bool DeviceBase::is_domain(ObjectId object) const {
   const Entry* const entry = objects_.find(object).entry;  // there is none for a PDO
-  return entry != nullptr && entry->type == DataType::domain;
+  return entry != nullptr && entry->type() == DataType::domain;
 }
 
 // Rules of single communication objects that a range cannot express.

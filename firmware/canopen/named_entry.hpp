@@ -65,7 +65,7 @@ constexpr std::array<Range, Ranges> ranges_of(const std::array<NamedEntry, Rows>
   return ranges;
 }
 
-// At most 255 ranges, strings of at most 255 bytes.
+// At most 255 ranges, strings of at most 255 bytes, values of at most 8 KiB.
 template <std::size_t Rows>
 constexpr std::array<Entry, Rows> rows_of(const std::array<NamedEntry, Rows>& named) {
   std::array<Entry, Rows> rows{};
@@ -73,16 +73,24 @@ constexpr std::array<Entry, Rows> rows_of(const std::array<NamedEntry, Rows>& na
     const NamedEntry& n = named[i];
     const std::size_t extra =
         n.limited() ? ranges_before(named, first_like(named, i)) + 1 : n.capacity;
-    rows[i] = {n.index,
-               n.first_sub,
-               n.last_sub,
-               n.type,
-               n.access,
-               n.traits,
-               static_cast<std::uint8_t>(extra),
-               n.offset};
+    rows[i].index = n.index;
+    rows[i].first_sub = n.first_sub;
+    rows[i].last_sub = n.last_sub;
+    rows[i].offset = n.offset & 0x1FFFU;
+    rows[i].extra = extra & 0xFFU;
+    rows[i].type_bits = static_cast<std::uint32_t>(n.type) & 0x1FU;
+    rows[i].access_bits = static_cast<std::uint32_t>(n.access) & 0x3U;
+    rows[i].traits = n.traits & 0xFU;
   }
   return rows;
+}
+
+template <std::size_t Rows>
+constexpr bool fits(const std::array<NamedEntry, Rows>& named) {
+  for (const NamedEntry& n : named) {
+    if (n.offset > 0x1FFFU || n.capacity > 0xFFU) return false;
+  }
+  return ranges_before(named, Rows) <= 0xFFU;
 }
 
 }  // namespace detail
@@ -90,6 +98,7 @@ constexpr std::array<Entry, Rows> rows_of(const std::array<NamedEntry, Rows>& na
 // What a device carries, made while compiling: each range is there once.
 template <const auto& named>
 class DictionaryOf {
+  static_assert(detail::fits(named));
   static constexpr auto ranges_ =
       detail::ranges_of<detail::ranges_before(named, named.size())>(named);
   static constexpr auto rows_ = detail::rows_of(named);

@@ -12,6 +12,14 @@ struct ObjectId {
   std::uint8_t sub = 0;
 };
 
+// As a PDO maps an object: index << 16 | sub-index << 8 | bits.
+constexpr std::uint32_t mapped(std::uint16_t index, std::uint8_t sub, std::uint8_t bits) {
+  return std::uint32_t{index} << 16U | std::uint32_t{sub} << 8U | bits;
+}
+constexpr ObjectId object_of(std::uint32_t mapping) {
+  return {static_cast<std::uint16_t>(mapping >> 16U), static_cast<std::uint8_t>(mapping >> 8U)};
+}
+
 constexpr bool operator==(ObjectId a, ObjectId b) { return a.index == b.index && a.sub == b.sub; }
 constexpr bool operator!=(ObjectId a, ObjectId b) { return !(a == b); }
 

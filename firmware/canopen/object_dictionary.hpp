@@ -68,6 +68,7 @@ enum Trait : std::uint8_t {
   kReceive = 1U << 0U,   // may be mapped into an RPDO
   kTransmit = 1U << 1U,  // may be mapped into a TPDO
   kStored = 1U << 2U,    // saved by 1010h
+  kFixed = 1U << 3U,     // in OPERATIONAL, if the device wants it so
 };
 
 // Inclusive, of a writable integer; low > high: the whole type.
@@ -80,20 +81,24 @@ struct Range {
 
 // One row: a value, or the elements first_sub…last_sub of an array that follow each other in
 // memory. Sub-index 0 of an index whose rows start at 1 needs no row: it is the highest sub-index.
+// Eight bytes: a node has up to 250 of them in its flash.
 struct Entry {
-  std::uint16_t index = 0;
-  std::uint8_t first_sub = 0;
-  std::uint8_t last_sub = 0;
-  DataType type = DataType::unsigned8;
-  Access access = Access::read_only;
-  std::uint8_t traits = kPlain;
-  std::uint8_t extra = 0;    // bytes of a visible string, or number of the range, from 1; 0: whole
-  std::uint16_t offset = 0;  // of the first element in the struct of values
+  std::uint16_t index;
+  std::uint8_t first_sub;
+  std::uint8_t last_sub;
+  std::uint32_t offset : 13;  // of the first element in the struct of values
+  std::uint32_t extra : 8;    // bytes of a visible string, or number of the range, from 1; 0: whole
+  std::uint32_t type_bits : 5;
+  std::uint32_t access_bits : 2;
+  std::uint32_t traits : 4;
 
+  [[nodiscard]] constexpr DataType type() const { return static_cast<DataType>(type_bits); }
+  [[nodiscard]] std::size_t size() const;  // as size_of(); not inline, for the sake of flash
+  [[nodiscard]] constexpr Access access() const { return static_cast<Access>(access_bits); }
   [[nodiscard]] constexpr bool has(Trait trait) const { return (traits & trait) != 0; }
-  [[nodiscard]] constexpr bool readable() const { return access != Access::write_only; }
+  [[nodiscard]] constexpr bool readable() const { return access() != Access::write_only; }
   [[nodiscard]] constexpr bool writable() const {
-    return access == Access::write_only || access == Access::read_write;
+    return access() == Access::write_only || access() == Access::read_write;
   }
 };
 

@@ -25,7 +25,7 @@ AbortCode resolve(std::uint32_t mapping, PdoKind kind, const ObjectDictionary& o
   if (found.why != AbortCode::none) return found.why;
   const bool allowed = found.entry != nullptr &&
                        found.entry->has(kind == PdoKind::receive ? kReceive : kTransmit) &&
-                       bits == 8U * size_of(found.entry->type);
+                       bits == 8U * found.entry->size();
   if (!allowed) return AbortCode::not_mappable;
   value = found.value;
   return AbortCode::none;

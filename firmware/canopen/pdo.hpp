@@ -18,14 +18,6 @@ inline constexpr std::uint32_t kPdoNoRtr = 1U << 30U;
 inline constexpr std::uint8_t kMostCyclicType = 240;  // 1…240: every n-th SYNC; 0: acyclic, at SYNC
 inline constexpr std::uint8_t kEventType = 254;       // 254, 255: when the application says so
 
-// index << 16 | sub-index << 8 | bits.
-constexpr std::uint32_t mapped(std::uint16_t index, std::uint8_t sub, std::uint8_t bits) {
-  return std::uint32_t{index} << 16U | std::uint32_t{sub} << 8U | bits;
-}
-constexpr ObjectId object_of(std::uint32_t mapping) {
-  return {static_cast<std::uint16_t>(mapping >> 16U), static_cast<std::uint8_t>(mapping >> 8U)};
-}
-
 struct PdoParameters {
   std::uint32_t cob_id = kPdoInvalid;
   std::uint8_t type = kEventType;

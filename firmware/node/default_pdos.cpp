@@ -22,7 +22,7 @@ struct AxisPdo {
 };
 
 template <class T>
-constexpr std::uint32_t at_axis(const object_lines::Handle<T>& object) {
+constexpr std::uint32_t at_axis(const canopen::object_lines::Handle<T>& object) {
   return canopen::mapped(object.index, 0, 8 * sizeof(T));
 }
 

@@ -14,14 +14,6 @@ namespace {
 constexpr canopen::ObjectId kController = object::controller.id();
 constexpr canopen::ObjectId kDrivesReport = object::drives_report.id();
 
-// What the cycle and its supervision rely on may change only while there is no cycle.
-bool is_setting(std::uint16_t index) {
-  return (index >= 0x1005 && index <= 0x1007) || index == 0x1016 || index == 0x1017 ||
-         index == 0x1019 || index == 0x1029 || index == 0x2000 || index == 0x2010 ||
-         (index >= 0x2030 && index <= 0x2033) || (index >= 0x2200 && index <= 0x2205) ||
-         (kWatchesStrokes && index >= 0x2500 && index <= 0x2505);
-}
-
 static_assert(kReceivePdos <= NodeDevice::kMostReceive &&
               kTransmitPdos <= NodeDevice::kMostTransmit);
 
@@ -49,7 +41,7 @@ void Node::power_on(std::uint64_t now_us, ResetCause cause) {
 
 void Node::reset_application() {
   const Preemptible preemptible(core_.preemption);
-  core_.objects = {};
+  core_.objects = default_objects();
   core_.objects.reset_cause = static_cast<std::uint8_t>(reset_cause_);
   core_.compensator.restart({});
   core_.note_machine();
@@ -69,7 +61,8 @@ void Node::reset_communication() {
   c.device_name = {"volcomp compensation"};
   c.hardware_version = {"1"};
   c.software_version = {VOLCOMP_NODE_VERSION};
-  c.identity = {0, kProductCode, 1, 0};  // a vendor id has to be bought
+  c.product_code = kProductCode;
+  c.revision = 1;  // a vendor id has to be bought
   c.producer_heartbeat_ms = 100;
   c.sync_counter_overflow = 240;
   c.emergency_inhibit_100us = 100;
@@ -147,7 +140,9 @@ bool Node::heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint
 // --- objects
 
 AbortCode Node::before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
-  if (is_setting(object.index) && core_.operational()) return AbortCode::device_state;
+  const canopen::Entry* entry = core_.device.objects().find(object).entry;
+  if (entry != nullptr && entry->has(canopen::kFixed) && core_.operational())
+    return AbortCode::device_state;
   AbortCode why = AbortCode::none;
   each_part([&](auto& part) {
     if (why == AbortCode::none) why = part.before_write(object, bytes);
@@ -165,7 +160,7 @@ void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
 
 void Node::before_read(canopen::ObjectId object) {
   each_part([object](auto& part) { part.before_read(object); });
-  if (object.index < 0x2600) return;
+  if (object.index < object::state.index) return;
   NodeObjects& o = core_.objects;
   const Diagnostics<kNodeAxes>& d = core_.compensator.diagnostics();
   o.activations = d.activations;

@@ -4,7 +4,7 @@
 
 #include "firmware/canopen/device.hpp"
 #include "firmware/node/arrivals.hpp"
-#include "firmware/node/node_objects.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "firmware/node/preemption.hpp"
 #include "firmware/node/tables/node_compensator.hpp"
@@ -18,7 +18,7 @@ struct NodeCore {
   // `allowed` may be nullptr: there is one context.
   NodeCore(Node& node, std::uint8_t node_id, Preemption* allowed);
 
-  NodeObjects objects{};
+  NodeObjects objects = default_objects();
   std::array<canopen::Pdo, kReceivePdos> receive{};
   std::array<canopen::Pdo, kTransmitPdos> transmit{};
   Preemption* preemption;

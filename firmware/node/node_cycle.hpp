@@ -24,10 +24,11 @@ class NodeCycle : public NodePart {
   void arrived(std::uint32_t bits);
   canopen::AbortCode before_write(canopen::ObjectId object,
                                   Span<const std::uint8_t> /*bytes*/) const {
-    return object.index == kStartOffset ? check_start(object.sub) : canopen::AbortCode::none;
+    return object.index == object::start_offset.index ? check_start(object.sub)
+                                                      : canopen::AbortCode::none;
   }
   void written(canopen::ObjectId object) {
-    if (object.index == kStartOffset) note_start(object.sub);
+    if (object.index == object::start_offset.index) note_start(object.sub);
   }
 
   // --- tick
@@ -50,8 +51,6 @@ class NodeCycle : public NodePart {
   [[nodiscard]] bool at_rest() const;
 
  private:
-  static constexpr std::uint16_t kStartOffset = 0x2206;
-
   [[nodiscard]] canopen::AbortCode check_start(std::uint8_t sub) const;
   void note_start(std::uint8_t sub);
   [[nodiscard]] bool complete() const;

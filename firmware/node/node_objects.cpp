@@ -9,6 +9,7 @@
 namespace volcomp::node {
 namespace {
 
+namespace lines = canopen::object_lines;
 using canopen::NamedEntry;
 
 // As it is written, in the order of the indices; a part that this node does not have is left out.
@@ -23,9 +24,8 @@ constexpr std::size_t kStroke = offsetof(NodeObjects, stroke);
 constexpr std::size_t kThermal = offsetof(NodeObjects, thermal);
 
 constexpr std::array kLines{
-#define LINE(there, index, sub, count, type, offset, use, range, name)                            \
-  Line{there, object_lines::row<object_lines::type>(index, sub, count, offset, object_lines::use, \
-                                                    object_lines::range, name)},
+#define LINE(there, index, sub, count, type, offset, use, range, name) \
+  Line{there, lines::row<lines::type>(index, sub, count, offset, lines::use, lines::range, name)},
 #define NODE(index, sub, count, type, member, use, value, range, name) \
   LINE(true, index, sub, count, type, offsetof(NodeObjects, member), use, range, name)
 #define PROBE(index, sub, count, type, member, use, value, range, name) \
@@ -38,24 +38,25 @@ constexpr std::array kLines{
 #define THERMAL(index, sub, count, type, member, use, value, range, name)                         \
   LINE(kFollowsTemperature, index, sub, count, type, kThermal + offsetof(ThermalObjects, member), \
        use, range, name)
-#define NODE_ROW(index, sub, count, type, member, which, use, range, name)                         \
-  LINE(true, index, sub, count, type,                                                              \
-       offsetof(NodeObjects, member) + (which) * (count) * sizeof(object_lines::type), use, range, \
-       name)
-#define STROKE_ROW(index, sub, count, type, member, which, use, range, name)                       \
-  LINE(kWatchesStrokes, index, sub, count, type,                                                   \
-       kStroke + offsetof(StrokeObjects, member) + (which) * (count) * sizeof(object_lines::type), \
-       use, range, name)
+#define NODE_ROW(index, sub, count, type, member, which, use, range, name) \
+  LINE(true, index, sub, count, type,                                      \
+       offsetof(NodeObjects, member) + (which) * (count) * sizeof(lines::type), use, range, name)
+#define STROKE_ROW(index, sub, count, type, member, which, use, range, name)                     \
+  LINE(kWatchesStrokes, index, sub, count, type,                                                 \
+       kStroke + offsetof(StrokeObjects, member) + (which) * (count) * sizeof(lines::type), use, \
+       range, name)
 #define LEARNED(index, sub, type, table, member, name)                               \
   LINE(kWatchesStrokes, index, sub, 1, type,                                         \
        kStroke + offsetof(StrokeObjects, learned) + (table) * sizeof(LearnedTable) + \
            offsetof(LearnedTable, member),                                           \
        read, any, name)
 #define DOMAIN_LINE(there, index, sub, count, use, name) \
-  Line{there, object_lines::domain(index, sub, count, object_lines::use, name)},
-#define NODE_DOMAIN(index, sub, count, use, name) DOMAIN_LINE(true, index, sub, count, use, name)
-#define PROBE_DOMAIN(index, sub, count, use, name) DOMAIN_LINE(true, index, sub, count, use, name)
-#define STROKE_DOMAIN(index, sub, count, use, name) \
+  Line{there, lines::domain(index, sub, count, lines::use, name)},
+#define NODE_DOMAIN(index, sub, count, member, use, name) \
+  DOMAIN_LINE(true, index, sub, count, use, name)
+#define PROBE_DOMAIN(index, sub, count, member, use, name) \
+  DOMAIN_LINE(true, index, sub, count, use, name)
+#define STROKE_DOMAIN(index, sub, count, member, use, name) \
   DOMAIN_LINE(kWatchesStrokes, index, sub, count, use, name)
 #include "firmware/node/objects.def"
 #undef LINE
@@ -94,6 +95,8 @@ constexpr auto kOwn = take_own();
 constexpr auto kNamed = canopen::with_communication(kOwn);
 
 }  // namespace
+
+NodeObjects default_objects() { return {}; }
 
 canopen::Dictionary node_dictionary() {
   canopen::Dictionary dictionary = canopen::DictionaryOf<kNamed>::value;

@@ -8,9 +8,9 @@
 #include <type_traits>
 
 #include "firmware/canopen/communication_objects.hpp"
+#include "firmware/canopen/object_lines.hpp"
 #include "firmware/canopen/pdo.hpp"
 #include "firmware/node/node_features.hpp"
-#include "firmware/node/object_lines.hpp"
 #include "firmware/node/probe/probe_objects.hpp"
 #include "firmware/node/strokes/stroke_objects.hpp"
 #include "firmware/node/tables/node_compensator.hpp"
@@ -33,11 +33,6 @@ enum class TableCommand : std::uint8_t {
   discard = 5,     // forget the staged image
 };
 
-inline constexpr canopen::ObjectId kTableImage{0x2110, 1};
-inline constexpr canopen::ObjectId kTableCommand{0x2111, 0};
-
-// 2112h: what became of it.
-constexpr canopen::ObjectId table_verdict(std::uint8_t sub) { return {0x2112, sub}; }
 inline constexpr std::size_t kMostReasonText = 160;  // bytes of 2112h:06
 
 // 2112h:01.
@@ -71,6 +66,9 @@ struct NodeObjects {
   std::conditional_t<kWatchesStrokes, StrokeObjects, NoStrokeObjects> stroke{};
   std::conditional_t<kFollowsTemperature, ThermalObjects, NoThermalObjects> thermal{};
 };
+
+// Written out once in flash; `NodeObjects{}` in every place that needs them.
+[[nodiscard]] NodeObjects default_objects();
 
 [[nodiscard]] canopen::Dictionary node_dictionary();
 // The same for tools; images of devices leave it out.

@@ -6,14 +6,26 @@
 
 namespace volcomp::node::object {
 
+namespace lines = canopen::object_lines;
+using canopen::kErrorHistory;
+using canopen::kHeartbeatConsumers;
+
 #define HANDLE(index, sub, count, type, member, use, value, range, name) \
-  inline constexpr object_lines::Handle<object_lines::type> member{index, sub, name};
+  inline constexpr lines::Handle<lines::type> member{index, sub, count, name};
+// What a handler reads or writes, as bytes.
+#define DOMAIN_HANDLE(index, sub, count, member, use, name) \
+  inline constexpr lines::Handle<lines::u8> member{index, sub, count, name};
+
+#define COMMON HANDLE
+#include "firmware/canopen/communication.def"
 
 #define NODE HANDLE
+#define NODE_DOMAIN DOMAIN_HANDLE
 #include "firmware/node/objects.def"
 
 namespace probe {
 #define PROBE HANDLE
+#define PROBE_DOMAIN DOMAIN_HANDLE
 #include "firmware/node/objects.def"
 }  // namespace probe
 
@@ -24,6 +36,7 @@ namespace flank {
 
 namespace stroke {
 #define STROKE HANDLE
+#define STROKE_DOMAIN DOMAIN_HANDLE
 #include "firmware/node/objects.def"
 }  // namespace stroke
 
@@ -33,5 +46,6 @@ namespace thermal {
 }  // namespace thermal
 
 #undef HANDLE
+#undef DOMAIN_HANDLE
 
 }  // namespace volcomp::node::object

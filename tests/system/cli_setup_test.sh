@@ -48,7 +48,7 @@ is() {
 # --- help, and the plan without a bus
 expect 0 '--dry-run' "$volcomp" setup --help
 expect 0 'nothing is sent' "$volcomp" setup --machine machine.toml --dry-run --json plan.json
-expect 0 '2201h:04  largest offset of A' "$volcomp" setup --machine machine.toml --dry-run
+expect 0 '2201h:04  Largest offset (axis A)' "$volcomp" setup --machine machine.toml --dry-run
 is '683565 2^-32 turn None None' 'the limit of A in the plan' "$(one_value plan.json 2201h:04)"
 expect 0 'cycle of 10000 us' "$volcomp" setup --machine machine.toml --dry-run --cycle-hz 100
 "$volcomp" setup --machine - --dry-run --json - <machine.toml 2>/dev/null | grep -q '"period_us": 4000' ||

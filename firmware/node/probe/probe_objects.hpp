@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "comp/probe/lobing.hpp"
-#include "firmware/node/object_lines.hpp"
+#include "firmware/canopen/object_lines.hpp"
 #include "firmware/node/tables/node_compensator.hpp"
 
 namespace volcomp::node {

@@ -21,7 +21,9 @@ class ProbePart : public NodePart {
     const bool own = object.index >= 0x2300 && object.index < 0x2500;
     return own ? check_write(object, bytes) : canopen::AbortCode::none;
   }
-  static bool owns_domain(canopen::ObjectId object) { return object.index == 0x2410; }
+  static bool owns_domain(canopen::ObjectId object) {
+    return object == object::probe::oldest_point.id();
+  }
   canopen::AbortCode read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source);
 
   // Tick: everything of the cycle has arrived when the next SYNC comes.

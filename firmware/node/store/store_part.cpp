@@ -53,7 +53,6 @@ PdoParameters unpack(const std::uint8_t* bytes) {
 }
 
 // The learned tables are kept in pieces, under their index.
-constexpr std::uint16_t kLearned = 0x2526;
 constexpr std::size_t kPiece = 240;
 
 // Appends records as long as there is room; the sizes of the dictionary leave some.
@@ -76,7 +75,8 @@ class RecordWriter {
   void add_learned(Span<const std::uint8_t> image) {
     std::uint8_t piece = 0;
     for (std::size_t at = 0; at < image.size(); at += kPiece)
-      add(kLearned, piece++, {image.data() + at, std::min(kPiece, image.size() - at)});
+      add(object::stroke::learned_image.index, piece++,
+          {image.data() + at, std::min(kPiece, image.size() - at)});
   }
   [[nodiscard]] std::size_t size() const { return at_; }
 
@@ -142,7 +142,7 @@ std::size_t StorePart::collect_parameters() {
     for (unsigned s = entry.first_sub; s <= entry.last_sub; ++s) {
       const auto sub = static_cast<std::uint8_t>(s);
       const std::uint8_t* const value = core_.device.objects().find({entry.index, sub}).value;
-      writer.add(entry.index, sub, {value, canopen::size_of(entry.type)});
+      writer.add(entry.index, sub, {value, entry.size()});
     }
   }
   for (std::size_t i = 0; i < kReceivePdos; ++i) {
@@ -168,7 +168,7 @@ void StorePart::apply_parameters(Span<const std::uint8_t> stored, bool applicati
     const Span<const std::uint8_t> value{stored.data() + at + kRecordHeader, stored[at + 3]};
     at += kRecordHeader + value.size();
     if (at > stored.size()) break;
-    if (index == kLearned) {
+    if (index == object::stroke::learned_image.index) {
       strokes_.load_learned(value, learned);
       continue;
     }

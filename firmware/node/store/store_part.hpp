@@ -20,8 +20,8 @@ class StorePart : public NodePart {
       : core_(core), tables_(tables), strokes_(strokes), storage_(storage) {}
 
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
-    if (object.index == 0x1010) return save(bytes);
-    return object.index == 0x1011 ? restore(bytes) : canopen::AbortCode::none;
+    if (object == object::store.id()) return save(bytes);
+    return object == object::restore.id() ? restore(bytes) : canopen::AbortCode::none;
   }
   void before_read(canopen::ObjectId object);
 

@@ -10,7 +10,7 @@
 
 #include "comp/strokes/helix_instances.hpp"
 #include "comp/strokes/learning_choice.hpp"
-#include "firmware/node/object_lines.hpp"
+#include "firmware/canopen/object_lines.hpp"
 
 namespace volcomp::node {
 

@@ -12,7 +12,6 @@ namespace {
 
 constexpr canopen::ObjectId kStrokes = object::stroke::command.id();
 constexpr canopen::ObjectId kLearn = object::stroke::learn.id();
-constexpr std::uint16_t kMeans = 0x2516;
 constexpr std::size_t kC = 2;  // of a StrokeService
 
 std::uint8_t number_of(const Status& status) { return static_cast<std::uint8_t>(status.reason); }
@@ -108,7 +107,8 @@ void WatchedStrokes::before_read(canopen::ObjectId object) {
 }
 
 AbortCode WatchedStrokes::read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) {
-  source = object.index == kMeans ? service_.means(object.sub) : learned_image();
+  source =
+      object.index == object::stroke::means.index ? service_.means(object.sub) : learned_image();
   return source.empty() ? AbortCode::no_data : AbortCode::none;
 }
 

@@ -26,10 +26,10 @@ class TableDownload : public NodePart {
 
   void reset();
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
-    if (object != kTableCommand) return canopen::AbortCode::none;
+    if (object != object::table_command.id()) return canopen::AbortCode::none;
     return command(static_cast<TableCommand>(bytes[0]));
   }
-  static bool owns_domain(canopen::ObjectId object) { return object == kTableImage; }
+  static bool owns_domain(canopen::ObjectId object) { return object == object::image.id(); }
   // The staged image; no_data when there is no complete one.
   canopen::AbortCode read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) const;
   // Refuses out_of_memory, device_state (tables are being handed over).

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "comp/tick/temperature_input.hpp"
-#include "firmware/node/object_lines.hpp"
+#include "firmware/canopen/object_lines.hpp"
 
 namespace volcomp::node {
 
@@ -18,9 +18,6 @@ enum class ThermalState : std::uint8_t {
   held = 3,       // the image buffer holds other tables: the axes keep their length until some are
                   // activated
 };
-
-inline constexpr std::uint16_t kTemperatureObject = 0x2700;
-inline constexpr std::uint16_t kClockObject = 0x2704;
 
 struct ThermalObjects {
 #define THERMAL OBJECT_MEMBER

@@ -12,7 +12,7 @@ FollowedTemperatures::FollowedTemperatures(NodeCore& core, TableDownload& tables
 void FollowedTemperatures::arrived(std::uint32_t bits) {
   for (std::size_t i = 0; i < kTemperatureInputs; ++i) {
     if ((bits & bit(Arrival::kTemperature + i)) != 0)
-      service_.arrived({kTemperatureObject, static_cast<std::uint8_t>(i + 1)});
+      service_.arrived(object::thermal::reading[i].id());
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "firmware/node/object_handles.hpp"
+
 namespace volcomp::node {
 
 namespace {
@@ -17,11 +19,11 @@ std::uint32_t distance_s(std::uint32_t a, std::uint32_t b) { return std::min(a -
 }  // namespace
 
 void ThermalService::arrived(canopen::ObjectId object) {
-  if (object.index == kTemperatureObject) {
+  if (object.index == object::thermal::reading.index) {
     const std::size_t input = object.sub - 1U;
     inputs_[input].take(objects_.reading[input], now_s_);
   }
-  if (object.index == kClockObject) set_clock(objects_.unix_s);
+  if (object.index == object::thermal::unix_s.index) set_clock(objects_.unix_s);
 }
 
 bool ThermalService::time_of_day(std::uint32_t midnight_ms, std::uint16_t days_1984) {

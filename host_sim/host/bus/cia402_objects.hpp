@@ -37,10 +37,8 @@ inline constexpr std::uint32_t kNoFollowingWindow = UINT32_MAX;  // 6065h: not s
 inline constexpr std::uint32_t kNanometre = 0xF701'0000;  // 10⁻⁹, metre
 inline constexpr std::uint32_t kIncrement = 0x00B5'0000;  // 10⁰, increment; 6092h: 2³¹ in a turn
 
-struct Ratio {
-  std::uint32_t numerator = 1;
-  std::uint32_t denominator = 1;
-};
+inline constexpr std::array<std::int16_t, 2> kProbeInputs{
+    1, 2};  // 60D0h: the input each probe is wired to
 
 // What one edge of one probe leaves behind.
 struct TouchProbeLatch {
@@ -50,9 +48,8 @@ struct TouchProbeLatch {
 };
 
 struct TouchProbeObjects {
-  std::uint16_t function = 0;                // 60B8h
-  std::uint16_t status = 0;                  // 60B9h
-  std::array<std::int16_t, 2> source{1, 2};  // 60D0h: the input each probe is wired to
+#define TOUCH OBJECT_MEMBER
+#include "host_sim/host/bus/cia402.def"
   TouchProbeLatch positive_1;
   TouchProbeLatch negative_1;
   TouchProbeLatch positive_2;
@@ -61,32 +58,9 @@ struct TouchProbeObjects {
 
 struct Cia402Objects {
   canopen::CommunicationObjects communication{};
-  std::int16_t abort_connection = 3;                   // 6007h
-  std::uint16_t error_code = 0;                        // 603Fh: of the last fault
-  std::uint16_t controlword = 0;                       // 6040h
-  std::uint16_t statusword = 0;                        // 6041h
-  std::int16_t quick_stop_option = kQuickStopThenOff;  // 605Ah
-  std::int16_t fault_option = kFaultBrake;             // 605Eh
-  std::int8_t mode = 8;                                // 6060h
-  std::int8_t mode_display = 8;                        // 6061h
-  std::int32_t demand = 0;                             // 6062h
-  std::int32_t actual = 0;                             // 6064h
-  std::uint32_t following_window = 0;                  // 6065h
-  std::int32_t target = 0;                             // 607Ah
-  std::int32_t home_offset = 0;  // 607Ch: reading of the home position; until written, the reading
-  std::array<std::int32_t, 2> software_limit{};  // 607Dh: of the demand, linear axes only
-  std::uint32_t quick_stop_deceleration = 0;     // 6085h: position units/s²
-  Ratio encoder_resolution;                      // 608Fh: increments, motor revolutions
-  Ratio gear;                                    // 6091h: motor, shaft revolutions
-  Ratio feed;                                    // 6092h: position units, shaft revolutions
-  std::int8_t homing_method = kHomeHere;         // 6098h
-  std::uint32_t position_unit = kNanometre;      // 60A8h
-  std::int32_t offset = 0;                       // 60B0h
-  TouchProbeObjects probe;                       // 60B8h…60BDh, 60D0h…60D8h
-  std::uint8_t cycle_value = 1;                  // 60C2h:01
-  std::int8_t cycle_exponent = -3;               // 60C2h:02; period = value · 10^exponent s
-  std::int32_t following_error = 0;              // 60F4h
-  std::uint32_t supported_modes = 0x00A0;        // 6502h: homing, cyclic synchronous position
+#define DRIVE OBJECT_MEMBER
+#include "host_sim/host/bus/cia402.def"
+  TouchProbeObjects probe;
 };
 
 [[nodiscard]] canopen::Dictionary cia402_dictionary();

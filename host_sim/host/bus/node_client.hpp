@@ -46,12 +46,15 @@ class NodeClient {
   }
   // By its handle (object_handles.hpp), perhaps as another type.
   template <class T>
-  [[nodiscard]] T read(const node::object_lines::Handle<T>& object) {
+  [[nodiscard]] T read(const canopen::object_lines::Handle<T>& object) {
     return read_value<T>(object.id(), object.name);
   }
   template <class As, class T>
-  [[nodiscard]] As read(const node::object_lines::Handle<T>& object) {
+  [[nodiscard]] As read(const canopen::object_lines::Handle<T>& object) {
     return static_cast<As>(read_value<T>(object.id(), object.name));
+  }
+  [[nodiscard]] std::string read(const canopen::object_lines::Handle<char>& object) {
+    return read_text(object.id(), object.count, object.name);
   }
   // Up to `most` characters.
   [[nodiscard]] std::string read_text(canopen::ObjectId object, std::size_t most,

@@ -11,45 +11,33 @@
 namespace volcomp::host {
 namespace {
 
+namespace object = node::object::probe;
+
 constexpr double kNsPerUs = 1e3;
 
-void plan_ns(SetupPlan& plan, canopen::ObjectId object, double us, std::string name) {
-  plan_value<std::uint32_t>(plan, object, static_cast<std::uint32_t>(std::llround(us * kNsPerUs)),
-                            std::move(name), "ns");
-}
+std::uint32_t ns(double us) { return static_cast<std::uint32_t>(std::llround(us * kNsPerUs)); }
 
-void plan_nm(SetupPlan& plan, const node::object_lines::Handle<double>& object, double mm,
-             const char* name) {
-  plan_value(plan, object, kNmPerMm * mm, name, "nm");
+void plan_nm(SetupPlan& plan, const canopen::object_lines::Handle<double>& object, double mm) {
+  plan_value(plan, object, kNmPerMm * mm, "nm");
 }
 
 void plan_frame(SetupPlan& plan, const Frame& frame) {
   std::size_t next = 0;
   for (Eigen::Index r = 0; r < 3; ++r) {
     for (Eigen::Index c = 0; c < 3; ++c)
-      plan_value(plan, node::object::probe::workpiece[next++], frame.R(r, c),
-                 "rotation of the part");
+      plan_value(plan, object::workpiece[next++], frame.R(r, c));
   }
   for (Eigen::Index r = 0; r < 3; ++r)
-    plan_nm(plan, node::object::probe::workpiece[next++], frame.t(r), "origin of the part");
+    plan_nm(plan, object::workpiece[next++], frame.t(r));
 }
 
 void plan_gear(SetupPlan& plan, const NodeProbe& probe) {
   const FaceGear& g = probe.gear;
-  const std::array<double, 11> numbers{static_cast<double>(g.shaper_teeth),
-                                       static_cast<double>(g.teeth),
-                                       g.module,
-                                       g.pressure_angle,
-                                       g.addendum,
-                                       g.shaper_addendum,
-                                       g.r_in,
-                                       g.r_out,
-                                       g.relief.amount,
-                                       g.relief.begin,
-                                       g.relief.length};
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    plan_value(plan, node::object::probe::gear_number[i], numbers[i], "number of the face gear");
-  plan_value(plan, node::object::probe::gear, probe.gear_id, "face gear");
+  plan_values(plan, object::gear_number,
+              std::array{static_cast<double>(g.shaper_teeth), static_cast<double>(g.teeth),
+                         g.module, g.pressure_angle, g.addendum, g.shaper_addendum, g.r_in, g.r_out,
+                         g.relief.amount, g.relief.begin, g.relief.length});
+  plan_value(plan, object::gear, probe.gear_id);
 }
 
 }  // namespace
@@ -66,24 +54,17 @@ NodeProbe node_probe(const MachineFile& machine) {
 
 SetupPlan probe_plan(const NodeProbe& probe) {
   SetupPlan plan;
-  plan_ns(plan, node::object::probe::delay_ns.id(), probe.delay_us,
-          "delay from the contact to the edge");
+  plan_value(plan, object::delay_ns, ns(probe.delay_us));
   for (std::size_t a = 0; a < node::kNodeAxes; ++a)
-    plan_ns(plan, node::object::probe::latch_delay_ns[a].id(), probe.latch_delay_us[a],
-            fmt::format("delay from the edge to the latch of axis {}", a + 1));
+    plan_value(plan, object::latch_delay_ns[a], ns(probe.latch_delay_us[a]));
   for (std::size_t k = 0; k < kLobingTerms; ++k)
-    plan_nm(plan, node::object::probe::lobing[k], probe.radius.coefficient[k],
-            "effective radius, by direction");
+    plan_nm(plan, object::lobing[k], probe.radius.coefficient[k]);
   plan_frame(plan, probe.workpiece);
-  plan_nm(plan, node::object::probe::uncertainty[0], probe.radius_uncertainty,
-          "standard uncertainty of the radius");
-  plan_nm(plan, node::object::probe::uncertainty[1], probe.tool_length_uncertainty,
-          "standard uncertainty of the tool length");
-  plan_nm(plan, node::object::probe::uncertainty[3], probe.repeatability,
-          "repeatability of the probe");
+  plan_nm(plan, object::uncertainty[0], probe.radius_uncertainty);
+  plan_nm(plan, object::uncertainty[1], probe.tool_length_uncertainty);
+  plan_nm(plan, object::uncertainty[3], probe.repeatability);
   if (probe.gear_id != 0) plan_gear(plan, probe);
-  plan_value(plan, node::object::probe::command, static_cast<std::uint8_t>(node::ProbeCommand::on),
-             "probe on with these settings");
+  plan_value(plan, object::command, static_cast<std::uint8_t>(node::ProbeCommand::on));
   return plan;
 }
 

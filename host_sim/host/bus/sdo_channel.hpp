@@ -31,7 +31,7 @@ class SdoChannel {
     write(object, std::move(bytes), std::move(what), std::move(done));
   }
   template <class T>
-  void write(const node::object_lines::Handle<T>& object, std::common_type_t<T> value) {
+  void write(const canopen::object_lines::Handle<T>& object, std::common_type_t<T> value) {
     write_value<T>(object.id(), value, object.name);
   }
   // `most`: bytes the value may have.

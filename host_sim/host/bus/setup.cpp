@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "comp/tables/image.hpp"
-#include "firmware/node/node_objects.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -17,7 +17,7 @@ namespace {
 void check_device(NodeClient& client, SetupResult& result) {
   std::uint32_t product = 0;
   try {
-    product = client.read_value<std::uint32_t>({0x1018, 2}, "product code");
+    product = client.read(node::object::product_code);
   } catch (const NodeRefused&) {  // only 1018h:01 is mandatory (CiA 301, 7.5.2.21)
   }
   if (product != node::kProductCode)
@@ -25,7 +25,7 @@ void check_device(NodeClient& client, SetupResult& result) {
         fmt::format("node {} is no compensation node: its product code (1018h:02) is "
                     "{:08X}h instead of {:08X}h",
                     client.node_id(), product, node::kProductCode));
-  result.device = client.read_text({0x1008, 0}, 24, "device name");
+  result.device = client.read(node::object::device_name);
 }
 
 // A node without heartbeat refuses its settings itself while it runs.
@@ -76,7 +76,7 @@ void check_machine(NodeClient& client, const MachineFile& machine) {
 
 // CiA 301, 7.5.2.13: bit 0 of 1010h:01 means that the device saves on command.
 void check_store(NodeClient& client) {
-  const auto saves = client.read_value<std::uint32_t>({0x1010, 1}, "store");
+  const auto saves = client.read(node::object::store);
   if ((saves & 1U) == 0)
     throw UserError(
         fmt::format("node {} has no store to be written (1010h:01): its settings would be lost "

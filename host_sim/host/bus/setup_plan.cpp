@@ -12,6 +12,8 @@
 namespace volcomp::host {
 namespace {
 
+namespace object = node::object;
+
 // 1016h (CiA 301, 7.5.2.19): node id in bits 16 to 22, time in ms in the lower half.
 std::uint32_t supervision(std::uint8_t node, const BusSettings& b) {
   return std::uint32_t{node} << 16U | b.heartbeat_timeout_ms;
@@ -22,47 +24,35 @@ std::string heartbeat_name(const std::string& of, std::uint8_t node, const BusSe
                      b.heartbeat_timeout_ms);
 }
 
-constexpr std::uint8_t sub_of_axis(std::size_t axis) { return static_cast<std::uint8_t>(axis + 1); }
-
-// Sub-index 1 of 1016h is the controller.
-constexpr std::uint8_t sub_of_heartbeat(std::size_t axis) {
-  return static_cast<std::uint8_t>(axis + 2);
-}
-
 void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
   const BusAxis& a = b.axes[axis];
   const AxisLimits& l = b.limits.axis.at(axis);
   const char* const position = a.rotary ? "2^-40 turn" : "nm";
   const char* const offset = a.rotary ? "2^-32 turn" : "nm";
-  const char* const offset_rate = a.rotary ? "2^-32 turn/cycle" : "nm/cycle";
-  const auto name = [&a](const char* before, const char* after = "") {
-    return fmt::format("{} {}{}", before, a.letter, after);
+  const auto set = [&](const auto& of_axes, auto value, const char* unit = "") {
+    plan_value(plan, of_axes[axis], value, unit);
+    plan.back().name += fmt::format(" (axis {})", a.letter);
   };
-  plan_bits<std::uint32_t>(plan, {0x1016, sub_of_heartbeat(axis)}, supervision(a.drive, b),
-                           heartbeat_name(name("drive"), a.drive, b));
-  plan_value(plan, node::object::drive[axis], a.drive, name("node id of the drive of"));
-  plan_value(plan, node::object::scale_numerator[axis], a.scale_numerator,
-             name("numerator of the drive unit of"), position);
-  plan_value(plan, node::object::scale_denominator[axis], a.scale_denominator,
-             name("denominator of the drive unit of"));
-  plan_value(plan, node::object::rotary[axis], a.rotary ? 1 : 0,
-             name("kind of", " (0 linear, 1 rotary)"));
-  plan_bits<std::uint16_t>(plan, node::object::homed_mask[axis].id(), kStatusReferenced,
-                           name("bits of 6041h of", " that mean referenced"));
-  plan_value(plan, node::object::limit[axis], l.limit, name("largest offset of"), offset);
-  plan_value(plan, node::object::slew[axis], l.rate, name("fastest change of the offset of"),
-             offset_rate);
-  plan_value(plan, node::object::soft_rate[axis], l.soft_rate,
-             name("gentle change of the offset of"), offset_rate);
-  plan_value(plan, node::object::hysteresis[axis], l.hysteresis,
-             name("hysteresis of the direction of"), offset);
-  plan_value(plan, node::object::max_step[axis], l.max_step,
-             name("largest plausible step of", " (0: unchecked)"), position);
+  // The first is the controller.
+  plan_bits<std::uint32_t>(plan, object::consumer_heartbeat[axis + 1].id(), supervision(a.drive, b),
+                           heartbeat_name(fmt::format("drive {}", a.letter), a.drive, b));
+  set(object::drive, a.drive);
+  set(object::scale_numerator, a.scale_numerator, position);
+  set(object::scale_denominator, a.scale_denominator);
+  set(object::rotary, static_cast<std::uint8_t>(a.rotary));
+  set(object::homed_mask, kStatusReferenced);
+  plan.back().hexadecimal = true;
+  set(object::limit, l.limit, offset);
+  set(object::slew, l.rate, offset);
+  set(object::soft_rate, l.soft_rate, offset);
+  set(object::hysteresis, l.hysteresis, offset);
+  set(object::max_step, l.max_step, position);
 }
 
 // CiA 301, 7.5.2.37: the inhibit time may change only while the PDO does not exist.
 void plan_status_every_cycle(SetupPlan& plan, const BusSettings& b) {
-  constexpr auto kStatus = static_cast<std::uint16_t>(0x1800 + node::kStatusPdo);
+  constexpr auto kStatus =
+      static_cast<std::uint16_t>(canopen::PdoTable::kTransmitCommunication + node::kStatusPdo);
   const std::uint32_t id = canopen::kPdoNoRtr | (canopen::kTpdo1 + std::uint32_t{b.node});
   plan_bits<std::uint32_t>(plan, {kStatus, 1}, id | canopen::kPdoInvalid, "status PDO off");
   plan_value<std::uint16_t>(plan, {kStatus, 3}, 0, "inhibit time of the status PDO", "0.1 ms");
@@ -84,11 +74,13 @@ SdoChannel::Bytes PlannedValue::bytes() const {
 SetupPlan common_plan(const BusSettings& settings) {
   SetupPlan plan;
   // The counter may change only while there is no period (CiA 301, 7.5.2.22).
-  plan_value<std::uint32_t>(plan, {0x1006, 0}, 0, "cycle period, for the next value", "us");
-  plan_value<std::uint8_t>(plan, {0x1019, 0}, 240, "SYNC counter overflow");
-  plan_value<std::uint32_t>(plan, {0x1006, 0}, settings.period_us, "cycle period", "us");
-  plan_value<std::uint16_t>(plan, {0x1017, 0}, settings.heartbeat_ms, "own heartbeat", "ms");
-  plan_bits<std::uint32_t>(plan, {0x1016, 1}, supervision(settings.controller, settings),
+  plan_value(plan, object::cycle_period_us, 0, "us");
+  plan.back().name += ", for the next value";
+  plan_value(plan, object::sync_counter_overflow, 240);
+  plan_value(plan, object::cycle_period_us, settings.period_us, "us");
+  plan_value(plan, object::producer_heartbeat_ms, settings.heartbeat_ms, "ms");
+  plan_bits<std::uint32_t>(plan, object::consumer_heartbeat.id(),
+                           supervision(settings.controller, settings),
                            heartbeat_name("the controller", settings.controller, settings));
   return plan;
 }
@@ -98,17 +90,13 @@ SetupPlan node_plan(const BusSettings& settings) {
     throw UserError(fmt::format("a compensation node has {} axes, the machine {}", node::kNodeAxes,
                                 settings.axes.size()));
   SetupPlan plan = common_plan(settings);
-  plan_value(plan, node::object::machine_id, settings.machine_id, "machine id");
-  plan_value(plan, node::object::controller, settings.controller, "node id of the controller");
-  plan_value(plan, node::object::position_source, static_cast<std::uint8_t>(settings.limits.source),
-             "position source (0 target, 1 actual)");
-  plan_value(plan, node::object::ramp_cycles, settings.limits.ramp_ticks, "ramp", "cycles");
-  plan_value(plan, node::object::drop_cycles, settings.limits.stale_drop_ticks,
-             "missing positions until an offset is dropped", "cycles");
-  plan_value(plan, node::object::deadline_us, settings.deadline_us,
-             "deadline after SYNC (0: 60 % of the period)", "us");
-  if (!settings.drives_report_offsets)
-    plan_value(plan, node::object::drives_report, 0, "drives report their offsets");
+  plan_value(plan, object::machine_id, settings.machine_id);
+  plan_value(plan, object::controller, settings.controller);
+  plan_value(plan, object::position_source, static_cast<std::uint8_t>(settings.limits.source));
+  plan_value(plan, object::ramp_cycles, settings.limits.ramp_ticks);
+  plan_value(plan, object::drop_cycles, settings.limits.stale_drop_ticks);
+  plan_value(plan, object::deadline_us, settings.deadline_us);
+  if (!settings.drives_report_offsets) plan_value(plan, object::drives_report, 0);
   for (std::size_t i = 0; i < settings.axes.size(); ++i)
     plan_axis(plan, settings, i);
   if (settings.status_every_cycle) plan_status_every_cycle(plan, settings);
@@ -122,10 +110,10 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
   // A node is supervised in one place only (CiA 301, 7.5.2.19): an older set-up with the same
   // drives in another order would refuse the new one.
   for (std::size_t i = 0; i <= node::kNodeAxes; ++i)
-    plan_bits<std::uint32_t>(plan, {0x1016, static_cast<std::uint8_t>(i + 1)}, 0,
+    plan_bits<std::uint32_t>(plan, object::consumer_heartbeat[i].id(), 0,
                              "no heartbeat is awaited");
   for (std::size_t i = settings.axes.size(); i < node::kNodeAxes; ++i)
-    plan_value(plan, node::object::drive[i], 0, fmt::format("no drive of axis {}", i + 1));
+    plan_value(plan, object::drive[i], 0, fmt::format("(no axis {})", i + 1));
   append(plan, node_plan(settings));
   if (probe != nullptr)
     append(plan, probe_plan(*probe));

@@ -34,17 +34,27 @@ void plan_value(SetupPlan& plan, canopen::ObjectId object, T value, std::string 
                 std::string unit = {}) {
   SdoChannel::Bytes bytes(sizeof(T));
   std::memcpy(bytes.data(), &value, sizeof(T));
-  plan.push_back({object, node::object_lines::type_of<T>(), number(bytes), std::move(name),
+  plan.push_back({object, canopen::object_lines::type_of<T>(), number(bytes), std::move(name),
                   std::move(unit), false});
 }
 
+// The same under the name that it has in the dictionary.
 template <class T>
-void plan_value(SetupPlan& plan, const node::object_lines::Handle<T>& object,
-                std::common_type_t<T> value, std::string name, std::string unit = {}) {
-  plan_value<T>(plan, object.id(), value, std::move(name), std::move(unit));
+void plan_value(SetupPlan& plan, const canopen::object_lines::Handle<T>& object,
+                std::common_type_t<T> value, std::string unit = {}) {
+  plan_value<T>(plan, object.id(), value, object.name, std::move(unit));
 }
 
-// The same of bits and identifiers: shown in hexadecimal.
+// Values of an object from its first sub-index on.
+template <class T, class Values>
+void plan_values(SetupPlan& plan, const canopen::object_lines::Handle<T>& object,
+                 const Values& values) {
+  std::size_t next = 0;
+  for (const auto& value : values)
+    plan_value(plan, object[next++], static_cast<T>(value));
+}
+
+// Bits and identifiers: shown in hexadecimal.
 template <class T>
 void plan_bits(SetupPlan& plan, canopen::ObjectId object, T value, std::string name) {
   plan_value<T>(plan, object, value, std::move(name));

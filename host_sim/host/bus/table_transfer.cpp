@@ -13,7 +13,6 @@
 namespace volcomp::host {
 
 using canopen::AbortCode;
-using node::table_verdict;
 using node::TableCommand;
 
 namespace {
@@ -21,7 +20,7 @@ namespace {
 // Prefers the node's reason, which is more specific than the abort code.
 void command(NodeClient& client, TableCommand what, const char* name) {
   try {
-    client.write(node::kTableCommand, {static_cast<std::uint8_t>(what)}, name);
+    client.write(node::object::table_command.id(), {static_cast<std::uint8_t>(what)}, name);
   } catch (const NodeRefused& refused) {
     if (refused.code == AbortCode::general)
       throw NodeRefused(fmt::format("node {}: {}: {} [abort {:08X}h]", client.node_id(), name,
@@ -50,11 +49,11 @@ std::vector<std::uint8_t> read_image_file(const std::filesystem::path& path) {
 
 void send_image(NodeClient& client, const std::vector<std::uint8_t>& image,
                 const NodeClient::Progress& progress) {
-  client.write(node::kTableImage, image, "table image", progress);
+  client.write(node::object::image.id(), image, "table image", progress);
 }
 
 std::vector<std::uint8_t> fetch_image(NodeClient& client) {
-  return client.read(node::kTableImage, node::kImageCapacity, "table image");
+  return client.read(node::object::image.id(), node::kImageCapacity, "table image");
 }
 
 void arm_tables(NodeClient& client) {
@@ -68,7 +67,7 @@ void activate_tables(NodeClient& client) {
 
 void store_all(NodeClient& client) {
   try {
-    client.write({0x1010, 1}, {'s', 'a', 'v', 'e'}, "saving");
+    client.write(node::object::store.id(), {'s', 'a', 'v', 'e'}, "saving");
   } catch (const NodeRefused& refused) {
     if (refused.code == AbortCode::device_state)
       throw NodeRefused(fmt::format("node {}: saving: only while the machine stands and the node "
@@ -83,24 +82,22 @@ void store_all(NodeClient& client) {
 }
 
 ActiveTables active_tables(NodeClient& client) {
-  return {
-      client.read_value<std::uint32_t>(table_verdict(7), "CRC of the active tables"),
-      client.read_value<std::uint32_t>(table_verdict(8), "sequence number of the active tables")};
+  return {client.read(node::object::active_crc), client.read(node::object::active_sequence)};
 }
 
 std::string refusal(NodeClient& client) {
   static constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
-  const auto reason = client.read_value<std::uint8_t>(table_verdict(2), "reason");
+  const auto reason = client.read(node::object::reason);
   if (reason == 0) return {};
-  const auto axis = client.read_value<std::uint8_t>(table_verdict(3), "axis of the refusal");
-  const auto index = client.read_value<std::int16_t>(table_verdict(4), "place of the refusal");
+  const auto axis = client.read(node::object::where_axis);
+  const auto index = client.read(node::object::where_index);
   // -1, as all bits set, is beyond every channel.
-  const auto channel = client.read_value<std::uint8_t>(table_verdict(5), "channel of the refusal");
+  const auto channel = client.read<std::uint8_t>(node::object::where_channel);
   std::vector<std::string> place;
   if (axis != 0) place.push_back(fmt::format("axis {}", static_cast<char>(axis)));
   if (index >= 0) place.push_back(fmt::format("entry {}", index + 1));
   if (channel < kChannels.size()) place.push_back(fmt::format("channel {}", kChannels[channel]));
-  std::string text = client.read_text(table_verdict(6), node::kMostReasonText, "reason in words");
+  std::string text = client.read(node::object::reason_text);
   if (text.empty()) text = sentence(static_cast<Reason>(reason));  // of a board, which has none
   return place.empty() ? text : fmt::format("{}: {}", fmt::join(place, ", "), text);
 }

@@ -3,26 +3,23 @@
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/host/bus/device_files/eds_objects.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/io/rounded.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
 namespace {
 
+namespace object = node::object::probe;
 using nlohmann::json;
 
-constexpr std::uint16_t kEffectiveRadius = 0x2302;
-constexpr std::uint16_t kUncertainties = 0x2304;
-constexpr std::uint8_t kOfRadius = 1;
-constexpr std::uint8_t kOfRepeatability = 4;
+constexpr std::size_t kOfRadius = 0;
+constexpr std::size_t kOfRepeatability = 3;
 constexpr double kExpanded = 2.0;  // k
 
-// The dictionary counts the values of an array: "Effective radius by direction, nm 1".
-std::string dictionary_name(std::uint16_t index) {
-  for (const EdsObject& object : node_eds_objects())
-    if (object.index == index) return object.name;
-  throw UserError(fmt::format("the node has no object {:04X}h", index));
+NodeSetting setting_of(const canopen::object_lines::Handle<double>& object, double mm,
+                       const std::string& which = "") {
+  return {object.index, object.sub, object.name + which, kNmPerMm * mm, "nm"};
 }
 
 std::string object_text(const NodeSetting& s) {
@@ -53,15 +50,12 @@ std::string uncertainty_method(const ProbeCalibration& c, const ProbeArtefact& a
 
 std::vector<NodeSetting> probe_settings(const ProbeCalibration& calibration) {
   std::vector<NodeSetting> settings;
-  const std::string radius = dictionary_name(kEffectiveRadius);
   for (std::size_t k = 0; k < kLobingTerms; ++k)
-    settings.push_back({kEffectiveRadius, static_cast<std::uint8_t>(k + 1), radius,
-                        kNmPerMm * calibration.radius.coefficient[k], "nm"});
-  const std::string uncertainty = dictionary_name(kUncertainties);
-  settings.push_back({kUncertainties, kOfRadius, uncertainty + ": effective radius",
-                      kNmPerMm * calibration.u_map, "nm"});
-  settings.push_back({kUncertainties, kOfRepeatability, uncertainty + ": repeatability",
-                      kNmPerMm * calibration.repeatability, "nm"});
+    settings.push_back(setting_of(object::lobing[k], calibration.radius.coefficient[k]));
+  settings.push_back(
+      setting_of(object::uncertainty[kOfRadius], calibration.u_map, ": effective radius"));
+  settings.push_back(setting_of(object::uncertainty[kOfRepeatability], calibration.repeatability,
+                                ": repeatability"));
   return settings;
 }
 

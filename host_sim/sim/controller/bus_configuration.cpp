@@ -10,7 +10,7 @@
 #include "comp/core/crc32.hpp"
 #include "comp/core/units.hpp"
 #include "firmware/canopen/cob_id.hpp"
-#include "firmware/node/node_objects.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/bus/setup_plan.hpp"
 #include "host_sim/sim/controller/bus_controller.hpp"
 
@@ -108,7 +108,8 @@ void BusController::configure_drive(Station& s, std::size_t axis) {
   host::queue_plan(sdo, host::common_plan(settings_));
   check_scaling(s, axis);
   sdo.write_value<std::uint32_t>(
-      {0x1016, 2}, std::uint32_t{settings_.node} << 16U | settings_.heartbeat_timeout_ms,
+      node::object::consumer_heartbeat[1].id(),
+      std::uint32_t{settings_.node} << 16U | settings_.heartbeat_timeout_ms,
       "heartbeat of the compensation node");
   if (a.lowest != a.highest) {
     sdo.write_value<std::uint32_t>({0x607D, 1}, static_cast<std::uint32_t>(a.lowest),
@@ -132,10 +133,11 @@ void BusController::take_refusal(Station& s) {
   const host::SdoChannel& sdo = s.channel;
   const std::string what = sdo.failure();
   if (s.refusal.rfind(what, 0) != 0) s.refusal = what;
-  if (is_drive(s) || sdo.failed() != node::kTableCommand || sdo.abort_code() != AbortCode::general)
+  if (is_drive(s) || sdo.failed() != node::object::table_command.id() ||
+      sdo.abort_code() != AbortCode::general)
     return;
   s.channel.clear();
-  s.channel.read(node::table_verdict(6), node::kMostReasonText, "reason in words",
+  s.channel.read(node::object::reason_text.id(), node::kMostReasonText, "reason in words",
                  [&s, what](const host::SdoChannel::Bytes& text) {
                    s.refusal = what + ": " + std::string(text.begin(), text.end());
                  });
@@ -143,11 +145,11 @@ void BusController::take_refusal(Station& s) {
 
 // Reads the CRC first: a node that has stored or kept these tables does not get them again.
 void BusController::queue_tables(host::SdoChannel& sdo) {
-  sdo.read(node::table_verdict(7), 4, "CRC of the active tables",
+  sdo.read(node::object::active_crc.id(), 4, "CRC of the active tables",
            [this, &sdo](const host::SdoChannel::Bytes& crc) {
              if (host::number(crc) == image_crc_) return;
-             sdo.write(node::kTableImage, image_, "table image");
-             sdo.write_value<std::uint8_t>(node::kTableCommand,
+             sdo.write(node::object::image.id(), image_, "table image");
+             sdo.write_value<std::uint8_t>(node::object::table_command.id(),
                                            static_cast<std::uint8_t>(node::TableCommand::activate),
                                            "activation of the tables");
            });

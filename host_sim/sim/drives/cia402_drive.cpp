@@ -23,8 +23,8 @@ canopen::CommunicationObjects default_communication(const Cia402Drive::Settings&
   set_text(c.device_name, "volcomp simulated drive");
   set_text(c.hardware_version, "none");
   set_text(c.software_version, "1");
-  c.identity.product = kProductCode;
-  c.identity.serial = settings.node_id;
+  c.product_code = kProductCode;
+  c.serial_number = settings.node_id;
   return c;
 }
 

@@ -61,7 +61,10 @@ void TestApplication::reset_communication() {
   resets.emplace_back("communication");
   objects.communication = {};
   objects.communication.device_type = 0x0002'0192;
-  objects.communication.identity = {0x11, 0x22, 0x33, 0x44};
+  objects.communication.vendor_id = 0x11;
+  objects.communication.product_code = 0x22;
+  objects.communication.revision = 0x33;
+  objects.communication.serial_number = 0x44;
   objects.communication.device_name = {'t', 'e', 's', 't'};
 }
 

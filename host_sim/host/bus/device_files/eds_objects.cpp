@@ -30,10 +30,8 @@ constexpr std::uint16_t kSdoServer = 0x1200;
 // Titles of objects whose values have names of their own; standard objects as in CiA 301.
 std::string_view title(std::uint16_t index) {
   static const std::map<std::uint16_t, std::string_view> titles{
-      {0x1003, "Pre-defined error field"},    {0x1010, "Store parameters"},
-      {0x1011, "Restore default parameters"}, {0x1018, "Identity object"},
-      {0x1020, "Verify configuration"},       {0x1029, "Error behaviour object"},
-      {0x1200, "SDO server parameter"},
+#define TITLE(index, text) {index, text},
+#include "firmware/canopen/communication.def"
 #define TITLE(index, text) {index, text},
 #include "firmware/node/objects.def"
   };

@@ -1,5 +1,6 @@
 #pragma once
-// What the lines of objects.def become: members of a structure and rows of the dictionary.
+// What the lines of a dictionary become (communication.def, firmware/node/objects.def): members of
+// a structure, rows and handles.
 
 #include <array>
 #include <cstddef>
@@ -7,9 +8,8 @@
 #include <type_traits>
 
 #include "firmware/canopen/named_entry.hpp"
-#include "firmware/canopen/pdo.hpp"
 
-namespace volcomp::node::object_lines {
+namespace volcomp::canopen::object_lines {
 
 using u8 = std::uint8_t;
 using u16 = std::uint16_t;
@@ -44,8 +44,7 @@ constexpr Each<Value> each(Value value) {
 }
 
 template <class T>
-constexpr canopen::DataType type_of() {
-  using canopen::DataType;
+constexpr DataType type_of() {
   if (std::is_same_v<T, text>) return DataType::visible_string;
   if (std::is_same_v<T, f32>) return DataType::real32;
   if (std::is_same_v<T, f64>) return DataType::real64;
@@ -63,16 +62,18 @@ constexpr canopen::DataType type_of() {
 }
 
 struct Use {
-  canopen::Access access;
-  canopen::Trait trait;
+  Access access;
+  std::uint8_t traits;  // of Trait
 };
-inline constexpr Use stored{canopen::Access::read_write, canopen::kStored};
-inline constexpr Use written{canopen::Access::read_write, canopen::kPlain};
-inline constexpr Use received{canopen::Access::read_write, canopen::kReceive};
-inline constexpr Use sent{canopen::Access::read_only, canopen::kTransmit};
-inline constexpr Use read{canopen::Access::read_only, canopen::kPlain};
+inline constexpr Use constant{Access::constant, kPlain};
+inline constexpr Use stored{Access::read_write, kStored};
+inline constexpr Use fixed{Access::read_write, kStored | kFixed};
+inline constexpr Use written{Access::read_write, kPlain};
+inline constexpr Use received{Access::read_write, kReceive};
+inline constexpr Use sent{Access::read_only, kTransmit};
+inline constexpr Use both{Access::read_write, kReceive | kTransmit};
+inline constexpr Use read{Access::read_only, kPlain};
 
-using canopen::Range;
 inline constexpr Range any{0, -1};  // the whole type
 constexpr Range range(std::int64_t low, std::int64_t high) { return {low, high}; }
 
@@ -81,15 +82,17 @@ template <class T>
 struct Handle {
   std::uint16_t index;
   std::uint8_t sub;
+  std::uint8_t count;  // of values, or bytes of a text
   const char* name;
 
   // A constructor, so that no {index, sub} of an ObjectId becomes one.
-  constexpr Handle(std::uint16_t i, std::uint8_t s, const char* n) : index(i), sub(s), name(n) {}
+  constexpr Handle(std::uint16_t i, std::size_t s, std::size_t c, const char* n)
+      : index(i), sub(static_cast<std::uint8_t>(s)), count(static_cast<std::uint8_t>(c)), name(n) {}
   // One of several, from 0.
   [[nodiscard]] constexpr Handle operator[](std::size_t which) const {
-    return {index, static_cast<std::uint8_t>(sub + which), name};
+    return {index, sub + which, count, name};
   }
-  [[nodiscard]] constexpr canopen::ObjectId id() const { return {index, sub}; }
+  [[nodiscard]] constexpr ObjectId id() const { return {index, sub}; }
   // As a PDO maps it.
   [[nodiscard]] constexpr std::uint32_t mapped() const {
     return canopen::mapped(index, sub, 8 * sizeof(T));
@@ -98,8 +101,8 @@ struct Handle {
 
 // A value at `offset` of its structure.
 template <class T>
-constexpr canopen::NamedEntry row(std::uint16_t index, std::size_t first_sub, std::size_t count,
-                                  std::size_t offset, Use use, Range range, const char* name) {
+constexpr NamedEntry row(std::uint16_t index, std::size_t first_sub, std::size_t count,
+                         std::size_t offset, Use use, Range range, const char* name) {
   const bool is_text = std::is_same_v<T, text>;
   const std::size_t last_sub = first_sub + (is_text ? 1 : count) - 1;
   return {index,
@@ -107,7 +110,7 @@ constexpr canopen::NamedEntry row(std::uint16_t index, std::size_t first_sub, st
           static_cast<std::uint8_t>(last_sub),
           type_of<T>(),
           use.access,
-          use.trait,
+          use.traits,
           static_cast<std::uint16_t>(offset),
           static_cast<std::uint16_t>(is_text ? count : 0),
           name,
@@ -116,21 +119,22 @@ constexpr canopen::NamedEntry row(std::uint16_t index, std::size_t first_sub, st
 }
 
 // What a handler reads or writes.
-constexpr canopen::NamedEntry domain(std::uint16_t index, std::size_t first_sub, std::size_t count,
-                                     Use use, const char* name) {
-  canopen::NamedEntry entry = row<u8>(index, first_sub, count, 0, use, any, name);
-  entry.type = canopen::DataType::domain;
+constexpr NamedEntry domain(std::uint16_t index, std::size_t first_sub, std::size_t count, Use use,
+                            const char* name) {
+  NamedEntry entry = row<u8>(index, first_sub, count, 0, use, any, name);
+  entry.type = DataType::domain;
   return entry;
 }
 
-}  // namespace volcomp::node::object_lines
+}  // namespace volcomp::canopen::object_lines
 
-namespace volcomp::node {
-using object_lines::each;
+namespace volcomp {
+using canopen::object_lines::each;
 }
 
 // A line as a member of its structure.
 // NOLINTBEGIN(bugprone-macro-parentheses): the name of a member
-#define OBJECT_MEMBER(index, sub, count, type, member, use, value, range, name) \
-  ::volcomp::node::object_lines::Values<::volcomp::node::object_lines::type, count> member value;
+#define OBJECT_MEMBER(index, sub, count, type, member, use, value, range, name)                  \
+  ::volcomp::canopen::object_lines::Values<::volcomp::canopen::object_lines::type, count> member \
+      value;
 // NOLINTEND(bugprone-macro-parentheses)
