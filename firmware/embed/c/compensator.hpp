@@ -38,6 +38,8 @@ inline volcomp_status refused(volcomp_reason reason, const char* field, int inde
   return {reason, '\0', field, index, -1};
 }
 
+inline volcomp_reason code_of(Reason reason) { return static_cast<volcomp_reason>(reason); }
+
 inline volcomp_status from(const Status& status) {
   const Where& where = status.where;
   return {static_cast<int>(status.reason), where.axis, where.field, where.index, where.channel};

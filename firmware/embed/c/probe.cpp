@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "comp/probe/probe_rule.hpp"
 #include "firmware/embed/c/compensator.hpp"
 
 namespace {
@@ -10,74 +11,35 @@ namespace {
 using volcomp::Direction;
 using volcomp::TouchVerdict;
 using volcomp::Vec3;
+using volcomp::c_interface::code_of;
 using volcomp::c_interface::fine;
 using volcomp::c_interface::from;
 using volcomp::c_interface::refused;
 
-// Together less than a turn: the chain allows half a turn beside that of a latched position.
-constexpr double kMostDelay_s = 0.05;
+// In the longest delays less than a turn: the chain allows half a turn beside that of a latched
+// position.
 constexpr double kMostVelocity = 1e13;  // units per second: 10 km, or nine turns
-static_assert(2.0 * kMostDelay_s * kMostVelocity < static_cast<double>(volcomp::kUnitsPerTurn));
-static_assert(static_cast<double>(volcomp::kMaxPosition) + 2.0 * kMostDelay_s * kMostVelocity <
-              volcomp::kMaxContact_nm);
+constexpr double kMostWay = 2.0 * volcomp::kMaxProbeDelay_s * kMostVelocity;
+static_assert(kMostWay < static_cast<double>(volcomp::kUnitsPerTurn));
+static_assert(static_cast<double>(volcomp::kMaxPosition) + kMostWay < volcomp::kMaxContact_nm);
 
 static_assert(volcomp::kLobingTerms == VOLCOMP_RADIUS_TERMS);
 static_assert(static_cast<int>(Direction::forward) == VOLCOMP_FORWARD);
 static_assert(static_cast<int>(Direction::backward) == VOLCOMP_BACKWARD);
 static_assert(static_cast<int>(Direction::unknown) == VOLCOMP_UNKNOWN);
 
-bool finite(volcomp::Span<const double> values) {
-  for (const double v : values) {  // NOLINT(readability-use-anyofallof) the library unrolls it
-    if (!std::isfinite(v)) return false;
-  }
-  return true;
-}
-
-bool within(volcomp::Span<const double> values, double most) {
-  for (const double v : values) {  // NOLINT(readability-use-anyofallof)
-    if (!(v <= most && v >= -most)) return false;
-  }
-  return true;
-}
-
-template <std::size_t N>
-volcomp::Span<const double> all(const double (&values)[N]) {  // NOLINT(modernize-avoid-c-arrays)
-  return {&values[0], N};
-}
-
-volcomp::Mat3 rotation_of(const volcomp_probe_settings& s) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(s.rotation);
-}
-
-volcomp_status check(const volcomp_probe_settings& s) {
-  const volcomp_probe_uncertainty& u = s.uncertainty;
-  const std::array<double, 7> single{u.radius, u.tool_length, u.correlation, u.repeatability,
-                                     u.tables, u.normal,      u.delay_s};
-  if (!finite(single) || !finite(all(u.position)) || !finite(all(u.latch_delay_s)))
-    return refused(VOLCOMP_NOT_FINITE, "uncertainty");
-  if (!finite(all(s.radius))) return refused(VOLCOMP_NOT_FINITE, "radius");
-  if (!finite(all(s.rotation))) return refused(VOLCOMP_NOT_FINITE, "rotation");
-  if (!finite(all(s.translation))) return refused(VOLCOMP_NOT_FINITE, "translation");
-  if (!within({&s.delay_s, 1}, kMostDelay_s)) return refused(VOLCOMP_BAD_SETTING, "delay");
-  if (!within(all(s.latch_delay_s), kMostDelay_s))
-    return refused(VOLCOMP_BAD_SETTING, "latch delay");
-  if (s.radius[0] < 0.0 || !within(all(s.radius), volcomp::kMaxBallRadius_nm))
-    return refused(VOLCOMP_BAD_SETTING, "radius");
-  if (!within(all(s.translation), volcomp::kMaxPart_nm))
-    return refused(VOLCOMP_BAD_SETTING, "translation");
-  if (!within(single, volcomp::kMaxPart_nm) || !within(all(u.position), volcomp::kMaxPart_nm) ||
-      !within(all(u.latch_delay_s), volcomp::kMaxPart_nm))
-    return refused(VOLCOMP_BAD_SETTING, "uncertainty");
-  if (!within({&u.correlation, 1}, 1.0)) return refused(VOLCOMP_BAD_SETTING, "correlation");
-  if (!volcomp::is_rotation(rotation_of(s))) return refused(VOLCOMP_NOT_A_ROTATION, "rotation");
-  return fine();
+const char* name_of(volcomp::ProbeSetting setting) {
+  constexpr std::array<const char*, 8> names{"",       "uncertainty", "correlation",
+                                             "radius", "rotation",    "translation",
+                                             "delay",  "latch delay"};
+  return names[static_cast<std::size_t>(setting)];
 }
 
 volcomp::ProbeSettings settings_of(const volcomp_probe_settings& from) {
   volcomp::ProbeSettings s;
   s.probe_delay_s = from.delay_s;
   std::copy_n(from.radius, VOLCOMP_RADIUS_TERMS, s.radius.coefficient.begin());
-  s.workpiece.R = rotation_of(from);
+  s.workpiece.R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(from.rotation);
   s.workpiece.t = Eigen::Map<const Vec3>(from.translation);
   s.uncertainty.radius = from.uncertainty.radius;
   s.uncertainty.tool_length = from.uncertainty.tool_length;
@@ -101,7 +63,7 @@ volcomp_status take_latches(const volcomp_touch& from, const volcomp_compensator
     const volcomp_latch& l = from.axis[a];
     const int number = static_cast<int>(a);
     if (!std::isfinite(l.velocity)) return refused(VOLCOMP_NOT_FINITE, "velocity", number);
-    if (!within({&l.velocity, 1}, kMostVelocity))
+    if (std::abs(l.velocity) > kMostVelocity)
       return refused(VOLCOMP_BAD_SETTING, "velocity", number);
     if (l.direction < VOLCOMP_FORWARD || l.direction > VOLCOMP_UNKNOWN)
       return refused(VOLCOMP_BAD_SETTING, "direction", number);
@@ -114,11 +76,9 @@ volcomp_status take_latches(const volcomp_touch& from, const volcomp_compensator
 }
 
 volcomp_status take_feature(const volcomp_feature& from, volcomp::ProbeFeature& feature) {
-  if (!finite(all(from.normal))) return refused(VOLCOMP_NOT_FINITE, "normal");
   const Vec3 n(from.normal[0], from.normal[1], from.normal[2]);
-  const double square = n.squaredNorm();
-  const bool unit = std::abs(square - 1.0) < 1e-9;
-  if (!unit && !(square <= 0.0)) return refused(VOLCOMP_BAD_SETTING, "normal");
+  if (const volcomp::Reason reason = volcomp::check_normal(n); reason != volcomp::Reason::ok)
+    return refused(code_of(reason), "normal");
   feature = {from.index, n};
   return fine();
 }
@@ -148,9 +108,12 @@ volcomp_status volcomp_configure_probe(volcomp_compensator* c,
                                        const volcomp_probe_settings* settings) {
   if (c == nullptr) return refused(VOLCOMP_NULL_POINTER, "compensator");
   if (settings == nullptr) return refused(VOLCOMP_NULL_POINTER, "settings");
-  const volcomp_status status = check(*settings);
-  if (status.reason == VOLCOMP_OK) c->probe.settings = settings_of(*settings);
-  return status;
+  const volcomp::ProbeSettings accepted = settings_of(*settings);
+  const volcomp::ProbeRefusal refusal = check_probe_settings(accepted);
+  if (refusal.reason != volcomp::Reason::ok)
+    return refused(code_of(refusal.reason), name_of(refusal.setting));
+  c->probe.settings = accepted;
+  return fine();
 }
 
 volcomp_status volcomp_correct_touch(const volcomp_compensator* c, const volcomp_touch* touch,

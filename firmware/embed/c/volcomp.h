@@ -291,7 +291,7 @@ enum volcomp_direction { VOLCOMP_FORWARD = 0, VOLCOMP_BACKWARD = 1, VOLCOMP_UNKN
 // The direction in which an axis arrived where it is, 0 ≤ axis < VOLCOMP_AXES.
 int volcomp_direction(const struct volcomp_compensator* c, size_t axis);
 
-// Standard uncertainties of what goes into a point, each below 1e13.
+// Standard uncertainties of what goes into a point, each from 0 to 1e13.
 struct volcomp_probe_uncertainty {
   double radius;                       // of the effective radius, nm
   double tool_length;                  // of the tool point along its vector from the tool frame, nm
@@ -305,8 +305,8 @@ struct volcomp_probe_uncertainty {
 };
 
 struct volcomp_probe_settings {
-  double delay_s;                      // from the contact to the edge of the signal, ±0.05
-  double latch_delay_s[VOLCOMP_AXES];  // from the edge to the latch of an axis, ±0.05
+  double delay_s;                      // from the contact to the edge of the signal, 0…0.05
+  double latch_delay_s[VOLCOMP_AXES];  // from the edge to the latch of an axis, 0…0.05
   // Effective radius, nm, by the direction d (tool frame) in which the part pushes the ball: the
   // constant first, below 20 mm; then the factors of x, y, z, xy, yz, zx, x²−y², 3z²−1, x(x²−3y²),
   // y(3x²−y²), z(x²−y²), xyz, x(5z²−1), y(5z²−1), z(5z²−3) of d.

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "comp/probe/lobing.hpp"
+#include "comp/probe/probe_rule.hpp"
 #include "firmware/canopen/object_lines.hpp"
 #include "firmware/node/tables/node_compensator.hpp"
 

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <utility>
 
-#include "comp/machine/machine_limits.hpp"
+#include "comp/probe/probe_rule.hpp"
 #include "firmware/node/wire_scale.hpp"
 
 namespace volcomp::node {
 namespace {
 
 constexpr double kSecondsPerNs = 1e-9;
-// Duration of one frame at 1 Mbit/s. With shorter periods any difference is a speed beyond
-// kMaxContact_nm in the 20 ms that 2300h:02 and 2301h may add up to.
-constexpr std::uint32_t kLeastPeriod_us = 50;
-constexpr double kMostDelay_us = 20'000.0;
-static_assert(0x1p31 * kMostScale * (1.0 + kMostDelay_us / kLeastPeriod_us) < kMaxContact_nm);
+// No cycle is shorter: target and offset of one axis take 250 us of a bus at 1 Mbit/s. With shorter
+// periods any difference is a speed beyond kMaxContact_nm in what 2300h:02 and 2301h may add up to.
+constexpr std::uint32_t kLeastPeriod_us = 250;
+static_assert(0x1p31 * kMostScale * (1.0 + 2.0 * kMaxProbeDelay_ns / (1000.0 * kLeastPeriod_us)) <
+              kMaxContact_nm);
 
 Frame frame_of(const std::array<double, 12>& v) {
   Frame frame;
@@ -27,35 +27,6 @@ Frame frame_of(const std::array<double, 12>& v) {
   for (int r = 0; r < 3; ++r)
     frame.t[r] = *next++;
   return frame;
-}
-
-Reason check_all(const ProbeObjects& o) {
-  struct Numbers {
-    const double* first;
-    std::size_t count;
-    double most;
-  };
-  const std::array<Numbers, 5> all{{
-      {o.lobing.data(), o.lobing.size(), kMaxBallRadius_nm},
-      {o.workpiece.data(), o.workpiece.size(), kMaxPart_nm},
-      {o.uncertainty.data(), o.uncertainty.size(), kMaxPart_nm},
-      {o.position_uncertainty.data(), o.position_uncertainty.size(), kMaxPart_nm},
-      {o.latch_delay_uncertainty_ns.data(), o.latch_delay_uncertainty_ns.size(), kMaxPart_nm},
-  }};
-  for (const Numbers& numbers : all) {
-    const Reason reason = check_numbers(numbers.first, numbers.count, numbers.most);
-    if (reason != Reason::ok) return reason == Reason::not_finite ? reason : Reason::bad_setting;
-  }
-  return Reason::ok;
-}
-
-// Without a cycle period the speed of an axis is unknown.
-Status check(const ProbeObjects& o, std::uint32_t period_us) {
-  if (period_us < kLeastPeriod_us) return refuse(Reason::bad_setting);
-  if (const Reason reason = check_all(o); reason != Reason::ok) return refuse(reason);
-  if (o.lobing[0] < 0.0 || std::abs(o.uncertainty[2]) > 1.0) return refuse(Reason::bad_setting);
-  if (!is_rotation(frame_of(o.workpiece).R)) return refuse(Reason::not_a_rotation);
-  return {};
 }
 
 ProbeSettings settings_of(const ProbeObjects& o) {
@@ -115,10 +86,13 @@ void ProbePath::set_machine(const MachineDescription& machine) {
 }
 
 Status ProbePath::apply(std::uint32_t axes, std::uint32_t period_us) {
-  const Status status = check(objects_, period_us);
-  objects_.reason = static_cast<std::uint8_t>(status.reason);
-  if (!status.ok()) return status;
-  corrector_.settings = settings_of(objects_);
+  const ProbeSettings settings = settings_of(objects_);
+  // Without a cycle period the speed of an axis is unknown.
+  const Reason reason =
+      period_us < kLeastPeriod_us ? Reason::bad_setting : check_probe_settings(settings).reason;
+  objects_.reason = static_cast<std::uint8_t>(reason);
+  if (reason != Reason::ok) return refuse(reason);
+  corrector_.settings = settings;
   TouchRules rules;
   rules.axes = axes;
   rules.period_ns = std::int64_t{period_us} * 1000;
@@ -133,9 +107,7 @@ Status ProbePath::apply(std::uint32_t axes, std::uint32_t period_us) {
 
 Reason ProbePath::take_feature(std::uint32_t index) {
   const Vec3 n(objects_.normal[0], objects_.normal[1], objects_.normal[2]);
-  const double square = n.squaredNorm();
-  const bool unit = std::abs(square - 1.0) < 1e-9;
-  if (!unit && !(square <= 0.0)) return Reason::bad_setting;
+  if (const Reason reason = check_normal(n); reason != Reason::ok) return reason;
   if (const Reason reason = flank_.take(); reason != Reason::ok) return reason;
   feature_ = {index, flank_.announced() ? Vec3::Zero() : n};
   return Reason::ok;

@@ -4,6 +4,7 @@
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/plausibility.hpp"
+#include "comp/probe/probe_rule.hpp"
 
 namespace volcomp::host {
 
@@ -65,8 +66,9 @@ ErrorMotion read_error(const TomlSection& s, const std::string& key) {
 
 double read_delay_us(const TomlSection& s, const std::string& key) {
   const double us = s.number_or(key, 0.0);
-  if (!(us >= 0.0 && us <= 1000.0))
-    s.complain(key, fmt::format("'{}' must be from 0 to 1000", key));
+  constexpr double kMost_us = 1e6 * kMaxProbeDelay_s;
+  if (!(us >= 0.0 && us <= kMost_us))
+    s.complain(key, fmt::format("'{}' must be from 0 to {}", key, kMost_us));
   return us;
 }
 
@@ -74,8 +76,9 @@ ProbeFile read_probe(const TomlSection& s) {
   s.allow_only({"radius_mm", "delay_us"});
   ProbeFile probe;
   probe.radius_mm = s.number("radius_mm");
-  if (!(probe.radius_mm > 0.0 && probe.radius_mm <= 20.0))
-    s.complain("radius_mm", "'radius_mm' must be above 0 and at most 20");
+  constexpr double kMost_mm = kMaxBallRadius_nm / kNmPerMm;
+  if (!(probe.radius_mm > 0.0 && probe.radius_mm <= kMost_mm))
+    s.complain("radius_mm", fmt::format("'radius_mm' must be above 0 and at most {}", kMost_mm));
   probe.delay_us = read_delay_us(s, "delay_us");
   return probe;
 }

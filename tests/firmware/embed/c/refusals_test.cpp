@@ -6,6 +6,7 @@
 
 #include "tests/firmware/embed/c/support.hpp"
 #include "tests/not_numbers.hpp"
+#include "tests/oracle/probe_limits.hpp"
 
 namespace volcomp::test {
 namespace {
@@ -244,7 +245,7 @@ TEST(CInterfaceRefuses, SettingsOfTheProbeByName) {
   using Settings = volcomp_probe_settings;
   EXPECT_EQ(with([](Settings&) {}), "ok");
   EXPECT_EQ(with([](Settings& x) { x.delay_s = 0.06; }), "bad_setting delay");
-  EXPECT_EQ(with([](Settings& x) { x.latch_delay_s[4] = -0.06; }), "bad_setting latch delay");
+  EXPECT_EQ(with([](Settings& x) { x.latch_delay_s[4] = 0.06; }), "bad_setting latch delay");
   EXPECT_EQ(with([](Settings& x) { x.radius[7] = kNan; }), "not_finite radius");
   EXPECT_EQ(with([](Settings& x) { x.radius[0] = -1.0; }), "bad_setting radius");
   EXPECT_EQ(with([](Settings& x) { x.radius[3] = 2.1e7; }), "bad_setting radius");
@@ -261,6 +262,52 @@ TEST(CInterfaceRefuses, SettingsOfTheProbeByName) {
   EXPECT_EQ(with([](Settings& x) { x.uncertainty.radius = 1e300; }), beyond);
   EXPECT_EQ(with([](Settings& x) { x.uncertainty.position[3] = 1e300; }), beyond);
   EXPECT_EQ(with([](Settings& x) { x.uncertainty.latch_delay_s[0] = -1e300; }), beyond);
+}
+
+// The field of volcomp.h that an object of the node sets.
+double& field_of(volcomp_probe_settings& s, std::uint16_t index, std::size_t sub) {
+  volcomp_probe_uncertainty& u = s.uncertainty;
+  const std::array<double*, 7> single{&u.radius, &u.tool_length, &u.correlation, &u.repeatability,
+                                      &u.tables, &u.normal,      &u.delay_s};
+  switch (index) {
+    case 0x2302:
+      return s.radius[sub - 1];
+    case 0x2303:
+      return sub <= 9 ? s.rotation[sub - 1] : s.translation[sub - 10];
+    case 0x2304:
+      return *single.at(sub - 1);
+    case 0x2305:
+      return u.position[sub - 1];
+    default:
+      return u.latch_delay_s[sub - 1];
+  }
+}
+
+TEST(CInterfaceRefuses, TheSameSettingsOfTheProbeAsTheNode) {
+  CInstance c;
+  for (const oracle::ProbeSettingCase& bad : oracle::probe_setting_cases()) {
+    SCOPED_TRACE(::testing::Message()
+                 << std::hex << bad.index << ":" << unsigned{bad.sub} << " " << bad.wrong);
+    volcomp_probe_settings s;
+    volcomp_default_probe_settings(&s);
+    const bool delay = bad.index == 0x2306 || (bad.index == 0x2304 && bad.sub == 7);
+    const double unit = delay ? 1e-9 : 1.0;  // ns on the bus, s in C
+    field_of(s, bad.index, bad.sub) = bad.wrong * unit;
+    EXPECT_EQ(volcomp_configure_probe(c.get(), &s).reason, static_cast<int>(bad.reason));
+    field_of(s, bad.index, bad.sub) = bad.right * unit;
+    EXPECT_EQ(volcomp_configure_probe(c.get(), &s).reason, VOLCOMP_OK);
+  }
+  for (const bool latch : {false, true}) {
+    volcomp_probe_settings s;
+    volcomp_default_probe_settings(&s);
+    double& delay_s = latch ? s.latch_delay_s[4] : s.delay_s;
+    delay_s = 1e-9 * oracle::kLongestProbeDelay_ns;
+    EXPECT_EQ(volcomp_configure_probe(c.get(), &s).reason, VOLCOMP_OK);
+    delay_s = 1e-9 * (oracle::kLongestProbeDelay_ns + 1.0);
+    EXPECT_EQ(volcomp_configure_probe(c.get(), &s).reason, VOLCOMP_BAD_SETTING);
+    delay_s = -1e-9;
+    EXPECT_EQ(volcomp_configure_probe(c.get(), &s).reason, VOLCOMP_BAD_SETTING);
+  }
 }
 
 TEST(CInterfaceRefuses, TouchesByName) {

@@ -1,17 +1,20 @@
 // The probe over the bus: latches of the drives in, points out, as process data and over SDO.
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "comp/tick/touch.hpp"
 #include "firmware/node/probe/point_fifo.hpp"
 #include "tests/firmware/node/probe/probe_bench.hpp"
+#include "tests/oracle/probe_limits.hpp"
 
 namespace volcomp::node {
 namespace {
 
 using canopen::AbortCode;
 using canopen::ErrorCode;
+using canopen::ObjectId;
 
 // The same machine in long double (tests/oracle/tick_bench.hpp).
 TEST_F(NodeProbe, ATouchBecomesTheCorrectedPoint) {
@@ -200,44 +203,44 @@ TEST_F(NodeProbe, BadSettingsLeaveTheGoodOnes) {
   edge();
   const ReadPoint before = take();
 
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  struct Bad {
-    std::uint16_t index;
-    std::uint8_t sub;
-    double value, good;
-    Reason reason;
-  };
-  for (const Bad& bad :
-       {Bad{0x2302, 1, nan, 2e6, Reason::not_finite},
-        Bad{0x2302, 1, -1.0, 2e6, Reason::bad_setting},
-        Bad{0x2302, 1, 3e7, 2e6, Reason::bad_setting},
-        Bad{0x2302, 16, -1e300, 0.0, Reason::bad_setting},
-        Bad{0x2303, 1, 0.999, 1.0, Reason::not_a_rotation},
-        Bad{0x2303, 12, HUGE_VAL, 0.0, Reason::not_finite},
-        Bad{0x2303, 12, 1e300, 0.0, Reason::bad_setting},
-        Bad{0x2303, 10, -1.1e13, 0.0, Reason::bad_setting},
-        Bad{0x2304, 1, 1e300, 0.0, Reason::bad_setting},
-        Bad{0x2304, 2, nan, 0.0, Reason::not_finite}, Bad{0x2305, 1, nan, 0.0, Reason::not_finite},
-        Bad{0x2306, 3, nan, 0.0, Reason::not_finite},
-        Bad{0x2304, 3, 1.5, 0.0, Reason::bad_setting}}) {
-    ASSERT_EQ(set_real(bad.index, bad.sub, bad.value), AbortCode::none);
+  for (const oracle::ProbeSettingCase& bad : oracle::probe_setting_cases()) {
+    SCOPED_TRACE(::testing::Message()
+                 << std::hex << bad.index << ":" << unsigned{bad.sub} << " " << bad.wrong);
+    const std::uint64_t raw = bench.number(bad.index, bad.sub);
+    double before_that = 0.0;
+    std::memcpy(&before_that, &raw, sizeof before_that);
+    ASSERT_EQ(set_real(bad.index, bad.sub, bad.wrong), AbortCode::none);
     EXPECT_EQ(switch_on(), AbortCode::invalid_value);
     EXPECT_EQ(bench.number(0x2300, 5), static_cast<std::uint64_t>(bad.reason));
     edge();
     const ReadPoint point = take();
     EXPECT_EQ(point.verdict, TouchVerdict::point);
     EXPECT_LT(std::abs(point.workpiece[0] - before.workpiece[0]), 20'000) << "still in force";
-    ASSERT_EQ(set_real(bad.index, bad.sub, bad.good), AbortCode::none);
+    ASSERT_EQ(set_real(bad.index, bad.sub, bad.right), AbortCode::none);
+    EXPECT_EQ(switch_on(), AbortCode::none);
+    ASSERT_EQ(set_real(bad.index, bad.sub, before_that), AbortCode::none);
+    EXPECT_EQ(switch_on(), AbortCode::none);
   }
   EXPECT_EQ(switch_on(), AbortCode::none);
   EXPECT_EQ(bench.number(0x2300, 5), 0U);
+}
+
+TEST_F(NodeProbe, DelaysAreThoseOfRadioProbes) {
+  start();
+  for (const ObjectId delay : {ObjectId{0x2300, 2}, ObjectId{0x2301, 1}, ObjectId{0x2301, 5}}) {
+    EXPECT_EQ(bench.set<std::uint32_t>(delay.index, delay.sub, oracle::kLongestProbeDelay_ns + 1),
+              AbortCode::value_too_high);
+    EXPECT_EQ(bench.set<std::uint32_t>(delay.index, delay.sub, oracle::kLongestProbeDelay_ns),
+              AbortCode::none);
+  }
+  EXPECT_EQ(switch_on(), AbortCode::none);
 }
 
 TEST_F(NodeProbe, WithoutACyclePeriodItIsNotSwitchedOn) {
   start();
   const std::uint64_t period_us = bench.number(0x1006, 0);
   bench.nmt(canopen::NmtCommand::enter_pre_operational);
-  for (const std::uint32_t none : {0U, 1U, 49U}) {  // a frame takes as long at 1 Mbit/s
+  for (const std::uint32_t none : {0U, 1U, 249U}) {  // two frames take as long at 1 Mbit/s
     ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, none), AbortCode::none);
     EXPECT_EQ(switch_on(), AbortCode::invalid_value);
     EXPECT_EQ(bench.number(0x2300, 5), static_cast<std::uint64_t>(Reason::bad_setting));

@@ -179,7 +179,7 @@ TEST(MachineFile, RefusalsNameLineAndField) {
   EXPECT_THAT(refusal_of(kRotary, "id = 7", "id = 7\nprobe = { radius_mm = 0.0 }"),
               HasSubstr("'radius_mm' must be above 0"));
   EXPECT_THAT(refusal_of(kRotary, "kappa = 0 }", "kappa = 0, latch_delay_us = -1.0 }"),
-              HasSubstr("'latch_delay_us' must be from 0 to 1000"));
+              HasSubstr("'latch_delay_us' must be from 0 to 50000"));
 }
 
 // The TOML library reads beyond the end of the last of them.
