@@ -1,35 +1,30 @@
 #include "comp/tick/status_text.hpp"
 
+#include "comp/core/counts_up.hpp"
+
 namespace volcomp {
 namespace {
 
-struct Entry {
-  const char* code;
-  const char* words;
+constexpr std::array kNumbers{
+#define STATUS_BIT(bit, enumerator, name, NAME, words) bit,
+#include "comp/tick/codes.def"
+};
+static_assert(counts_up(kNumbers), "codes.def: the bits count up from 0");
+
+constexpr std::array<const char*, kStatusBits> kNames{
+#define STATUS_BIT(bit, enumerator, name, NAME, words) #name,
+#include "comp/tick/codes.def"
 };
 
-// By bit.
-constexpr std::array<Entry, kStatusBits> kEntries{{
-    {"valid", "corrected"},
-    {"not_homed", "not referenced or not enabled, no correction"},
-    {"stale", "no position in time, correction held"},
-    {"dropped", "no position for too long, correction ramped to zero"},
-    {"implausible", "position jumped, correction held"},
-    {"out_of_range", "beyond its table, correction of the end"},
-    {"far_out_of_range", "more than half a pitch beyond its table"},
-    {"clamped", "correction at its limit"},
-    {"rate_limited", "correction held back by its slew limit"},
-    {"direction_unknown", "has not moved yet, mean of both directions"},
-    {"ramping", "a change is being ramped in"},
-    {"no_authority", "the correcting axes cannot act here"},
-    {"no_tables", "no tables"},
-    {"table_damaged", "tables damaged in memory, correction ramped to zero"},
-}};
+constexpr std::array<const char*, kStatusBits> kWords{
+#define STATUS_BIT(bit, enumerator, name, NAME, words) words,
+#include "comp/tick/codes.def"
+};
 
 }  // namespace
 
-const char* code(StatusBit bit) { return kEntries[bit_of(bit)].code; }
+const char* code(StatusBit bit) { return kNames[bit_of(bit)]; }
 
-const char* words(StatusBit bit) { return kEntries[bit_of(bit)].words; }
+const char* words(StatusBit bit) { return kWords[bit_of(bit)]; }
 
 }  // namespace volcomp

@@ -26,23 +26,10 @@ struct AxisSample {
 };
 static_assert(offsetof(AxisSample, homed) == offsetof(AxisSample, valid) + 1);
 
-// Status word per axis.
+// Status word per axis; what each bit means stands in codes.def.
 enum StatusBit : std::uint16_t {
-  kValid = 1U << 0U,             // corrected as configured, nothing to report
-  kNotHomed = 1U << 1U,          // correction goes to 0
-  kStale = 1U << 2U,             // no valid position: last correction held
-  kDropped = 1U << 3U,           // stale for too long: correction ramps to 0
-  kImplausible = 1U << 4U,       // position jumped faster than the axis can move: treated as stale
-  kOutOfRange = 1U << 5U,        // beyond its table: stands at the end
-  kFarOutOfRange = 1U << 6U,     // by more than half a pitch
-  kClamped = 1U << 7U,           // limited to ±limit; with kRateLimited perhaps still beyond it
-  kRateLimited = 1U << 8U,       // limited to ±rate per tick
-  kDirectionUnknown = 1U << 9U,  // not moved yet: mean of both directions
-  kRamping = 1U << 10U,          // a change is being ramped in
-  kNoAuthority = 1U << 11U,      // the correcting axes cannot act here: last correction held
-  kNoTables = 1U << 12U,         // nothing active: correction 0
-  kTableDamaged = 1U << 13U,     // the active tables changed in memory: correction ramped to 0;
-                                 // with kClamped: what they lead to is not finite
+#define STATUS_BIT(bit, enumerator, name, NAME, words) enumerator = 1U << (bit),
+#include "comp/tick/codes.def"
 };
 inline constexpr int kStatusBits = 14;
 

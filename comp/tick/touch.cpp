@@ -1,39 +1,30 @@
 #include "comp/tick/touch.hpp"
 
+#include "comp/core/counts_up.hpp"
+
 namespace volcomp {
 namespace {
 
-struct Entry {
-  const char* code;
-  const char* sentence;
+constexpr std::array kNumbers{
+#define VERDICT(number, name, sentence) number,
+#include "comp/tick/codes.def"
+};
+static_assert(counts_up(kNumbers), "codes.def: the numbers of verdicts count up from 0");
+
+constexpr std::array<const char*, kTouchVerdicts> kNames{
+#define VERDICT(number, name, sentence) #name,
+#include "comp/tick/codes.def"
 };
 
-// By number.
-constexpr std::array<Entry, kTouchVerdicts> kEntries{{
-    {"point", "The point is corrected."},
-    {"centre", "The feature has no normal: this is the centre of the ball, corrected."},
-    {"uncertified", "An axis stood outside its table: corrected as at the end of the table."},
-    {"uncorrected", "No tables are active: the errors of the machine are not corrected."},
-    {"bounce", "The edge came too soon after the one before: the probe bounces."},
-    {"double_edge", "Several edges within one cycle: which one was latched is unknown."},
-    {"axis_missing", "An axis has not reported the edge."},
-    {"no_position", "A drive has counted the edge, but its latched position did not arrive."},
-    {"stale_latch", "A drive has reported a latched position, but has counted no edge."},
-    {"late_latch", "The latch is older than a cycle."},
-    {"skew", "The axes have not latched the same edge: their times differ."},
-    {"no_velocity", "The speed of an axis at the edge is unknown: a position was missing."},
-    {"not_homed", "An axis is not referenced."},
-    {"retracting", "The ball was moving away from the part."},
-    {"no_machine", "The machine is unknown: no tables have been active since the start."},
-}};
-static_assert(static_cast<std::size_t>(TouchVerdict::no_machine) + 1 == kEntries.size());
+constexpr std::array<const char*, kTouchVerdicts> kSentences{
+#define VERDICT(number, name, sentence) sentence,
+#include "comp/tick/codes.def"
+};
 
 }  // namespace
 
-const char* code(TouchVerdict verdict) { return kEntries[static_cast<std::size_t>(verdict)].code; }
+const char* code(TouchVerdict verdict) { return kNames[static_cast<std::size_t>(verdict)]; }
 
-const char* sentence(TouchVerdict verdict) {
-  return kEntries[static_cast<std::size_t>(verdict)].sentence;
-}
+const char* sentence(TouchVerdict verdict) { return kSentences[static_cast<std::size_t>(verdict)]; }
 
 }  // namespace volcomp

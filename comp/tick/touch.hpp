@@ -11,23 +11,11 @@
 
 namespace volcomp {
 
-// What became of an edge of the probe signal. The numbers are those of 2400h:03.
+// What became of an edge of the probe signal. The numbers are those of 2401h:02; what each means
+// stands in codes.def.
 enum class TouchVerdict : std::uint8_t {
-  point = 0,         // corrected
-  centre = 1,        // corrected, but the feature has no normal: the centre of the ball
-  uncertified = 2,   // an axis stood outside its table: corrected as at its end
-  uncorrected = 3,   // no tables are active: nominal
-  bounce = 4,        // too soon after the edge before
-  double_edge = 5,   // two or more edges within one cycle: which one was latched is unknown
-  axis_missing = 6,  // an axis has not reported the edge
-  no_position = 7,   // an edge was counted, but no latched position came with it
-  stale_latch = 8,   // a latched position came, but no edge was counted
-  late_latch = 9,    // the latch is older than a cycle
-  skew = 10,         // the axes have latched different edges
-  no_velocity = 11,  // an axis has not reported two positions in a row
-  not_homed = 12,    // an axis was not referenced
-  retracting = 13,   // the ball was moving away from the part
-  no_machine = 14,   // no tables have been active since the start: the chain is unknown
+#define VERDICT(number, name, sentence) name = (number),
+#include "comp/tick/codes.def"
 };
 inline constexpr std::uint8_t kTouchVerdicts = 15;
 [[nodiscard]] constexpr bool accepted(TouchVerdict verdict) {

@@ -16,63 +16,10 @@ std::uint8_t register_bit(ErrorCode code) {
 
 const char* sentence(ErrorCode code) {
   switch (code) {
-    case ErrorCode::none:
-      return "No error.";
-    case ErrorCode::temperature_held:
-      return "A temperature is missing or not plausible; the last good one is used.";
-    case ErrorCode::memory_damaged:
-      return "Settings changed in memory; corrections were taken back to zero.";
-    case ErrorCode::program_damaged:
-      return "The program changed in memory; corrections were ramped to zero.";
-    case ErrorCode::store_failed:
-      return "Parameters and tables could not be saved or forgotten; what was stored stays.";
-    case ErrorCode::unexpected_reset:
-      return "The device restarted without being asked to.";
-    case ErrorCode::background_overdue:
-      return "The background of the device hangs; corrections were ramped to zero.";
-    case ErrorCode::parameters_lost:
-      return "The stored parameters and tables were damaged.";
-    case ErrorCode::can_overrun:
-      return "Messages were lost before they could be read.";
-    case ErrorCode::can_passive:
-      return "The CAN controller counted so many errors that it is error passive.";
-    case ErrorCode::heartbeat:
-      return "A node that is watched fell silent.";
-    case ErrorCode::bus_off_recovered:
-      return "The CAN controller was bus-off, heard and sent nothing meanwhile, and is back.";
-    case ErrorCode::sync_length:
-      return "SYNC came with a counter where none is expected, or without one.";
-    case ErrorCode::rpdo_length:
-      return "Process data were shorter than their mapping.";
-    case ErrorCode::rpdo_timeout:
-      return "Process data of an axis did not come in time; its offset is held, then ramped down.";
-    case ErrorCode::axis_not_referenced:
-      return "An axis is not referenced or its drive is not enabled; it gets no correction.";
-    case ErrorCode::axis_implausible:
-      return "The position of an axis jumped faster than the axis can move.";
-    case ErrorCode::axis_clamped:
-      return "The correction of an axis reached its limit.";
-    case ErrorCode::axis_out_of_range:
-      return "An axis is more than half a pitch beyond its table.";
-    case ErrorCode::no_authority:
-      return "In this position the correcting axes cannot remove the error.";
-    case ErrorCode::table_refused:
-      return "A table image was refused.";
-    case ErrorCode::table_damaged:
-      return "The active tables changed in memory; corrections were ramped to zero.";
-    case ErrorCode::tables_expired:
-      return "The active tables are past their expiry; they stay active, measure the machine "
-             "again.";
-    case ErrorCode::time_doubted:
-      return "TIME jumped; the device keeps its own date.";
-    case ErrorCode::foreign_sync:
-      return "A second device produces SYNC.";
-    case ErrorCode::offset_not_confirmed:
-      return "A drive does not report the offset it was sent.";
-    case ErrorCode::touch_rejected:
-      return "A touch of the probe was rejected.";
-    case ErrorCode::point_lost:
-      return "A probed point was lost: the points that wait are not read.";
+#define ERROR_CODE(number, name, title, sentence) \
+  case ErrorCode::name:                           \
+    return sentence;
+#include "firmware/canopen/codes.def"
   }
   return "An error of another device's making.";
 }

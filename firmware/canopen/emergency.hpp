@@ -10,36 +10,10 @@
 
 namespace volcomp::canopen {
 
-// Error codes of CiA 301 table 26 and of this device.
+// Error codes of CiA 301 table 26 and of this device; what each means stands in codes.def.
 enum class ErrorCode : std::uint16_t {
-  none = 0x0000,
-  temperature_held = 0x4100,      // CiA 301: ambient temperature; source: input, reason in 2701h
-  memory_damaged = 0x5510,        // CiA 402: working memory; source: axis, 0: several
-  program_damaged = 0x5520,       // CiA 402: program memory changed
-  store_failed = 0x5530,          // 1010h or 1011h: non-volatile memory; reason in 2600h:0C
-  unexpected_reset = 0x6010,      // CiA 402: software reset (watchdog); first byte: ResetCause
-  background_overdue = 0x6100,    // internal software: the background hangs
-  parameters_lost = 0x6310,       // 1010h: stored parameters damaged
-  can_overrun = 0x8110,           // frames were lost before they could be read
-  can_passive = 0x8120,           // CAN controller in error passive mode
-  heartbeat = 0x8130,             // a monitored node fell silent
-  bus_off_recovered = 0x8140,     // the CAN controller is back from bus-off
-  sync_length = 0x8240,           // SYNC with or without counter against 1019h
-  rpdo_length = 0x8210,           // PDO shorter than its mapping
-  rpdo_timeout = 0x8250,          // process data of an axis missing
-  axis_not_referenced = 0xFF01,   // not homed or not enabled
-  axis_implausible = 0xFF02,      // position jumped
-  axis_clamped = 0xFF03,          // correction limited
-  axis_out_of_range = 0xFF04,     // more than half a pitch beyond its table
-  no_authority = 0xFF05,          // the correcting axes cannot act here
-  table_refused = 0xFF10,         // reason in 2112h
-  table_damaged = 0xFF11,         // active tables changed in memory
-  tables_expired = 0xFF12,        // active tables are past their expiry: 2704h
-  time_doubted = 0xFF13,          // TIME jumped
-  foreign_sync = 0xFF20,          // a second SYNC producer
-  offset_not_confirmed = 0xFF21,  // a drive does not report the offset it was sent
-  touch_rejected = 0xFF30,        // first byte: TouchVerdict; then the number of the touch
-  point_lost = 0xFF31,            // 2410h is full because no client reads it
+#define ERROR_CODE(number, name, title, sentence) name = (number),
+#include "firmware/canopen/codes.def"
 };
 
 // One plain sentence; also for codes another device made up.

@@ -54,7 +54,7 @@ int write_device_files(const DeviceFileArguments& a) {
   results.add(a.eds, host::make_eds());
   results.add(a.dbc, host::make_dbc(bus_of(a)));
   results.add(a.objects, host::object_page());
-  results.add(a.reasons, host::reason_page());
+  results.add(a.reasons, std::string(host::reason_page()));
   results.write();
   return 0;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The documentation agrees with the program: generated pages are those the program makes, links lead somewhere, every
+"""The documentation agrees with the program: the pages it writes are those of this folder, links lead somewhere, every
 page is listed and every drawing shown, every command shown exists with the options it is shown with, and wiring is that
 of the example.
 
@@ -34,13 +34,13 @@ def said(*arguments):
     return subprocess.run([VOLCOMP, *arguments], capture_output=True, text=True, check=True).stdout
 
 
-# --- generated pages
+# --- pages that the program writes
 
-def generated_pages():
+def written_pages():
     for option, name in (("--objects", "object-dictionary.md"), ("--reasons", "reason-codes.md")):
         page = ROOT / "docs" / name
         check(page.read_text(encoding="utf-8") == said("device-files", option, "-"),
-              f"{page}: not what the program makes; volcomp device-files {option} docs/{name}")
+              f"{page}: not what the program writes; volcomp device-files {option} docs/{name}")
 
 
 def covered_indices(page):
@@ -67,10 +67,10 @@ def every_code_is_explained():
         for entry in re.split(r"\n\n(?=\*\*)", rest)[1:]:
             explained = "*Why:*" in entry and "*What to do:*" in entry
             check(explained or heading == "SDO abort codes", f"reason-codes.md: unexplained: {entry[:60]}")
-    reasons = re.findall(r"^  ([a-z_]+),$", (ROOT / "comp/core/status.hpp").read_text(), re.M)
-    for reason in reasons:
-        check(f"**`{reason}`**" in page, f"reason-codes.md lacks {reason}")
-    check(len(reasons) > 70, "comp/core/status.hpp was not understood")
+    reasons = re.findall(r"^(?:REASON|LOADING)\((\d+), ([a-z_]+),", (ROOT / "comp/core/reasons.def").read_text(), re.M)
+    for number, reason in reasons:
+        check(f"**`{reason}`** ({number}) " in page, f"reason-codes.md lacks {reason}")
+    check(len(reasons) > 70, "comp/core/reasons.def was not understood")
     faults = (ROOT / "firmware/README.md").read_text(encoding="utf-8").partition("| EMCY | way back |")[2].partition("\n\n")[0]
     emergencies = [code for row in faults.splitlines()[2:] for code in re.findall("([4-9A-F][0-9A-F]{3})h", row.split("|")[3])]
     for code in emergencies:
@@ -172,7 +172,7 @@ def wiring_is_that_of_the_example():
     check(positions == [f"joint.{n}.pos-cmd" for n in range(3)], f"volcomp.hal: compensated at {positions}")
 
 
-generated_pages()
+written_pages()
 every_object_is_explained()
 every_code_is_explained()
 links_lead_somewhere()

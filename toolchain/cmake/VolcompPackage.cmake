@@ -19,7 +19,7 @@ install(EXPORT volcomp NAMESPACE volcomp:: FILE volcomp-targets.cmake DESTINATIO
 
 # The headers lie in folders of the names they are included by; volcomp.h beside them.
 install(DIRECTORY comp DESTINATION "${volcomp_headers}" COMPONENT dev
-  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inl")
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.inl" PATTERN "*.def")
 install(FILES firmware/embed/cpp/axis_port.hpp firmware/embed/cpp/servo_loop.hpp
   DESTINATION "${volcomp_headers}/firmware/embed/cpp" COMPONENT dev)
 install(FILES firmware/embed/c/volcomp.h DESTINATION "${volcomp_headers}" COMPONENT dev)

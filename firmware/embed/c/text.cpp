@@ -9,67 +9,12 @@ using volcomp::Reason;
 using volcomp::StatusBit;
 using volcomp::TouchVerdict;
 
-constexpr bool same(Reason reason, volcomp_reason number) {
-  return static_cast<int>(reason) == static_cast<int>(number);
-}
-static_assert(same(Reason::ok, VOLCOMP_OK));
-static_assert(same(Reason::not_finite, VOLCOMP_NOT_FINITE));
-static_assert(same(Reason::too_few_knots, VOLCOMP_TOO_FEW_KNOTS));
-static_assert(same(Reason::too_many_knots, VOLCOMP_TOO_MANY_KNOTS));
-static_assert(same(Reason::pitch_not_positive, VOLCOMP_PITCH_NOT_POSITIVE));
-static_assert(same(Reason::travel_too_long, VOLCOMP_TRAVEL_TOO_LONG));
-static_assert(same(Reason::not_periodic, VOLCOMP_NOT_PERIODIC));
-static_assert(same(Reason::bad_magic, VOLCOMP_BAD_MAGIC));
-static_assert(same(Reason::version_unknown, VOLCOMP_VERSION_UNKNOWN));
-static_assert(same(Reason::image_truncated, VOLCOMP_IMAGE_TRUNCATED));
-static_assert(same(Reason::crc_mismatch, VOLCOMP_CRC_MISMATCH));
-static_assert(same(Reason::machine_mismatch, VOLCOMP_MACHINE_MISMATCH));
-static_assert(same(Reason::axes_mismatch, VOLCOMP_AXES_MISMATCH));
-static_assert(same(Reason::bound_exceeded, VOLCOMP_BOUND_EXCEEDED));
-static_assert(same(Reason::contraction_exceeded, VOLCOMP_CONTRACTION_EXCEEDED));
-static_assert(same(Reason::parent_not_lower, VOLCOMP_PARENT_NOT_LOWER));
-static_assert(same(Reason::not_one_root, VOLCOMP_NOT_ONE_ROOT));
-static_assert(same(Reason::bad_body, VOLCOMP_BAD_BODY));
-static_assert(same(Reason::too_many_bodies, VOLCOMP_TOO_MANY_BODIES));
-static_assert(same(Reason::too_many_axes, VOLCOMP_TOO_MANY_AXES));
-static_assert(same(Reason::bad_joint, VOLCOMP_BAD_JOINT));
-static_assert(same(Reason::not_a_rotation, VOLCOMP_NOT_A_ROTATION));
-static_assert(same(Reason::bad_axis_index, VOLCOMP_BAD_AXIS_INDEX));
-static_assert(same(Reason::no_authority, VOLCOMP_NO_AUTHORITY));
-static_assert(same(Reason::bad_setting, VOLCOMP_BAD_SETTING));
-static_assert(same(Reason::not_staged, VOLCOMP_NOT_STAGED));
-static_assert(same(Reason::hand_over_pending, VOLCOMP_HAND_OVER_PENDING));
-static_assert(same(Reason::bad_thermal, VOLCOMP_BAD_THERMAL));
-static_assert(same(Reason::expired, VOLCOMP_EXPIRED));
-static_assert(same(Reason::cannot_orient, VOLCOMP_CANNOT_ORIENT));
-
-constexpr bool same(StatusBit bit, volcomp_status_bit number) {
-  return static_cast<int>(bit) == static_cast<int>(number);
-}
-static_assert(same(StatusBit::kValid, VOLCOMP_VALID));
-static_assert(same(StatusBit::kNotHomed, VOLCOMP_NOT_HOMED));
-static_assert(same(StatusBit::kStale, VOLCOMP_STALE));
-static_assert(same(StatusBit::kDropped, VOLCOMP_DROPPED));
-static_assert(same(StatusBit::kImplausible, VOLCOMP_IMPLAUSIBLE));
-static_assert(same(StatusBit::kOutOfRange, VOLCOMP_OUT_OF_RANGE));
-static_assert(same(StatusBit::kFarOutOfRange, VOLCOMP_FAR_OUT_OF_RANGE));
-static_assert(same(StatusBit::kClamped, VOLCOMP_CLAMPED));
-static_assert(same(StatusBit::kRateLimited, VOLCOMP_RATE_LIMITED));
-static_assert(same(StatusBit::kDirectionUnknown, VOLCOMP_DIRECTION_UNKNOWN));
-static_assert(same(StatusBit::kRamping, VOLCOMP_RAMPING));
-static_assert(same(StatusBit::kNoAuthority, VOLCOMP_NO_AUTHORITY_HERE));
-static_assert(same(StatusBit::kNoTables, VOLCOMP_NO_TABLES));
-static_assert(same(StatusBit::kTableDamaged, VOLCOMP_TABLE_DAMAGED));
-
-constexpr bool same(TouchVerdict verdict, volcomp_verdict number) {
-  return static_cast<int>(verdict) == static_cast<int>(number);
-}
-static_assert(same(TouchVerdict::point, VOLCOMP_POINT));
-static_assert(same(TouchVerdict::centre, VOLCOMP_CENTRE));
-static_assert(same(TouchVerdict::uncertified, VOLCOMP_UNCERTIFIED));
-static_assert(same(TouchVerdict::uncorrected, VOLCOMP_UNCORRECTED));
-static_assert(same(TouchVerdict::retracting, VOLCOMP_RETRACTING));
-static_assert(same(TouchVerdict::no_machine, VOLCOMP_NO_MACHINE));
+// A line that volcomp.h tells differently, or not at all, is named by the compiler.
+#define LOADING(number, name, NAME, sentence) static_assert(VOLCOMP_##NAME == (number));
+#include "comp/core/reasons.def"
+#define STATUS_BIT(bit, enumerator, name, NAME, words) static_assert(VOLCOMP_##NAME == 1 << (bit));
+#define POINT_VERDICT(number, name, NAME, sentence) static_assert(VOLCOMP_##NAME == (number));
+#include "comp/tick/codes.def"
 
 constexpr const char* kUnknown = "unknown";
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/tick/status_text.hpp"
 #include "comp/tick/touch.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/nmt.hpp"
@@ -21,13 +22,18 @@ std::pair<unsigned, std::string> named(Enum value, const char* name) {
   return {static_cast<unsigned>(value), name};
 }
 
-// Bits of StatusBit.
-constexpr const char* kStatusBitNames =
-    "Bits: 0 valid, 1 not homed, 2 stale, 3 dropped, 4 implausible, 5 out of range, 6 far out of "
-    "range, 7 clamped, 8 rate limited, 9 direction unknown, 10 ramping, 11 no authority, 12 no "
-    "tables, 13 table damaged";
+// "Bits: 0 valid, 1 not homed, …"
+std::string name_status_bits() {
+  std::string names;
+  for (unsigned bit = 0; bit < kStatusBits; ++bit)
+    names += fmt::format("{} {} {}", bit == 0 ? "Bits:" : ",", bit,
+                         code(static_cast<StatusBit>(1U << bit)));
+  std::replace(names.begin(), names.end(), '_', ' ');
+  return names;
+}
 
 const std::vector<SignalText>& texts() {
+  static const std::string status_bits = name_status_bits();
   static const std::vector<SignalText> all{
       {{0x6040, 0}, "Controlword", Quantity::code},
       {{0x6041, 0}, "Statusword", Quantity::code},
@@ -55,7 +61,7 @@ const std::vector<SignalText>& texts() {
        "Largest of the three coordinates"},
       {object::state.id(), "NodeState", Quantity::code, nullptr, node_states()},
       {object::sync_counter.id(), "SyncCounter", Quantity::count},
-      {object::any_status.id(), "AxisStatusBits", Quantity::code, kStatusBitNames},
+      {object::any_status.id(), "AxisStatusBits", Quantity::code, status_bits.c_str()},
       {object::thermal::reading.id(), "Temperature0", Quantity::temperature},
       {object::thermal::reading[1].id(), "Temperature1", Quantity::temperature},
       {object::thermal::reading[2].id(), "Temperature2", Quantity::temperature},
@@ -107,37 +113,14 @@ ValueNames touch_verdicts() {
 }
 
 ValueNames error_codes() {
-  using canopen::ErrorCode;
-  return {named(ErrorCode::none, "error gone"),
-          named(ErrorCode::temperature_held, "temperature missing or implausible"),
-          named(ErrorCode::memory_damaged, "settings damaged"),
-          named(ErrorCode::program_damaged, "program damaged"),
-          named(ErrorCode::store_failed, "saving failed"),
-          named(ErrorCode::unexpected_reset, "restarted by watchdog or fault"),
-          named(ErrorCode::background_overdue, "background hangs"),
-          named(ErrorCode::parameters_lost, "stored parameters damaged"),
-          named(kCommunicationErrorCode, "communication"),
-          named(ErrorCode::can_overrun, "frames lost"),
-          named(ErrorCode::can_passive, "CAN controller error passive"),
-          named(ErrorCode::heartbeat, "a node fell silent"),
-          named(ErrorCode::bus_off_recovered, "back from bus-off"),
-          named(ErrorCode::rpdo_length, "PDO too short"),
-          named(ErrorCode::sync_length, "SYNC with wrong length"),
-          named(ErrorCode::rpdo_timeout, "process data missing"),
-          named(kFollowingErrorCode, "following error"),
-          named(ErrorCode::axis_not_referenced, "axis not referenced or not enabled"),
-          named(ErrorCode::axis_implausible, "position jumped"),
-          named(ErrorCode::axis_clamped, "correction limited"),
-          named(ErrorCode::axis_out_of_range, "position beyond the table"),
-          named(ErrorCode::no_authority, "correcting axes cannot act here"),
-          named(ErrorCode::table_refused, "table refused"),
-          named(ErrorCode::table_damaged, "active tables damaged"),
-          named(ErrorCode::tables_expired, "active tables past their expiry"),
-          named(ErrorCode::time_doubted, "TIME jumped"),
-          named(ErrorCode::foreign_sync, "second SYNC producer"),
-          named(ErrorCode::offset_not_confirmed, "drive does not report its offset"),
-          named(ErrorCode::touch_rejected, "touch rejected"),
-          named(ErrorCode::point_lost, "probed point lost")};
+  ValueNames names{
+#define ERROR_CODE(number, name, title, sentence) {number, title},
+#include "firmware/canopen/codes.def"
+      named(kCommunicationErrorCode, "communication"),
+      named(kFollowingErrorCode, "following error"),
+  };
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace volcomp::host

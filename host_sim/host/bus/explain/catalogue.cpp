@@ -1,78 +1,69 @@
 #include "host_sim/host/bus/explain/catalogue.hpp"
 
+#include <array>
 #include <cctype>
 #include <charconv>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "comp/tick/status_text.hpp"
-#include "firmware/canopen/abort_code.hpp"
-#include "host_sim/host/bus/explain/explanation.hpp"
 #include "host_sim/host/bus/explain/object_text.hpp"
 
 namespace volcomp::host {
 namespace {
 
-using canopen::AbortCode;
-using canopen::ErrorCode;
+// --- the list
 
-CodeEntry entry(CodeKind kind, unsigned number, std::string label, std::string name,
-                std::string what, const Explanation& text) {
-  return {kind, number, std::move(label), std::move(name), std::move(what), text.why, text.remedy};
+std::string label_of(CodeKind kind, unsigned number) {
+  switch (kind) {
+    case CodeKind::status_bit:
+      return fmt::format("bit {}", number);
+    case CodeKind::emergency:
+      return fmt::format("{:04X}h", number);
+    case CodeKind::abort:
+      return fmt::format("{:04X} {:04X}h", number >> 16U, number & 0xFFFFU);
+    case CodeKind::reason:
+    case CodeKind::verdict:
+      break;
+  }
+  return std::to_string(number);
 }
 
-// There is no list of them in the code: those that have a sentence of their own.
-template <class Code>
-std::vector<Code> known_codes(unsigned from, unsigned to, const std::string& unknown) {
-  std::vector<Code> codes;
-  for (unsigned n = from; n <= to; ++n) {
-    const auto code = static_cast<Code>(n);
-    if (sentence(code) != unknown) codes.push_back(code);
-  }
-  return codes;
+// As the page has it.
+std::string heading_of(const CodeEntry& e) {
+  return e.name.empty() ? fmt::format("**{}** {}", e.label, e.what)
+                        : fmt::format("**`{}`** ({}) {}", e.name, e.label, e.what);
 }
 
-void add_emergencies(std::vector<CodeEntry>& all) {
-  const std::string unknown = sentence(static_cast<ErrorCode>(0xFFFF));
-  for (const ErrorCode code : known_codes<ErrorCode>(0, 0xFFFE, unknown)) {
-    const auto number = static_cast<unsigned>(code);
-    all.push_back(entry(CodeKind::emergency, number, fmt::format("{:04X}h", number), "",
-                        sentence(code), explain(code)));
-  }
+// The rest of the line that begins with `mark`.
+std::string line_of(std::string_view paragraph, std::string_view mark) {
+  const std::size_t at = paragraph.find(mark);
+  if (at == std::string_view::npos) return "";
+  const std::string_view line = paragraph.substr(at + mark.size());
+  return std::string(line.substr(0, line.find('\n')));
 }
 
-void add_aborts(std::vector<CodeEntry>& all) {
-  const std::string unknown = sentence(static_cast<AbortCode>(0xFFFFFFFF));
-  std::vector<AbortCode> codes;
-  for (unsigned block = 0x05030000; block <= 0x08000000; block += 0x10000) {
-    for (const AbortCode code : known_codes<AbortCode>(block, block + 0xFF, unknown))
-      codes.push_back(code);
-  }
-  for (const AbortCode code : codes) {
-    const auto number = static_cast<unsigned>(code);
-    all.push_back(entry(CodeKind::abort, number,
-                        fmt::format("{:04X} {:04X}h", number >> 16U, number & 0xFFFFU), "",
-                        sentence(code), {}));
-  }
+CodeEntry entry(CodeKind kind, unsigned number, const char* name, std::string what) {
+  CodeEntry e{kind, number, label_of(kind, number), name, std::move(what), "", ""};
+  const std::string_view page = reason_page();
+  const std::size_t at = page.find("\n" + heading_of(e) + "\n");
+  if (at == std::string_view::npos) return e;
+  const std::string_view paragraph = page.substr(at, page.find("\n\n", at + 1) - at);
+  e.why = line_of(paragraph, "\n*Why:* ");
+  e.remedy = line_of(paragraph, "\n*What to do:* ");
+  return e;
+}
+
+std::string sentence_of(std::string words) {
+  words.front() = static_cast<char>(std::toupper(words.front()));
+  return words + ".";
 }
 
 // --- text
 
 std::string name_of(const CodeEntry& e) {
   return e.name.empty() ? e.label : fmt::format("{} ({})", e.name, e.label);
-}
-
-void append_kind(std::string& page, const std::vector<CodeEntry>& all, CodeKind kind,
-                 const char* introduction) {
-  page += fmt::format("\n## {}\n\n{}\n", title(kind), introduction);
-  for (const CodeEntry& e : all) {
-    if (e.kind != kind) continue;
-    page += e.name.empty() ? fmt::format("\n**{}** {}", e.label, e.what)
-                           : fmt::format("\n**`{}`** ({}) {}", e.name, e.label, e.what);
-    if (!e.why.empty()) page += fmt::format("\n*Why:* {}", e.why);
-    if (!e.remedy.empty()) page += fmt::format("\n*What to do:* {}", e.remedy);
-    page += '\n';
-  }
 }
 
 // --- what a user may have typed
@@ -117,65 +108,25 @@ bool means(const Word& w, const CodeEntry& e) {
 }  // namespace
 
 const char* title(CodeKind kind) {
-  switch (kind) {
-    case CodeKind::reason:
-      return "Reasons";
-    case CodeKind::status_bit:
-      return "Status bits of an axis";
-    case CodeKind::emergency:
-      return "Emergency codes";
-    case CodeKind::verdict:
-      return "Verdicts on touches";
-    case CodeKind::abort:
-      return "SDO abort codes";
-  }
-  return "";
+  static constexpr std::array kTitles{"Reasons", "Status bits of an axis", "Emergency codes",
+                                      "Verdicts on touches", "SDO abort codes"};
+  return kTitles.at(static_cast<std::size_t>(kind));
 }
 
 std::vector<CodeEntry> code_catalogue() {
-  std::vector<CodeEntry> all;
-  for (unsigned n = 0; n < kReasons; ++n) {
-    const auto reason = static_cast<Reason>(n);
-    all.push_back(entry(CodeKind::reason, n, fmt::format("{}", n), code(reason), sentence(reason),
-                        explain(reason)));
-  }
-  for (unsigned n = 0; n < kStatusBits; ++n) {
-    const auto bit = static_cast<StatusBit>(1U << n);
-    const std::string text = words(bit);
-    all.push_back(entry(CodeKind::status_bit, n, fmt::format("bit {}", n), code(bit),
-                        static_cast<char>(std::toupper(text.front())) + text.substr(1) + ".",
-                        explain(bit)));
-  }
-  add_emergencies(all);
-  for (unsigned n = 0; n < kTouchVerdicts; ++n) {
-    const auto verdict = static_cast<TouchVerdict>(n);
-    all.push_back(entry(CodeKind::verdict, n, fmt::format("{}", n), code(verdict),
-                        sentence(verdict), explain(verdict)));
-  }
-  add_aborts(all);
-  return all;
-}
-
-std::string reason_page() {
-  const std::vector<CodeEntry> all = code_catalogue();
-  std::string page =
-      "# What volcomp says, and what to do\n\n"
-      "Made from the code by `volcomp device-files --reasons FILE`; `volcomp explain CODE` shows "
-      "one of them.\n";
-  append_kind(page, all, CodeKind::reason,
-              "Why an input was refused. The host tool adds file, line, axis, run or field; a node "
-              "tells the number in 2112h:02 and in the emergency FF10h. What was in force stays in "
-              "force.");
-  append_kind(
-      page, all, CodeKind::status_bit,
-      "2601h, one word per axis; 2600h:03 is all of them together. 2610h to 2614h count how "
-      "often each began.");
-  append_kind(page, all, CodeKind::emergency,
-              "Sent once when an error appears, and once more as 0000h when it has gone. The last "
-              "eight are in 1003h. Bytes are counted from 0.");
-  append_kind(page, all, CodeKind::verdict, "2401h:02, and in the emergency FF30h.");
-  append_kind(page, all, CodeKind::abort, "Answers to an SDO request (CiA 301).");
-  return page;
+  return {
+#define REASON(number, name, sentence) entry(CodeKind::reason, number, #name, sentence),
+#include "comp/core/reasons.def"
+#define STATUS_BIT(bit, enumerator, name, NAME, words) \
+  entry(CodeKind::status_bit, bit, #name, sentence_of(words)),
+#include "comp/tick/codes.def"
+#define ERROR_CODE(number, name, title, sentence) entry(CodeKind::emergency, number, "", sentence),
+#include "firmware/canopen/codes.def"
+#define VERDICT(number, name, sentence) entry(CodeKind::verdict, number, #name, sentence),
+#include "comp/tick/codes.def"
+#define ABORT_CODE(number, name, sentence) entry(CodeKind::abort, number, "", sentence),
+#include "firmware/canopen/codes.def"
+  };
 }
 
 std::string object_page() {

@@ -1,8 +1,12 @@
 #pragma once
-// All names and numbers that a volcomp machine reports, in one list, and the pages of the
-// documentation that are generated from it.
+// All names and numbers that a volcomp machine reports, in one list, and the pages about them.
+//
+// Name, number and sentence come from reasons.def, codes.def and objects.def; why a code comes and
+// what to do stands in docs/reason-codes.md, a page written by hand, which is linked into the
+// program.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host_sim/host/bus/device_files/eds_objects.hpp"
@@ -17,7 +21,7 @@ struct CodeEntry {
   std::string label;   // the number as it is written: 7, bit 3, FF10h, 0601 0002h
   std::string name;    // machine-readable; empty where there is none
   std::string what;    // what happened
-  std::string why;     // may be empty
+  std::string why;     // empty for abort codes
   std::string remedy;  // likewise
 };
 
@@ -25,8 +29,8 @@ struct CodeEntry {
 
 [[nodiscard]] const char* title(CodeKind kind);
 
-// Markdown.
-[[nodiscard]] std::string reason_page();
+// Markdown. docs/reason-codes.md, and what docs/object-dictionary.md is made from.
+[[nodiscard]] std::string_view reason_page();
 [[nodiscard]] std::string object_page();
 
 struct Meaning {

@@ -1,5 +1,7 @@
 #include "host_sim/host/bus/explain/meaning_json.hpp"
 
+#include <array>
+
 #include "host_sim/host/bus/explain/object_text.hpp"
 
 namespace volcomp::host {
@@ -8,19 +10,8 @@ namespace {
 using nlohmann::json;
 
 const char* kind_name(CodeKind kind) {
-  switch (kind) {
-    case CodeKind::reason:
-      return "reason";
-    case CodeKind::status_bit:
-      return "status_bit";
-    case CodeKind::emergency:
-      return "emergency";
-    case CodeKind::verdict:
-      return "verdict";
-    case CodeKind::abort:
-      return "abort";
-  }
-  return "";
+  static constexpr std::array kNames{"reason", "status_bit", "emergency", "verdict", "abort"};
+  return kNames.at(static_cast<std::size_t>(kind));
 }
 
 json codes_json(const std::vector<CodeEntry>& codes) {

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/host/bus/explain/explanation.hpp"
-
 namespace volcomp::host {
 namespace {
 

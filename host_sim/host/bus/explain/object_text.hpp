@@ -17,7 +17,9 @@ namespace volcomp::host {
 
 // "u16"
 [[nodiscard]] const char* type_name(canopen::DataType type);
-// Empty where there is no text.
+// What an object of the node is for, by index; nullptr where nothing is known of it.
+[[nodiscard]] const char* purpose(unsigned index);
+// The same, empty where there is no text.
 [[nodiscard]] const char* purpose_of(const EdsObject& object);
 
 }  // namespace volcomp::host

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "host_sim/host/bus/explain/explanation.hpp"
+#include "host_sim/host/bus/explain/object_text.hpp"
 
 namespace volcomp::host {
 namespace {
