@@ -59,8 +59,8 @@ void read_probe_calibration(const std::string& text, const std::string& name, No
       read_setting(setting, targets);
     for (const Target& target : targets) {
       if (!target.given)
-        throw UserError(
-            fmt::format("{}: lacks the setting {} [missing_field]", name, target.object));
+        throw UserError(fmt::format("{}: lacks the setting {} [{}]", name, target.object,
+                                    code(Reason::missing_field)));
     }
     return read;
   });

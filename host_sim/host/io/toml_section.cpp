@@ -33,7 +33,8 @@ const TomlSection::Value* TomlSection::find(const std::string& key) const {
 const TomlSection::Value& TomlSection::need(const std::string& key) const {
   const Value* value = find(key);
   if (value == nullptr)
-    fail(*value_, fmt::format("missing mandatory field '{}' in {} [missing_field]", key, name_));
+    fail(*value_, fmt::format("missing mandatory field '{}' in {} [{}]", key, name_,
+                              code(Reason::missing_field)));
   return *value;
 }
 

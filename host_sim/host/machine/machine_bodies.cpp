@@ -122,8 +122,8 @@ std::int8_t sign_in_chain(const Section& s, const AxisFile& axis, bool work) {
   s.complain("name",
              fmt::format("missing mandatory field 'sign' of axis {}, which turns the workpiece: 1 "
                          "if it counts the turning of the table (right-handed), -1 if that of the "
-                         "tool against it (ISO 841) [missing_field]",
-                         axis.letter));
+                         "tool against it (ISO 841) [{}]",
+                         axis.letter, code(Reason::missing_field)));
 }
 
 Joint joint_in_chain(const Section& s, const AxisFile& axis, std::size_t nc_axis, bool work) {
@@ -204,8 +204,9 @@ void read_bodies(const Section& top, MachineFile& file, MachineDescription& d) {
   if (top.has("chain")) return read_chain(top, file, d);
   if (!top.has("body"))
     top.complain("body",
-                 "missing mandatory field 'chain' (or a list [[body]]) in the machine file "
-                 "[missing_field]");
+                 fmt::format("missing mandatory field 'chain' (or a list [[body]]) in the machine "
+                             "file [{}]",
+                             code(Reason::missing_field)));
   read_list(top, file, d);
 }
 

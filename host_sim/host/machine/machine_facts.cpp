@@ -85,8 +85,8 @@ void require_authority(const MachineFile& machine) {
   if (greatest >= kMinAuthority) return;
   throw UserError(fmt::format(
       "{}: the axes of [correction] cannot correct anywhere on the travel: authority at "
-      "most {:.3f}, {} is needed [no_authority]",
-      machine.path, greatest, kMinAuthority));
+      "most {:.3f}, {} is needed [{}]",
+      machine.path, greatest, kMinAuthority, code(Reason::no_authority)));
 }
 
 std::vector<std::size_t> rotary_axes(const MachineChain& chain) {

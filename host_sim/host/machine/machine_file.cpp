@@ -42,7 +42,8 @@ void read_travel(const Section& s, AxisFile& axis) {
   if (!axis.rotary) return;
   if (std::abs(axis.hi - axis.lo - 2.0 * kPi) < kAsWritten_rad) axis.hi = axis.lo + 2.0 * kPi;
   if (axis.hi - axis.lo > 2.0 * kPi && !axis.full_turn())
-    s.complain(key, fmt::format("'{}' is more than one turn [travel_too_long]", key));
+    s.complain(key,
+               fmt::format("'{}' is more than one turn [{}]", key, code(Reason::travel_too_long)));
 }
 
 AxisFile read_axis(const Section& s, std::size_t number, bool in_chain) {
@@ -55,8 +56,8 @@ AxisFile read_axis(const Section& s, std::size_t number, bool in_chain) {
   const std::string reference_key = axis.rotary ? "reference_rad" : "reference_mm";
   axis.reference = s.number(reference_key);
   if (axis.reference < axis.lo || axis.reference > axis.hi) {
-    s.complain(reference_key,
-               fmt::format("'{}' lies outside the travel [reference_out_of_range]", reference_key));
+    s.complain(reference_key, fmt::format("'{}' lies outside the travel [{}]", reference_key,
+                                          code(Reason::reference_out_of_range)));
   }
   const auto point = s.numbers<3>("sensed_point_mm");
   s.check(check_offset("sensed_point_mm", point), "sensed_point_mm");
@@ -92,9 +93,8 @@ std::vector<std::uint8_t> read_orienting(const Section& s, const MachineFile& fi
   for (const std::uint8_t a : axes) {
     const AxisFile& axis = file.axes[a];
     if (!axis.rotary)
-      s.complain(
-          "orienting",
-          fmt::format("{} does not turn: it cannot orient the tool [cannot_orient]", axis.letter));
+      s.complain("orienting", fmt::format("{} does not turn: it cannot orient the tool [{}]",
+                                          axis.letter, code(Reason::cannot_orient)));
     if (!taken.insert(a).second)
       s.complain("orienting", fmt::format("{} takes another offset already", axis.letter));
   }

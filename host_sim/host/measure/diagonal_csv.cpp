@@ -84,15 +84,16 @@ class DiagonalsReader {
     }
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (!seen.at(i))
-        lines_.fail(fmt::format("the header lacks the column {} [missing_field]", kNames.at(i)));
+        lines_.fail(fmt::format("the header lacks the column {} [{}]", kNames.at(i),
+                                code(Reason::missing_field)));
     }
   }
 
   double length(std::string_view cell, Column column) const {
     const double value = lines_.number(cell, fmt::format("{}: ", kNames.at(column)));
     if (!std::isfinite(value))
-      lines_.fail(
-          fmt::format("{} is {}, must be finite [not_finite]", kNames.at(column), quoted(cell)));
+      lines_.fail(fmt::format("{} is {}, must be finite [{}]", kNames.at(column), quoted(cell),
+                              code(Reason::not_finite)));
     const double mm = value * factor_.at(column);
     if (std::abs(mm) > kLongest_mm)
       lines_.fail(
@@ -151,16 +152,16 @@ class DiagonalsReader {
     for (const auto& [key, target] : c.targets)
       d.targets.push_back(target);
     if (d.targets.size() < 2)
-      throw UserError(fmt::format("{}:{}: diagonal {} has one target only [too_few_points]",
-                                  lines_.name(), d.targets[0].line, c.name));
+      throw UserError(fmt::format("{}:{}: diagonal {} has one target only [{}]", lines_.name(),
+                                  d.targets[0].line, c.name, code(Reason::too_few_points)));
     for (const auto& [run, readings] : c.readings) {
       const std::size_t line = c.begin.at(run);
       if (readings.size() != d.targets.size())
         throw UserError(
             fmt::format("{}:{}: diagonal {}: run {} {} has {} of {} targets "
-                        "[run_length]",
+                        "[{}]",
                         lines_.name(), line, c.name, run.second, run.first ? "up" : "down",
-                        readings.size(), d.targets.size()));
+                        readings.size(), d.targets.size(), code(Reason::run_length)));
       DiagonalRun r{run.second, run.first, line, {}};
       for (const auto& [key, value] : readings)
         r.deviation_mm.push_back(value);

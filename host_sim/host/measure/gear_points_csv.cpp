@@ -44,11 +44,11 @@ void require_gear_columns(const CsvLines& lines, const GearHeader& h) {
   for (std::size_t i = 0; i < kColumns; ++i) {
     const bool needed = i <= kTooth || (places ? i <= kZ : i >= kAt);
     if (needed && !h.seen.at(i))
-      lines.fail(fmt::format("the header lacks the column {}{} [missing_field]",
-                             kGearColumnNames.at(i),
+      lines.fail(fmt::format("the header lacks the column {}{} [{}]", kGearColumnNames.at(i),
                              i <= kTooth       ? ""
                              : i == kDeviation ? " [um]"
-                                               : " [mm]"));
+                                               : " [mm]",
+                             code(Reason::missing_field)));
   }
 }
 
@@ -93,8 +93,8 @@ double length_from(const CsvLines& lines, std::string_view cell, std::size_t col
                    double factor) {
   const double mm = lines.number(cell, fmt::format("{}: ", kGearColumnNames.at(column))) * factor;
   if (!std::isfinite(mm) || std::abs(mm) > kFarthestPoint_mm)
-    lines.fail(fmt::format("{}: {} must be finite and less than 100 m [not_finite]",
-                           kGearColumnNames.at(column), quoted(cell)));
+    lines.fail(fmt::format("{}: {} must be finite and less than 100 m [{}]",
+                           kGearColumnNames.at(column), quoted(cell), code(Reason::not_finite)));
   return mm;
 }
 

@@ -41,8 +41,8 @@ double finite(const CsvLines& lines, std::string_view cell, const std::string& w
   if (!std::isfinite(value))
     lines.fail(
         fmt::format("{}: {} is no measured value; a cell that was not measured is left empty "
-                    "[not_finite]",
-                    where, quoted(cell)));
+                    "[{}]",
+                    where, quoted(cell), code(Reason::not_finite)));
   return value;
 }
 

@@ -136,10 +136,10 @@ class ProbeCalibrator {
 void require_touches(const TouchFile& file, std::size_t parameters, ProbeModel model) {
   const std::size_t needed = parameters + kSpareTouches;
   if (file.touches.size() >= needed) return;
-  throw UserError(
-      fmt::format("{}: {} touches, {} parameters need at least {}{} [too_few_points]", file.name,
-                  file.touches.size(), parameters, needed,
-                  model == ProbeModel::lobing ? "; a constant radius needs fewer" : ""));
+  throw UserError(fmt::format("{}: {} touches, {} parameters need at least {}{} [{}]", file.name,
+                              file.touches.size(), parameters, needed,
+                              model == ProbeModel::lobing ? "; a constant radius needs fewer" : "",
+                              code(Reason::too_few_points)));
 }
 
 void require_spread(const TouchFile& file, double cofactor) {
@@ -155,12 +155,12 @@ void require_plausible(const TouchFile& file, const ProbeCalibration& c) {
   if (!(radius > 0.0 && radius < kMostRadius_mm))
     throw UserError(
         fmt::format("{}: the effective radius comes out as {:.4f} mm, a ball has from 0 to {:g}: "
-                    "is the diameter of the artefact right, and its kind? [implausible_radius]",
-                    file.name, radius, kMostRadius_mm));
+                    "is the diameter of the artefact right, and its kind? [{}]",
+                    file.name, radius, kMostRadius_mm, code(Reason::implausible_radius)));
   if (std::abs(c.largest) > kMostResidual_mm)
-    throw UserError(fmt::format(
-        "{}:{}: the touch is {:.4f} mm off the fit, more than {:g} mm [residuals_too_large]",
-        file.name, c.worst_line, c.largest, kMostResidual_mm));
+    throw UserError(fmt::format("{}:{}: the touch is {:.4f} mm off the fit, more than {:g} mm [{}]",
+                                file.name, c.worst_line, c.largest, kMostResidual_mm,
+                                code(Reason::residuals_too_large)));
 }
 
 void note_range(const ShownRadii& shown, ProbeCalibration& c) {

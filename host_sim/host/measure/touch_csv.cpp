@@ -35,8 +35,8 @@ struct TouchHeader {
 void require_all_of(const CsvLines& lines, const TouchHeader& h, Group group) {
   for (std::size_t i = 3 * group; i < 3 * (group + 1U); ++i) {
     if (!h.seen.at(i))
-      lines.fail(fmt::format("the header lacks the column {}{} [missing_field]",
-                             kTouchColumns.at(i), group == kCentre ? " [mm]" : ""));
+      lines.fail(fmt::format("the header lacks the column {}{} [{}]", kTouchColumns.at(i),
+                             group == kCentre ? " [mm]" : "", code(Reason::missing_field)));
   }
 }
 
@@ -76,8 +76,9 @@ double touch_value(const CsvLines& lines, std::string_view cell, std::size_t col
   const double value = lines.number(cell, fmt::format("{}: ", kTouchColumns.at(column))) * factor;
   const double most = column < 3 ? kFarthestTouch_mm : kLongestDirection;
   if (!std::isfinite(value) || std::abs(value) > most)
-    lines.fail(fmt::format("{}: {} must be finite and at most {:g}{} [not_finite]",
-                           kTouchColumns.at(column), quoted(cell), most, column < 3 ? " mm" : ""));
+    lines.fail(fmt::format("{}: {} must be finite and at most {:g}{} [{}]",
+                           kTouchColumns.at(column), quoted(cell), most, column < 3 ? " mm" : "",
+                           code(Reason::not_finite)));
   return value;
 }
 
@@ -97,7 +98,8 @@ ProbeTouch read_touch(const CsvLines& lines, const TouchHeader& header, std::str
   const bool directed = header.any(kNormal) || header.any(kApproach);
   if (!directed) return touch;
   const double length = touch.normal.norm();
-  if (!(length >= kShortestDirection)) lines.fail("the direction has no length [zero_normal]");
+  if (!(length >= kShortestDirection))
+    lines.fail(fmt::format("the direction has no length [{}]", code(Reason::zero_normal)));
   touch.normal /= length;
   return touch;
 }

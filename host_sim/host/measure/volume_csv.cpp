@@ -53,8 +53,8 @@ Header read_header(const CsvLines& lines, std::string_view line) {
   }
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!seen.at(i))
-      lines.fail(fmt::format("the header lacks the column {} [{}] [missing_field]",
-                             kColumnNames.at(i), i < 3 ? "mm" : "um"));
+      lines.fail(fmt::format("the header lacks the column {} [{}] [{}]", kColumnNames.at(i),
+                             i < 3 ? "mm" : "um", code(Reason::missing_field)));
   }
   return h;
 }
@@ -70,8 +70,8 @@ VolumePoint read_point(const CsvLines& lines, const Header& header, std::string_
     const std::string name = fmt::format("{}: ", kColumnNames.at(column));
     const double mm = lines.number(cells[i], name) * header.factor.at(column);
     if (!std::isfinite(mm) || std::abs(mm) > kFarthest_mm)
-      lines.fail(fmt::format("{}{} must be finite and less than a kilometre [not_finite]", name,
-                             quoted(cells[i])));
+      lines.fail(fmt::format("{}{} must be finite and less than a kilometre [{}]", name,
+                             quoted(cells[i]), code(Reason::not_finite)));
     (column < 3 ? p.at_mm : p.error_mm)(static_cast<Eigen::Index>(column % 3)) = mm;
   }
   return p;
@@ -106,8 +106,8 @@ VolumeFile read_volume(std::istream& stream, const std::string& name) {
     if (file.points.size() > kMost) lines.fail(fmt::format("more than {} places", kMost));
   }
   if (file.points.size() < kFewest)
-    throw UserError(fmt::format("{}: {} places, at least {} are needed [too_few_points]", name,
-                                file.points.size(), kFewest));
+    throw UserError(fmt::format("{}: {} places, at least {} are needed [{}]", name,
+                                file.points.size(), kFewest, code(Reason::too_few_points)));
   return file;
 }
 

@@ -43,9 +43,8 @@ int reference_target(const RunsFile& runs, const AxisFile& axis) {
         return std::abs(a - axis.reference) < std::abs(b - axis.reference);
       });
   if (std::abs(closest - axis.reference) > 1e-3) {
-    throw UserError(
-        fmt::format("{}: no target at the reference {} of axis {} [reference_out_of_range]",
-                    runs.name, axis.reference, axis.letter));
+    throw UserError(fmt::format("{}: no target at the reference {} of axis {} [{}]", runs.name,
+                                axis.reference, axis.letter, code(Reason::reference_out_of_range)));
   }
   return static_cast<int>(std::find(runs.positions.begin(), runs.positions.end(), closest) -
                           runs.positions.begin());
@@ -78,10 +77,10 @@ std::optional<TurnGap> close_turn(const RunsFile& runs, const AxisFile& axis, co
   const ErrorMotion backward = table.backward[last] - table.backward[0];
   const TurnGap gap = gap_between(forward, backward);
   if (gap.mm > kMostDrift.mm || gap.rad > kMostDrift.rad) {
-    throw UserError(
-        fmt::format("{}: the ends of the turn of {} differ by {:.2f} um and {:.2f} urad, more than "
-                    "drift explains [not_periodic]",
-                    runs.name, axis.letter, 1e3 * gap.mm, 1e6 * gap.rad));
+    throw UserError(fmt::format(
+        "{}: the ends of the turn of {} differ by {:.2f} um and {:.2f} urad, more than "
+        "drift explains [{}]",
+        runs.name, axis.letter, 1e3 * gap.mm, 1e6 * gap.rad, code(Reason::not_periodic)));
   }
   for (std::size_t i = 0; i <= last; ++i) {
     const double turns = (table.knot(i) - axis.reference) / (table.last() - table.q0);

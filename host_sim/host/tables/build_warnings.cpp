@@ -136,7 +136,8 @@ void check_targets(const RunsFile& runs, const AxisFile& axis, std::vector<std::
       "{}: targets of {} from {:g} to {:g}, but it travels from {:g} to {:g} {}", runs.name,
       axis.letter, *low, *high, axis.lo, axis.hi, axis.rotary ? "rad" : "mm");
   const bool outside = *low < axis.lo - kBeyond * travel || *high > axis.hi + kBeyond * travel;
-  if (outside || covered < kUnitSuspected) throw UserError(found + " [unit_suspected]");
+  if (outside || covered < kUnitSuspected)
+    throw UserError(fmt::format("{} [{}]", found, code(Reason::unit_suspected)));
   if (covered < kAll) warnings.push_back(found + ": beyond them the value of the end is used");
 }
 

@@ -21,8 +21,8 @@ std::map<double, ErrorMotion> means(const RunsFile& runs) {
     for (const RunValues& run : *list) {
       for (std::size_t t = 0; t < run.size(); ++t) {
         if (!run[t].allFinite())
-          throw UserError(fmt::format("{}: a reading at target {} is not finite [not_finite]",
-                                      runs.name, runs.positions[t]));
+          throw UserError(fmt::format("{}: a reading at target {} is not finite [{}]", runs.name,
+                                      runs.positions[t], code(Reason::not_finite)));
         mean.try_emplace(runs.positions[t], ErrorMotion(ErrorMotion::Zero())).first->second +=
             run[t] / n;
       }

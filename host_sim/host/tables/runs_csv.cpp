@@ -107,7 +107,8 @@ class RunsReader {
     }
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (seen[i] == 0)
-        fail(fmt::format("the header lacks the column {} [missing_field]", column_name(i)));
+        fail(fmt::format("the header lacks the column {} [{}]", column_name(i),
+                         code(Reason::missing_field)));
     }
     // ISO 841: X, Y, Z are linear, A, B, C turn; another letter may be either.
     const bool turns = std::string_view("ABC").find(letter_) != std::string_view::npos;
@@ -127,7 +128,8 @@ class RunsReader {
       switch (c.kind) {
         case Column::Kind::target:
           r.target = lines_.number(cells[i]) * c.factor;
-          if (!std::isfinite(r.target)) fail("a target position must be finite [not_finite]");
+          if (!std::isfinite(r.target))
+            fail(fmt::format("a target position must be finite [{}]", code(Reason::not_finite)));
           break;
         case Column::Kind::run: {
           const double run = lines_.number(cells[i]);
@@ -155,7 +157,7 @@ class RunsReader {
     const auto [it, fresh] = target_index_.try_emplace(key, positions_.size());
     if (fresh) {
       if (positions_.size() == kTableKnots)
-        fail(fmt::format("more than {} targets [too_many_knots]", kTableKnots));
+        fail(fmt::format("more than {} targets [{}]", kTableKnots, code(Reason::too_many_knots)));
       positions_.push_back(r.target);
     }
     auto& run = runs_[{r.up, r.run}];
@@ -180,9 +182,9 @@ class RunsReader {
         at.push_back(placed.line);
       }
       if (run.size() != positions_.size()) {
-        throw UserError(fmt::format("{}: run {} {} has {} of {} targets [run_length]",
-                                    lines_.name(), key.second, key.first ? "up" : "down",
-                                    run.size(), positions_.size()));
+        throw UserError(fmt::format("{}: run {} {} has {} of {} targets [{}]", lines_.name(),
+                                    key.second, key.first ? "up" : "down", run.size(),
+                                    positions_.size(), code(Reason::run_length)));
       }
       (key.first ? file.up : file.down).push_back(run);
       (key.first ? file.up_lines : file.down_lines).push_back(at);

@@ -81,7 +81,8 @@ void add_point(ForeignErrors& errors, const ErrorName& name, double at, double v
   if (twice)
     lines.fail(fmt::format("{} has position {} twice", channel_name(name.channel, name.axis), at));
   if (curve.size() == kTableKnots)
-    lines.fail(fmt::format("more than {} positions [too_many_knots]", kTableKnots));
+    lines.fail(
+        fmt::format("more than {} positions [{}]", kTableKnots, code(Reason::too_many_knots)));
   curve.push_back({position, value});
 }
 
