@@ -21,8 +21,8 @@ std::string heading(const CodeEntry& e) {
 
 // The headings of the page as heading() writes them; each once.
 std::set<std::string> headings_of_page() {
-  const std::regex named("\\*\\*`(.*)`\\*\\* \\((.*?)\\) (.*)");
-  const std::regex numbered("\\*\\*(.*)\\*\\* (.*)");
+  const std::regex named(R"(\*\*`(.*)`\*\* \((.*?)\) (.*))");
+  const std::regex numbered(R"(\*\*(.*)\*\* (.*))");
   std::set<std::string> found;
   std::string section;
   std::istringstream page{std::string(reason_page())};
