@@ -1,5 +1,7 @@
 #include "tests/cases/s0_case.hpp"
 
+#include <algorithm>
+
 namespace volcomp::cases {
 
 std::vector<double> numbers(const json& list) {
@@ -52,10 +54,22 @@ Flank flank_of(const json& in) {
           in.at("tooth").get<int>()};
 }
 
+ErrorMotion interpolate_motion(Span<const double> nodes, Span<const ErrorMotion> motion, double q,
+                               bool& held) {
+  const std::size_t last = nodes.size() - 1;
+  held = q < nodes[0] || q > nodes[last];
+  if (!(q > nodes[0])) return motion[0];
+  if (!(q < nodes[last])) return motion[last];
+  const double* const above = std::upper_bound(nodes.begin(), nodes.end(), q);
+  const auto i = static_cast<std::size_t>(above - nodes.begin()) - 1;
+  const double t = (q - nodes[i]) / (nodes[i + 1] - nodes[i]);
+  return motion[i] + t * (motion[i + 1] - motion[i]);
+}
+
 L300gCase::L300gCase(const json& in)
     : arm{number(in.at("LR")), number(in.at("Bc"))},
       datum{number(in.at("X0")), number(in.at("Y0"))} {
-  require(MachineChain::build(l300g_machine(arm, datum), chain));
+  require(MachineChain::build(test::l300g_machine(arm, datum), chain));
 }
 
 }  // namespace volcomp::cases

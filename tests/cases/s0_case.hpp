@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "comp/metrology/gears/involute_gear.hpp"
-#include "comp/metrology/gears/l300g.hpp"
 #include "tests/cases/case_file.hpp"
+#include "tests/oracle/l300g_machine.hpp"
 
 namespace volcomp::cases {
 
@@ -16,6 +16,10 @@ namespace volcomp::cases {
 [[nodiscard]] InvoluteGear gear_of(const json& in);
 // `side` and `tooth` of a case.
 [[nodiscard]] Flank flank_of(const json& in);
+
+// Piecewise linear between nodes, held outside; `held`: q is outside. At least one node.
+[[nodiscard]] ErrorMotion interpolate_motion(Span<const double> nodes,
+                                             Span<const ErrorMotion> motion, double q, bool& held);
 
 struct L300gCase {
   explicit L300gCase(const json& in);

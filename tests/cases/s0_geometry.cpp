@@ -1,12 +1,11 @@
 // Cases of docs/papers/l300g.md: error chains of probe and work branch, the arm, the stylus.
 
 #include "comp/metrology/fits/axis_identification.hpp"
-#include "comp/metrology/fits/stylus.hpp"
 #include "comp/metrology/gears/gear_path.hpp"
-#include "comp/metrology/gears/l300g.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
+#include "tests/oracle/stylus.hpp"
 
 namespace volcomp::cases {
 namespace {
@@ -116,7 +115,7 @@ json arc(const json& in) {
     return {{"B_from_Z", B}};
   }
   const double given = number(in.at("B"));
-  const double height = arm_height(arm, given);
+  const double height = test::arm_height(arm, given);
   require(arm_angle(arm, height, B));
   return {{"Z", height},
           {"dX", arm_foreshortening(arm, given)},
@@ -126,14 +125,14 @@ json arc(const json& in) {
 
 json stylus(const json& in) {
   Vec3 contact;
-  require(contact_point(vector3(in.at("centre")), vector3(in.at("normal")), number(in.at("r_c")),
-                        contact));
+  require(test::contact_point(vector3(in.at("centre")), vector3(in.at("normal")),
+                              number(in.at("r_c")), contact));
   return {{"contact", to_json(contact)}};
 }
 
 json motion_comp(const json& in) {
-  ArmOffset offset;
-  require(arm_offset(arm_of(in), number(in.at("B")), vector3(in.at("error_base")), offset));
+  test::ArmOffset offset;
+  require(test::arm_offset(arm_of(in), number(in.at("B")), vector3(in.at("error_base")), offset));
   return {{"dX", offset.X}, {"dY", offset.Y}, {"dB", offset.B}};
 }
 

@@ -2,11 +2,11 @@
 // tables.
 
 #include "comp/machine/xyfz.hpp"
-#include "comp/metrology/tables/per_axis.hpp"
 #include "comp/metrology/tables/squareness.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/table_case.hpp"
 #include "tests/cases/xyfz_case.hpp"
+#include "tests/oracle/per_axis_anchored.hpp"
 
 namespace volcomp::cases {
 namespace {
@@ -93,7 +93,7 @@ json per_axis_only(const json& in) {
   PerAxisTables<64> mean;
   PerAxisTables<64> anchored;
   per_axis_grid_mean(error_at, grid, mean);
-  per_axis_anchored(error_at, grid, vector3(in.at("anchor")), anchored);
+  test::per_axis_anchored(error_at, grid, vector3(in.at("anchor")), anchored);
   return {{"grid_mean", per_axis_to_json(mean, grid)},
           {"anchored_mid", per_axis_to_json(anchored, grid)}};
 }

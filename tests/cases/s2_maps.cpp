@@ -3,14 +3,19 @@
 #include <cmath>
 
 #include "comp/core/units.hpp"
-#include "comp/metrology/faces/closest_point.hpp"
 #include "comp/metrology/faces/error_map.hpp"
 #include "comp/metrology/gears/pitch.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s2_face_case.hpp"
+#include "tests/oracle/closest_point.hpp"
 
 namespace volcomp::cases {
 namespace {
+
+using test::ClosestPoint;
+using test::Parametrisation;
+using test::PatchPoint;
+using test::SplinePatch;
 
 template <class List>
 json list_of(const List& values) {

@@ -3,12 +3,9 @@
 
 #include <sstream>
 
-#include "host_sim/host/tables/formats/isg_ssfk.hpp"
-#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
-#include "host_sim/host/tables/formats/siemens_cec.hpp"
-#include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
+#include "tests/oracle/controller_tables.hpp"
 
 namespace volcomp::cases {
 namespace {
@@ -18,7 +15,7 @@ std::string enc_comp(const json& in) {
                                  number(in.at("step")), in.at("modulo"),     in.at("rotary")};
   std::string text;
   require(host::write_enc_comp(table, text));
-  require(host::write_enc_comp(host::read_enc_comp(text, table.rotary), text));
+  require(host::write_enc_comp(test::read_enc_comp(text, table.rotary), text));
   return text;
 }
 
@@ -29,7 +26,7 @@ std::string cec(const json& in) {
                              in.at("sign")};
   std::string text;
   require(host::write_cec(table, text));
-  require(host::write_cec(host::read_cec(text, table.rotary, table.sign), text));
+  require(host::write_cec(test::read_cec(text, table.rotary, table.sign), text));
   return text;
 }
 
@@ -49,7 +46,7 @@ std::string ssfk(const json& in) {
                               numbers(in.at("rev")),     in.at("rotary")};
   std::string text;
   require(host::write_ssfk(table, text));
-  require(host::write_ssfk(host::read_ssfk(text, table.rotary), text));
+  require(host::write_ssfk(test::read_ssfk(text, table.rotary), text));
   return text;
 }
 

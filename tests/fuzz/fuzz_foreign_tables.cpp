@@ -6,14 +6,14 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/formats/etalon_text.hpp"
 #include "host_sim/host/tables/formats/isg_csv.hpp"
-#include "host_sim/host/tables/formats/isg_ssfk.hpp"
-#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
-#include "host_sim/host/tables/formats/siemens_cec.hpp"
-#include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
+#include "tests/oracle/controller_tables.hpp"
 
 namespace {
 
 using namespace volcomp::host;
+using volcomp::test::read_cec;
+using volcomp::test::read_enc_comp;
+using volcomp::test::read_ssfk;
 
 void check(bool good) {
   if (!good) __builtin_trap();

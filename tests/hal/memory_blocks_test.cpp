@@ -1,7 +1,7 @@
 // Flash in memory: what flash with error correction can do, what it cannot, and everything an
 // operation that was cut short may leave.
 
-#include "hal/loopback/memory_blocks.hpp"
+#include "tests/hal/memory_blocks.hpp"
 
 #include <set>
 #include <vector>
@@ -11,10 +11,9 @@
 namespace volcomp::test {
 namespace {
 
-using Blocks = hal::MemoryBlocks<128, 2, 32>;
+using Blocks = MemoryBlocks<128, 2, 32>;
 using Bytes = std::vector<std::uint8_t>;
 using hal::BlockRead;
-using hal::Torn;
 static_assert(hal::IsBlockDevice<Blocks>::value);
 
 Bytes content(Blocks& blocks) {
@@ -106,7 +105,7 @@ TEST(MemoryBlocks, CountsUnitsAndSectors) {
 TEST(MemoryBlocks, APowerFailureTearsTheUnitUnderWorkOnly) {
   const Bytes data = counting(96);
   const Bytes wanted(data.begin() + 32, data.begin() + 64);
-  for (const Torn torn : hal::kEveryTorn) {
+  for (const Torn torn : kEveryTorn) {
     SCOPED_TRACE(static_cast<int>(torn));
     Blocks blocks;
     blocks.cut_power_at(1, torn);
@@ -168,7 +167,7 @@ TEST(MemoryBlocks, ATornSectorHoldsWhatItsNameSays) {
 }
 
 TEST(MemoryBlocks, ATornSectorHasToBeErasedBeforeItIsProgrammed) {
-  for (const Torn torn : hal::kEveryTorn) {
+  for (const Torn torn : kEveryTorn) {
     if (torn == Torn::complete || torn == Torn::front) continue;
     Blocks blocks;
     ASSERT_TRUE(program(blocks, 0, Bytes(32, 0xA5)));

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "comp/metrology/gears/internal_grinder.hpp"
-#include "comp/metrology/gears/l300g.hpp"
 #include "tests/oracle/hostile_image.hpp"
+#include "tests/oracle/l300g_machine.hpp"
 #include "tests/oracle/tick_bench.hpp"
 
 namespace volcomp::test {

@@ -3,8 +3,8 @@
 // of a straight motion.
 
 #include "comp/core/units.hpp"
-#include "comp/metrology/gears/l300g.hpp"
 #include "comp/probe/probe_corrector.hpp"
+#include "tests/oracle/l300g_machine.hpp"
 #include "tests/oracle/tick_bench.hpp"
 
 namespace volcomp::test {

@@ -10,10 +10,7 @@
 #include "host_sim/experiments/internal_helical/controller_files.hpp"
 #include "host_sim/experiments/internal_helical/figures.hpp"
 #include "host_sim/experiments/internal_helical/report.hpp"
-#include "host_sim/host/tables/formats/isg_ssfk.hpp"
-#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
-#include "host_sim/host/tables/formats/siemens_cec.hpp"
-#include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
+#include "tests/oracle/controller_tables.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -98,25 +95,25 @@ TEST(InternalHelical, ControllerFilesSayWhatWasLearned) {
   const std::vector<internal_helical::ControllerFile> files =
       internal_helical::controller_files(result.gear, t);
   ASSERT_EQ(files.size(), 5U);
-  const host::CecTable up = host::read_cec(files[0].text, true, 1);
-  const host::CecTable down = host::read_cec(files[1].text, true, 1);
-  const host::EncCompTable slots = host::read_enc_comp(files[2].text, true);
+  const host::CecTable up = test::read_cec(files[0].text, true, 1);
+  const host::CecTable down = test::read_cec(files[1].text, true, 1);
+  const host::EncCompTable slots = test::read_enc_comp(files[2].text, true);
   std::istringstream comp(files[3].text);
   const host::LinuxcncComp linuxcnc = host::read_linuxcnc(comp, files[3].name, 1);
-  const host::SsfkTable isg = host::read_ssfk(files[4].text, false);
+  const host::SsfkTable isg = test::read_ssfk(files[4].text, false);
   const double p = result.gear.screw_parameter();
   constexpr double kRounding_rad = 0.51e-6 * internal_helical::kRadPerDegree;
   for (std::size_t j = 0; j < t.stroke[0].size(); ++j) {
     const double z = t.z0_mm + t.pitch_mm * static_cast<double>(j);
-    EXPECT_NEAR(host::offset_at(up, z, 1), t.stroke[0][j], kRounding_rad);
-    EXPECT_NEAR(host::offset_at(down, z, -1), t.stroke[1][j], kRounding_rad);
-    EXPECT_NEAR(host::offset_at(linuxcnc, z, 1), p * t.stroke[0][j], 0.51e-6);
-    EXPECT_NEAR(host::offset_at(isg, z, -1), p * t.stroke[1][j], 0.51e-4);
+    EXPECT_NEAR(test::offset_at(up, z, 1), t.stroke[0][j], kRounding_rad);
+    EXPECT_NEAR(test::offset_at(down, z, -1), t.stroke[1][j], kRounding_rad);
+    EXPECT_NEAR(test::offset_at(linuxcnc, z, 1), p * t.stroke[0][j], 0.51e-6);
+    EXPECT_NEAR(test::offset_at(isg, z, -1), p * t.stroke[1][j], 0.51e-4);
   }
   for (std::size_t k = 0; k < t.slot.size(); ++k) {
     const double c = internal_helical::slot_place(result.gear, static_cast<std::uint16_t>(k)) /
                      internal_helical::kRadPerDegree;
-    EXPECT_NEAR(host::offset_at(slots, c), t.slot[k], 3.0 * kRounding_rad) << k;
+    EXPECT_NEAR(test::offset_at(slots, c), t.slot[k], 3.0 * kRounding_rad) << k;
   }
 }
 

@@ -7,12 +7,14 @@
 #include "host_sim/experiments/l300g/truth.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
-#include "host_sim/sim/artefacts/plane.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
 #include "host_sim/sim/controller/prober.hpp"
+#include "tests/host_sim/sim/artefacts/plane.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+using test::Plane;
 
 constexpr double kWall_mm = 62.0;
 constexpr double kArmLevel = -39.025 * kPi / 180.0;

@@ -6,12 +6,14 @@
 
 #include "comp/core/units.hpp"
 #include "firmware/canopen/bytes.hpp"
-#include "host_sim/sim/artefacts/plane.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "host_sim/sim/controller/straight_move.hpp"
+#include "tests/host_sim/sim/artefacts/plane.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+using test::Plane;
 
 constexpr double kSpeed_mm_s = 1000.0 / 60.0;
 constexpr double kSwungLevel = -39.025 * kPi / 180.0;

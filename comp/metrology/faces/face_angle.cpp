@@ -1,6 +1,5 @@
 #include "comp/metrology/faces/face_angle.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "comp/machine/frame.hpp"
@@ -42,12 +41,6 @@ Status evaluate(const FaceGear& gear, const FaceContact& contact, FaceAngle& at)
   return {};
 }
 
-double printed_turn(const FaceContact& contact, const PrintedFaceSearch& search, double rest) {
-  const double d = search.radius_taken_off ? rest : rest + contact.ball_radius;
-  const double part = std::min(std::abs(d) / search.range, 1.0);
-  return std::copysign(search.step * part * part, rest);
-}
-
 }  // namespace
 
 Vec3 direction_to_machine(const FacePlacement& placement, const Vec3& direction) {
@@ -60,11 +53,6 @@ Vec3 to_machine(const FacePlacement& placement, const Vec3& p) {
 
 Vec3 to_gear(const FacePlacement& placement, const Vec3& p) {
   return turned_about_axis(-placement.angle, flipped(p - placement.origin));
-}
-
-Vec3 ball_target(const FacePlacement& placement, const Vec3& point, const Vec3& normal,
-                 double ball_radius) {
-  return to_machine(placement, point + ball_radius * normal);
 }
 
 Status face_angle(const FaceGear& gear, const FaceContact& contact, double& gamma) {
@@ -98,19 +86,6 @@ Status relieved_face_angle(const FaceGear& gear, const FaceContact& contact, dou
     at.gamma += contact.flank.side * at.rest / gear.arm;
   }
   return not_reached(at);
-}
-
-Status printed_face_angle(const FaceGear& gear, const FaceContact& contact, double start,
-                          const PrintedFaceSearch& search, FaceAngle& out) {
-  if (const Status s = check(contact); !s.ok()) return s;
-  out = {};
-  out.gamma = start;
-  while (out.evaluations < search.most_evaluations) {
-    if (const Status s = evaluate(gear, contact, out); !s.ok()) return s;
-    if (std::abs(out.rest) <= search.tolerance) return {};
-    out.gamma += contact.flank.side * printed_turn(contact, search, out.rest);
-  }
-  return not_reached(out);
 }
 
 }  // namespace volcomp

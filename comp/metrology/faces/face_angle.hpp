@@ -16,11 +16,6 @@ struct FacePlacement {
 [[nodiscard]] Vec3 to_gear(const FacePlacement& placement, const Vec3& p);
 [[nodiscard]] Vec3 direction_to_machine(const FacePlacement& placement, const Vec3& direction);
 
-// Centre of a ball of radius `ball_radius` that touches at `point` with the outward normal
-// `normal`, both in the gear frame; machine coordinates.
-[[nodiscard]] Vec3 ball_target(const FacePlacement& placement, const Vec3& point,
-                               const Vec3& normal, double ball_radius);
-
 // A touch of the commanded flank: `centre` of the ball in a frame that is turned about the gear
 // axis by an unknown angle γ, p_gear = Rz(γ) p.
 struct FaceContact {
@@ -48,20 +43,5 @@ inline constexpr int kMaxAngleSteps = 20;
 // residuals_too_large where that is not reached in kMaxAngleSteps.
 Status relieved_face_angle(const FaceGear& gear, const FaceContact& contact, double start,
                            double tolerance, FaceAngle& out);
-
-// The search printed in the paper (eq. 27 and 28), to show what it costs: the gear is turned by
-// step (d/range)² towards contact, at most by `step`.
-struct PrintedFaceSearch {
-  double step = 0.0;             // θ_0, rad
-  double range = 0.0;            // l_max, mm
-  bool radius_taken_off = true;  // d = distance − radius; false: d = distance, as printed
-  double tolerance = 1e-4;       // of the distance from contact, mm
-  int most_evaluations = 60000;
-};
-
-// As relieved_face_angle; residuals_too_large (count of evaluations, deviation) where the search
-// does not end in time. `out` then holds where it stands.
-Status printed_face_angle(const FaceGear& gear, const FaceContact& contact, double start,
-                          const PrintedFaceSearch& search, FaceAngle& out);
 
 }  // namespace volcomp

@@ -1,6 +1,5 @@
 #include "comp/metrology/fits/axis_identification.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -98,18 +97,6 @@ Frame actual_frame(const MachineChain& chain, const BodyPath& path, std::size_t 
             Frame{turned, translation(e)};
   }
   return frame;
-}
-
-ErrorMotion interpolate_motion(Span<const double> nodes, Span<const ErrorMotion> motion, double q,
-                               bool& held) {
-  const std::size_t last = nodes.size() - 1;
-  held = q < nodes[0] || q > nodes[last];
-  if (!(q > nodes[0])) return motion[0];
-  if (!(q < nodes[last])) return motion[last];
-  const double* const above = std::upper_bound(nodes.begin(), nodes.end(), q);
-  const auto i = static_cast<std::size_t>(above - nodes.begin()) - 1;
-  const double t = (q - nodes[i]) / (nodes[i + 1] - nodes[i]);
-  return motion[i] + t * (motion[i + 1] - motion[i]);
 }
 
 }  // namespace volcomp

@@ -34,8 +34,4 @@ Status check_order(const MachineChain& chain, std::size_t nc_axis, std::uint32_t
 [[nodiscard]] Frame actual_frame(const MachineChain& chain, const BodyPath& path, std::size_t count,
                                  const Pose& q, const ErrorSet& errors);
 
-// Piecewise linear between nodes, held outside; `held`: q is outside. At least one node.
-[[nodiscard]] ErrorMotion interpolate_motion(Span<const double> nodes,
-                                             Span<const ErrorMotion> motion, double q, bool& held);
-
 }  // namespace volcomp

@@ -19,27 +19,11 @@ struct L300gDatum {
   double y = 0.0;
 };
 
-[[nodiscard]] MachineDescription l300g_machine(const SwingArm& arm, const L300gDatum& datum);
-
-// --- the arm by itself
-
-// Height of the ball centre above the axis of A, mm.
-[[nodiscard]] double arm_height(const SwingArm& arm, double B);
 // What the ball centre moves along +X from where it is at B = zero, mm; never negative.
 [[nodiscard]] double arm_foreshortening(const SwingArm& arm, double B);
 // dZ/dB, mm per rad.
 [[nodiscard]] double arm_lift(const SwingArm& arm, double B);
 // The angle near zero at which the arm has this height. out_of_reach (value).
 Status arm_angle(const SwingArm& arm, double height, double& B);
-
-struct ArmOffset {
-  double X = 0.0;  // mm
-  double Y = 0.0;  // mm
-  double B = 0.0;  // rad
-};
-
-// What X, Y and B have to move to cancel a position error in base, to first order. Refused where
-// the arm is within 6° of upright: no_z_authority (value = cosine).
-Status arm_offset(const SwingArm& arm, double B, const Vec3& error_base, ArmOffset& out);
 
 }  // namespace volcomp

@@ -38,14 +38,6 @@ Frame actual_tool_in_work(const MachineChain& chain, const Pose& q, const ErrorS
   return {product(back, tool.R), turned(back, added(tool.t, -1.0, work.t))};
 }
 
-Frame exact_left_error(const MachineChain& chain, const Pose& q, const ErrorSet& errors,
-                       RotationModel model) {
-  const Frame ideal = tool_in_work(chain, q);
-  const Frame actual = actual_tool_in_work(chain, q, errors, model);
-  const Mat3 R = product(actual.R, ideal.R.transpose());
-  return {R, added(actual.t, -1.0, turned(R, ideal.t))};
-}
-
 LeftError left_error(const MachineChain& chain, const Pose& q, const ErrorSet& errors) {
   const Vec3 origin = Vec3::Zero();
   const PointPair at_origin{tool_in_work(chain, q).apply_inverse(origin), origin};

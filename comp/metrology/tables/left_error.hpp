@@ -24,10 +24,6 @@ struct LeftError {
 [[nodiscard]] Frame actual_tool_in_work(const MachineChain& chain, const Pose& q,
                                         const ErrorSet& errors, RotationModel model);
 
-// Tᵉ T⁻¹ of the two.
-[[nodiscard]] Frame exact_left_error(const MachineChain& chain, const Pose& q,
-                                     const ErrorSet& errors, RotationModel model);
-
 // Σ σ_i [R_i δ_i + t_i × (R_i ε_i)] and Σ σ_i R_i ε_i, every frame ideal and seen from the work
 // frame.
 [[nodiscard]] LeftError left_error(const MachineChain& chain, const Pose& q,

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "comp/metrology/faces/face_gear_grade.hpp"
-#include "comp/metrology/faces/spline_patch.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/gear_choice.hpp"
 #include "host_sim/host/measure/map_csv.hpp"

@@ -23,10 +23,4 @@ struct SsfkTable {
 // what check_offsets() and check_nominal() refuse.
 Status write_ssfk(const SsfkTable& table, std::string& text);
 
-// Bilateral tables with setpoints. Throws UserError with the line.
-[[nodiscard]] SsfkTable read_ssfk(const std::string& text, bool rotary);
-
-// t at a position (mm or degree); `travel` is +1 or −1; the ends are held.
-[[nodiscard]] double offset_at(const SsfkTable& table, double position, int travel);
-
 }  // namespace volcomp::host

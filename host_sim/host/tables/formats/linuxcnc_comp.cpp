@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "comp/metrology/tables/interpolation.hpp"
 #include "host_sim/host/io/csv_cells.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/formats/text_numbers.hpp"
@@ -78,11 +77,6 @@ LinuxcncComp read_linuxcnc(std::istream& stream, const std::string& name, int ty
     throw UserError(fmt::format("{}: {} entries; 2 to {} are allowed", name, table.nominal.size(),
                                 kLinuxcncEntries));
   return table;
-}
-
-double offset_at(const LinuxcncComp& table, double position, int travel) {
-  const std::vector<double>& t = travel < 0 ? table.reverse : table.forward;
-  return interpolate(Interpolation::linear, Ends::hold, table.nominal, t, {}, position);
 }
 
 }  // namespace volcomp::host

@@ -29,7 +29,4 @@ Status write_linuxcnc(const LinuxcncComp& table, std::string& text);
 // Throws UserError with file and line. Entry k stands in line k + 1.
 [[nodiscard]] LinuxcncComp read_linuxcnc(std::istream& stream, const std::string& name, int type);
 
-// t at a position; `travel` is +1 or −1; the ends are held.
-[[nodiscard]] double offset_at(const LinuxcncComp& table, double position, int travel);
-
 }  // namespace volcomp::host

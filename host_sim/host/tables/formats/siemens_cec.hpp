@@ -30,11 +30,4 @@ struct CecTable {
 // Six decimals. Refused: bad_setting (field), what check_offsets() refuses.
 Status write_cec(const CecTable& table, std::string& text);
 
-// Throws UserError with the line. The sign is not in the file.
-[[nodiscard]] CecTable read_cec(const std::string& text, bool rotary, int sign);
-
-// t at a position of the base axis (mm or degree), 0 while it travels the other way; `travel` is +1
-// or −1. The ends are held.
-[[nodiscard]] double offset_at(const CecTable& table, double position, int travel);
-
 }  // namespace volcomp::host

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
-#include "comp/strokes/learning.hpp"
-#include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/tables/formats/siemens_text.hpp"
 #include "host_sim/host/tables/formats/text_numbers.hpp"
 
 namespace volcomp::host {
@@ -42,47 +39,6 @@ Status write_enc_comp(const EncCompTable& table, std::string& text) {
   out += fmt::format("$AA_ENC_COMP_IS_MODULO[0,{}]={}\nM17\n", table.axis, table.modulo ? 1 : 0);
   text = out;
   return {};
-}
-
-EncCompTable read_enc_comp(const std::string& text, bool rotary) {
-  EncCompTable table;
-  table.rotary = rotary;
-  table.step = 0.0;
-  std::map<long long, double> entries;
-  double max = 0.0;
-  for (const SystemVariable& v : read_system_variables(text, kHeader)) {
-    const bool entry = v.name == "AA_ENC_COMP";
-    if (v.index.size() != (entry ? 3U : 2U) || v.index[0] != "0")
-      throw UserError(at_line(v.line, "expected an index of measuring system 0"));
-    if (!table.axis.empty() && v.index.back() != table.axis)
-      throw UserError(at_line(v.line, "another axis than before"));
-    table.axis = v.index.back();
-    if (entry) {
-      const long long k = read_integer(v.index[1], v.line);
-      if (!entries.emplace(k, -read_decimal(v.value, v.line) / file_units(rotary)).second)
-        throw UserError(at_line(v.line, "an entry is there twice"));
-    } else if (v.name == "AA_ENC_COMP_STEP") {
-      table.step = read_decimal(v.value, v.line);
-    } else if (v.name == "AA_ENC_COMP_MIN") {
-      table.min = read_decimal(v.value, v.line);
-    } else if (v.name == "AA_ENC_COMP_MAX") {
-      max = read_decimal(v.value, v.line);
-    } else if (v.name == "AA_ENC_COMP_IS_MODULO") {
-      table.modulo = read_integer(v.value, v.line) != 0;
-    } else {
-      throw UserError(at_line(v.line, "unknown variable " + printable(v.name)));
-    }
-  }
-  table.offset = complete_entries(entries, "$AA_ENC_COMP");
-  check_extent(table.min, max, table.step, table.offset.size());
-  return table;
-}
-
-double offset_at(const EncCompTable& table, double position) {
-  // A table that wraps repeats its first value at the end.
-  const std::size_t n = table.offset.size() - (table.modulo ? 1U : 0U);
-  return uniform_table_value({table.offset.data(), n}, table.min, table.step, table.modulo,
-                             position);
 }
 
 }  // namespace volcomp::host

@@ -26,10 +26,4 @@ struct EncCompTable {
 // check_offsets() refuses; `text` is then unchanged.
 Status write_enc_comp(const EncCompTable& table, std::string& text);
 
-// Throws UserError with the line.
-[[nodiscard]] EncCompTable read_enc_comp(const std::string& text, bool rotary);
-
-// t at a position (mm or degree); the ends are held.
-[[nodiscard]] double offset_at(const EncCompTable& table, double position);
-
 }  // namespace volcomp::host

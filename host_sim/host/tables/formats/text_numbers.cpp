@@ -1,24 +1,11 @@
 #include "host_sim/host/tables/formats/text_numbers.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "host_sim/host/io/user_error.hpp"
-
 namespace volcomp::host {
 namespace {
-
-template <class Number>
-Number read_all(const std::string& text, int line, const char* kind) {
-  Number value{};
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop != end)
-    throw UserError(at_line(line, fmt::format("'{}' is not {}", printable(text), kind)));
-  return value;
-}
 
 // Finite and of the form; `where` has the index.
 Status check_number(double value, const NumberForm& form, const char* field, Where where) {
@@ -39,27 +26,6 @@ std::string six_decimals(double value) {
 
 long long nearest(double value) { return std::llround(value); }
 
-double read_decimal(const std::string& text, int line) {
-  const auto value = read_all<double>(text, line, "a number");
-  if (!std::isfinite(value)) throw UserError(at_line(line, "a number must be finite"));
-  return value;
-}
-
-long long read_integer(const std::string& text, int line) {
-  return read_all<long long>(text, line, "an integer");
-}
-
-std::string printable(const std::string& text) {
-  std::string out = text.substr(0, 40);
-  for (char& c : out)
-    c = (c >= ' ' && c <= '~') ? c : '?';
-  return out;
-}
-
-std::string at_line(int line, const std::string& complaint) {
-  return fmt::format("line {}: {}", line, complaint);
-}
-
 Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, bool modulo,
                      const NumberForm& form, double file_units) {
   Where where;
@@ -79,6 +45,11 @@ Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, b
   where.has_deviation = true;
   where.deviation = last - first;
   return refuse(Reason::not_periodic, where);
+}
+
+bool fits_extent(double min, double step, std::size_t entries) {
+  const double max = min + step * static_cast<double>(entries);
+  return std::abs(min) <= kSixDecimals.most && std::abs(max) <= kSixDecimals.most;
 }
 
 Status check_nominal(const std::vector<double>& nominal, std::size_t offsets,

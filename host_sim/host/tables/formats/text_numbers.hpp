@@ -21,22 +21,15 @@ struct NumberForm {
 inline constexpr NumberForm kSixDecimals{1e6, 1e9};  // beyond, a double has fewer decimals
 inline constexpr NumberForm kInt32{1.0, 2147483647.0};
 
-// Throw UserError naming the line unless all of `text` is one number.
-[[nodiscard]] double read_decimal(const std::string& text, int line);
-[[nodiscard]] long long read_integer(const std::string& text, int line);
-
-// What a complaint quotes of a file that may hold anything: 40 printable characters at most.
-[[nodiscard]] std::string printable(const std::string& text);
-
-// The line in front of a complaint about it.
-[[nodiscard]] std::string at_line(int line, const std::string& complaint);
-
 // Checks a table before it is written: at least two offsets, at most `capacity`, all finite and of
 // the form, the first and the last printed alike if it is to wrap; `file_units`: in one mm or rad.
 // Refuses too_few_knots, too_many_knots (count), not_finite (index), bad_setting ("offset", index),
 // not_periodic (deviation).
 Status check_offsets(const std::vector<double>& offsets, std::size_t capacity, bool modulo,
                      const NumberForm& form, double file_units);
+
+// Whether six decimals hold both ends of a table of `entries` positions.
+[[nodiscard]] bool fits_extent(double min, double step, std::size_t entries);
 
 // Positions that ascend as they are printed, as many as offsets; `file_units`: in one mm or degree.
 // length_mismatch, not_finite, bad_setting ("position"), positions_duplicate,

@@ -2,8 +2,6 @@
 
 #include <memory>
 
-#include <fmt/format.h>
-
 #include "comp/core/units.hpp"
 
 namespace volcomp::host {
@@ -66,15 +64,6 @@ Status volumetric_files(const VolumetricModel& model, const std::array<KnotGrid,
   files.remainder_rms_um = tables->residual_rms * kUmPerMm;
   out = files;
   return {};
-}
-
-std::string remainder_text(const VolumetricFiles& files) {
-  std::string text;
-  for (Eigen::Index k = 0; k < 3; ++k)
-    text += fmt::format("not represented in {}: up to {:.3f} µm\n",
-                        kLetters[static_cast<std::size_t>(k)], files.remainder_max_um(k));
-  return text +
-         fmt::format("not represented, all components: {:.3f} µm rms\n", files.remainder_rms_um);
 }
 
 }  // namespace volcomp::host

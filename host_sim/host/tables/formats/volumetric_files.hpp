@@ -27,7 +27,4 @@ struct VolumetricFiles {
 Status volumetric_files(const VolumetricModel& model, const std::array<KnotGrid, 3>& grid,
                         VolumetricFiles& out);
 
-// One line per component and one for all of them.
-[[nodiscard]] std::string remainder_text(const VolumetricFiles& files);
-
 }  // namespace volcomp::host

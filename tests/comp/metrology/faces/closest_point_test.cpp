@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/metrology/faces/closest_point.hpp"
+#include "tests/oracle/closest_point.hpp"
 #include "tests/oracle/face_gear.hpp"
 
 namespace volcomp::test {

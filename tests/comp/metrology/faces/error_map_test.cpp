@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 #include "comp/metrology/faces/error_map.hpp"
 #include "comp/metrology/faces/face_gear_grade.hpp"
-#include "comp/metrology/faces/map_polynomial.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/oracle/face_gear.hpp"
 #include "tests/oracle/face_gear_tables.hpp"
+#include "tests/oracle/map_polynomial.hpp"
 
 namespace volcomp::test {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "comp/probe/face_relief.hpp"
 #include "tests/oracle/face_gears.hpp"
+#include "tests/oracle/printed_face_search.hpp"
 
 namespace volcomp::test {
 namespace {
@@ -143,7 +144,7 @@ TEST(FacePlacement, TheBallTouchesTheFlank) {
   const FacePlacement placement{{300.0, -20.0, 150.0}, 0.4};
   const FaceFlank flank = flank_of(gear, -1, 5);
   const FacePoint on = face_point(gear, flank, {0.4, 0.4});
-  const Vec3 target = ball_target(placement, on.point, on.normal, 0.5);
+  const Vec3 target = to_machine(placement, on.point + 0.5 * on.normal);
   EXPECT_NEAR(distance_from_face(gear, flank, to_gear(placement, target)).distance, 0.5, 1e-12);
 }
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/metrology/faces/spline_patch.hpp"
 #include "tests/oracle/face_gear.hpp"
 #include "tests/oracle/face_gear_tables.hpp"
+#include "tests/oracle/spline_patch.hpp"
 
 namespace volcomp::test {
 namespace {

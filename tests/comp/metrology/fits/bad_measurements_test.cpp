@@ -10,9 +10,9 @@
 #include "comp/metrology/fits/effective_radius.hpp"
 #include "comp/metrology/gears/gear_deviations.hpp"
 #include "comp/metrology/gears/involute_gear.hpp"
-#include "comp/metrology/gears/l300g.hpp"
 #include "comp/metrology/gears/pitch.hpp"
 #include "tests/not_numbers.hpp"
+#include "tests/oracle/l300g_machine.hpp"
 #include "tests/oracle/paper_gear.hpp"
 
 namespace volcomp::test {

@@ -12,9 +12,10 @@
 #include "comp/metrology/fits/lobing_fit.hpp"
 #include "comp/metrology/fits/printed_procedure.hpp"
 #include "comp/metrology/fits/sphere_fit.hpp"
-#include "comp/metrology/fits/stylus.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/oracle/face_gears.hpp"
+#include "tests/oracle/printed_face_search.hpp"
+#include "tests/oracle/stylus.hpp"
 
 namespace volcomp::test {
 namespace {

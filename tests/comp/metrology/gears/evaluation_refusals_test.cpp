@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "comp/machine/machine_chain.hpp"
-#include "comp/metrology/faces/closest_point.hpp"
 #include "comp/metrology/faces/map_comparison.hpp"
 #include "comp/metrology/gears/gear_deviations.hpp"
 #include "comp/metrology/gears/gear_grade.hpp"
@@ -15,6 +14,8 @@
 #include "comp/metrology/tables/iso230.hpp"
 #include "comp/strokes/spectral_line.hpp"
 #include "tests/not_numbers.hpp"
+#include "tests/oracle/closest_point.hpp"
+#include "tests/oracle/l300g_machine.hpp"
 #include "tests/oracle/paper_gear.hpp"
 
 namespace volcomp::test {

@@ -14,6 +14,15 @@ ErrorSet random_errors(Random& random, double mm, double rad) {
   return errors;
 }
 
+// E = Tᵉ T⁻¹ without linearisation.
+Frame exact_left_error(const MachineChain& chain, const Pose& q, const ErrorSet& errors,
+                       RotationModel model) {
+  const Frame ideal = tool_in_work(chain, q);
+  const Frame actual = actual_tool_in_work(chain, q, errors, model);
+  const Mat3 R = actual.R * ideal.R.transpose();
+  return {R, actual.t - R * ideal.t};
+}
+
 TEST(InternalGrinder, IsTheLowerBodyArrayOfThePaper) {
   const MachineDescription d = internal_grinder(GrinderY::none);
   const std::array<int, 7> lower{0, 1, 2, 3, 1, 5, 6};

@@ -14,6 +14,7 @@
 #include "comp/metrology/gears/gear_path.hpp"
 #include "comp/metrology/gears/gear_tolerance.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
+#include "tests/oracle/l300g_machine.hpp"
 #include "tests/oracle/paper_gear.hpp"
 
 namespace volcomp::test {

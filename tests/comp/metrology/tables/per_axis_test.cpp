@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "comp/metrology/tables/per_axis.hpp"
 #include "tests/oracle/exact_chain.hpp"
+#include "tests/oracle/per_axis_anchored.hpp"
 
 namespace volcomp::test {
 namespace {

@@ -3,17 +3,17 @@
 // reports which, and can save again.
 
 #include "firmware/node/store/record_storage.hpp"
-#include "hal/loopback/memory_blocks.hpp"
 #include "tests/firmware/node/node_bench.hpp"
+#include "tests/hal/memory_blocks.hpp"
 
 namespace volcomp::node {
 namespace {
 
 using canopen::AbortCode;
 using canopen::ErrorCode;
-using hal::Torn;
+using test::Torn;
 
-using Blocks = hal::MemoryBlocks<16384, 2>;
+using Blocks = test::MemoryBlocks<16384, 2>;
 
 // What a node starts with.
 struct Content {
@@ -44,7 +44,7 @@ class NodePowerFailure : public ::testing::Test {
     ASSERT_EQ(act(writer), AbortCode::none);
     const std::size_t all = blocks->operations() - before.operations();
     for (std::size_t at = 0; at < all; ++at) {
-      for (const Torn torn : hal::kEveryTorn) {
+      for (const Torn torn : test::kEveryTorn) {
         SCOPED_TRACE("power cut at operation " + std::to_string(at) + " of " + std::to_string(all) +
                      ", state " + std::to_string(static_cast<int>(torn)));
         *blocks = before;

@@ -3,8 +3,8 @@
 
 #include "firmware/node/store/read_only_storage.hpp"
 #include "firmware/node/store/record_storage.hpp"
-#include "hal/loopback/memory_blocks.hpp"
 #include "tests/firmware/node/node_bench.hpp"
+#include "tests/hal/memory_blocks.hpp"
 
 namespace volcomp::node {
 namespace {
@@ -28,7 +28,7 @@ MachineTables tables_of(std::int32_t error_nm) {
 
 class NodeStorage : public ::testing::Test {
  protected:
-  using Blocks = hal::MemoryBlocks<16384, 2>;
+  using Blocks = test::MemoryBlocks<16384, 2>;
 
   AbortCode save() { return bench.set<std::uint32_t>(0x1010, 1, kSave); }
   // A record marked by its period of 1006h.
@@ -226,7 +226,7 @@ TEST_F(NodeStorage, WithoutTablesNothingIsCorrectedAndTheStateSaysSo) {
 TEST_F(NodeStorage, APowerFailureWhileSavingKeepsTheRecordBefore) {
   save_with_period(4000);
   ASSERT_EQ(bench.set<std::uint32_t>(0x1006, 0, 5000), AbortCode::none);
-  blocks->cut_power_at(4, hal::Torn::random);
+  blocks->cut_power_at(4, test::Torn::random);
   EXPECT_EQ(save(), AbortCode::hardware);
   blocks->power_on();
   bench.power_on();

@@ -8,7 +8,7 @@
 namespace volcomp::node {
 namespace {
 
-using hal::Torn;
+using test::Torn;
 
 const Record kNone{};
 const Record kOlder = make_record(50, 90, 20);
@@ -45,7 +45,7 @@ class PowerFailure : public ::testing::Test {
     ASSERT_EQ(act(whole), StoreResult::done);
     const std::size_t all = whole.operations() - before.operations();
     for (std::size_t at = 0; at < all; ++at) {
-      for (const Torn torn : hal::kEveryTorn) {
+      for (const Torn torn : test::kEveryTorn) {
         const Cut cut{at, torn};
         SCOPED_TRACE(words(cut));
         Flash flash = before;
@@ -76,7 +76,7 @@ class PowerFailure : public ::testing::Test {
 };
 
 // 256-bit units as in an STM32H7, 64-bit ones as in an STM32G4: there the header is torn as well.
-using UnitSizes = ::testing::Types<hal::MemoryBlocks<512, 2, 32>, hal::MemoryBlocks<512, 2, 8>>;
+using UnitSizes = ::testing::Types<test::MemoryBlocks<512, 2, 32>, test::MemoryBlocks<512, 2, 8>>;
 TYPED_TEST_SUITE(PowerFailure, UnitSizes, );
 
 TYPED_TEST(PowerFailure, ASaveLeavesTheOldRecordOrTheNewAndSaysWhich) {

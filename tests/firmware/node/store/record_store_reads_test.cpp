@@ -10,7 +10,7 @@ namespace {
 // Memory of which one read goes wrong, once.
 class UnsteadyBlocks {
  public:
-  using Memory = hal::MemoryBlocks<1024, 2>;
+  using Memory = test::MemoryBlocks<1024, 2>;
   static constexpr std::size_t kUnitBytes = Memory::kUnitBytes;
   static constexpr std::size_t kSectorBytes = Memory::kSectorBytes;
   static constexpr std::size_t kSectors = Memory::kSectors;

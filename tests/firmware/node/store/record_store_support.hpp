@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware/node/store/record_storage.hpp"
-#include "hal/loopback/memory_blocks.hpp"
+#include "tests/hal/memory_blocks.hpp"
 
 namespace volcomp::node {
 

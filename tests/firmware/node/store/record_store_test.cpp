@@ -12,8 +12,8 @@
 namespace volcomp::node {
 namespace {
 
-using Small = hal::MemoryBlocks<1024, 2>;
-using hal::Torn;
+using Small = test::MemoryBlocks<1024, 2>;
+using test::Torn;
 
 const Record kFirst = make_record(100, 300, 11);
 const Record kSecond = make_record(90, 310, 12);
@@ -67,8 +67,8 @@ TEST(RecordStore, ABlankDeviceHasNothingStored) {
 template <class Flash>
 class RecordStoreOf : public ::testing::Test {};
 using UnitsOfLargeBlocks =
-    ::testing::Types<hal::MemoryBlocks<32768, 2, 32>, hal::MemoryBlocks<32768, 2, 8>,
-                     hal::MemoryBlocks<32768, 2, 1>>;
+    ::testing::Types<test::MemoryBlocks<32768, 2, 32>, test::MemoryBlocks<32768, 2, 8>,
+                     test::MemoryBlocks<32768, 2, 1>>;
 TYPED_TEST_SUITE(RecordStoreOf, UnitsOfLargeBlocks, );
 
 TYPED_TEST(RecordStoreOf, ReturnsEverySizeUpToAFullSector) {
@@ -300,7 +300,7 @@ TEST(RecordStore, AFailureOfEveryOperationIsReportedAndLosesNothing) {
   Small whole = before;
   ASSERT_EQ(save(whole, next), StoreResult::done);
   for (std::size_t at = 0; at < whole.operations() - before.operations(); ++at) {
-    for (const Torn torn : hal::kEveryTorn) {
+    for (const Torn torn : test::kEveryTorn) {
       SCOPED_TRACE("operation " + std::to_string(at) + ", " +
                    std::to_string(static_cast<int>(torn)));
       Small flash = before;

@@ -4,8 +4,8 @@
 
 #include "comp/core/crc32.hpp"
 #include "firmware/node/store/record_storage.hpp"
-#include "hal/loopback/memory_blocks.hpp"
 #include "tests/firmware/node/strokes/stroke_bench.hpp"
+#include "tests/hal/memory_blocks.hpp"
 
 namespace volcomp::node {
 namespace {
@@ -342,7 +342,7 @@ TEST_F(StrokeSettings, APeriodOfSecondsIsRefused) {
 
 // Saved, powered off, back: the offset is there from the end of the first stroke on.
 TEST(StoredStrokes, ComeBackWithTheirTables) {
-  using Blocks = hal::MemoryBlocks<16384, 2>;
+  using Blocks = test::MemoryBlocks<16384, 2>;
   const auto blocks = std::make_unique<Blocks>();
   RecordStorage<Blocks> storage{*blocks};
   StrokeBench grinder(&storage);

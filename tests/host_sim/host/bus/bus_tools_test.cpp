@@ -12,13 +12,13 @@
 #include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/node/store/record_storage.hpp"
-#include "hal/loopback/memory_blocks.hpp"
 #include "host_sim/host/bus/bus_load.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/io/whole_file.hpp"
+#include "tests/hal/memory_blocks.hpp"
 #include "tests/host_sim/host/bus/service_bench.hpp"
 
 namespace volcomp::host {
@@ -142,8 +142,8 @@ TEST(TableTransfer, NodeWithoutStoreSaysSo) {
 }
 
 TEST(TableTransfer, AStoreThatFailsIsReportedWithItsReason) {
-  const auto blocks = std::make_unique<hal::MemoryBlocks<16384, 2>>();
-  node::RecordStorage<hal::MemoryBlocks<16384, 2>> storage(*blocks);
+  const auto blocks = std::make_unique<test::MemoryBlocks<16384, 2>>();
+  node::RecordStorage<test::MemoryBlocks<16384, 2>> storage(*blocks);
   ServiceBench bench(&storage);
   blocks->refuse_erases(true);
   EXPECT_THAT(text_of<NodeRefused>([&] { store_all(bench.client); }),

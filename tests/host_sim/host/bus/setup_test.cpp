@@ -12,12 +12,12 @@
 #include "comp/tables/image.hpp"
 #include "firmware/canopen/pdo.hpp"
 #include "firmware/node/store/record_storage.hpp"
-#include "hal/loopback/memory_blocks.hpp"
 #include "host_sim/host/bus/probe_setup.hpp"
 #include "host_sim/host/bus/setup.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "tests/complaint.hpp"
+#include "tests/hal/memory_blocks.hpp"
 #include "tests/host_sim/host/bus/service_bench.hpp"
 #include "tests/host_sim/host/machine/changed_machine.hpp"
 
@@ -32,9 +32,9 @@ using Object = std::pair<std::uint16_t, std::uint8_t>;
 using Values = std::map<Object, SdoChannel::Bytes>;
 
 struct Blocks {
-  std::unique_ptr<hal::MemoryBlocks<16384, 2>> memory =
-      std::make_unique<hal::MemoryBlocks<16384, 2>>();
-  node::RecordStorage<hal::MemoryBlocks<16384, 2>> storage{*memory};
+  std::unique_ptr<test::MemoryBlocks<16384, 2>> memory =
+      std::make_unique<test::MemoryBlocks<16384, 2>>();
+  node::RecordStorage<test::MemoryBlocks<16384, 2>> storage{*memory};
 };
 
 MachineFile machine_of(const std::string& name) { return read_machine_file(bundled_machine(name)); }

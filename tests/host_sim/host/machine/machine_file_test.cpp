@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "comp/metrology/gears/l300g.hpp"
 #include "comp/tick/instances.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 #include "tests/host_sim/host/machine/changed_machine.hpp"
+#include "tests/oracle/l300g_machine.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -29,9 +29,9 @@ TEST(MachineFile, BundledXyfzIsTheCompiledInMachine) {
 TEST(MachineFile, BundledL300gIsTheMachineOfThePaper) {
   const MachineFile file = read_machine_file(bundled_machine("l300g"));
   MachineChain chain;
-  ASSERT_TRUE(
-      MachineChain::build(l300g_machine({173.7135, -39.025 * kPi / 180.0}, {0.0, 168.8053}), chain)
-          .ok());
+  ASSERT_TRUE(MachineChain::build(
+                  test::l300g_machine({173.7135, -39.025 * kPi / 180.0}, {0.0, 168.8053}), chain)
+                  .ok());
   EXPECT_TRUE(same_chain(make_runtime_chain(file.chain.description()),
                          make_runtime_chain(chain.description())));
   const Pose q{12.0, 230.0, -0.6, 2.5};

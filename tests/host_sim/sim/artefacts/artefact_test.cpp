@@ -4,11 +4,13 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/sim/artefacts/mandrel.hpp"
-#include "host_sim/sim/artefacts/plane.hpp"
 #include "host_sim/sim/artefacts/sphere.hpp"
+#include "tests/host_sim/sim/artefacts/plane.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+using test::Plane;
 
 constexpr double kBall = 1.5;
 

@@ -4,12 +4,14 @@
 
 #include "host_sim/host/bus/links/pipe_link.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
-#include "host_sim/sim/artefacts/plane.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "tests/host_sim/host/bus/linux_node.hpp"
+#include "tests/host_sim/sim/artefacts/plane.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+using test::Plane;
 
 // The ball goes along −Y into a wall.
 Touch touch_wall(const host::MachineFile& file, std::unique_ptr<BusAxes> axes) {

@@ -4,11 +4,13 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
-#include "host_sim/sim/artefacts/plane.hpp"
 #include "host_sim/sim/instruments/touch_probe.hpp"
+#include "tests/host_sim/sim/artefacts/plane.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+using test::Plane;
 
 constexpr double kTip = 1.4935;
 constexpr double kSpeed_mm_s = 1000.0 / 60.0;

@@ -8,9 +8,8 @@
 
 #include "comp/machine/xyfz.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/tables/formats/isg_ssfk.hpp"
-#include "host_sim/host/tables/formats/linuxcnc_comp.hpp"
 #include "host_sim/host/tables/formats/volumetric_files.hpp"
+#include "tests/oracle/controller_tables.hpp"
 #include "tests/oracle/internal_gears.hpp"
 
 namespace volcomp::test {
@@ -55,7 +54,7 @@ TEST(EncComp, GivesBackWhatWasWritten) {
                                    rotary};
     std::string text;
     ASSERT_TRUE(write_enc_comp(table, text).ok());
-    const host::EncCompTable back = host::read_enc_comp(text, rotary);
+    const host::EncCompTable back = read_enc_comp(text, rotary);
     EXPECT_EQ(back.axis, "Z1");
     for (int i = 0; i < 100; ++i) {
       const double z = random.uniform(-15.0, -2.0);
@@ -75,7 +74,7 @@ TEST(EncComp, ModuloTableMustClose) {
   host::EncCompTable table{"C1", {1e-4, 2e-4, 3e-4, 1e-4}, 0.0, 120.0, true, true};
   std::string text = "before";
   ASSERT_TRUE(write_enc_comp(table, text).ok());
-  const host::EncCompTable back = host::read_enc_comp(text, true);
+  const host::EncCompTable back = read_enc_comp(text, true);
   EXPECT_TRUE(back.modulo);
   EXPECT_NEAR(offset_at(back, 60.0 + 720.0), 1.5e-4, kRounding_rad);
   EXPECT_NEAR(offset_at(back, -60.0), 2e-4, kRounding_rad);
@@ -92,7 +91,7 @@ TEST(Cec, GivesBackWhatWasWrittenInItsDirection) {
                             false, true, sign};
     std::string text;
     ASSERT_TRUE(write_cec(up, text).ok());
-    const host::CecTable back = host::read_cec(text, true, sign);
+    const host::CecTable back = read_cec(text, true, sign);
     EXPECT_EQ(back.number, 3);
     EXPECT_EQ(back.input, "Z1");
     EXPECT_EQ(back.output, "C1");
@@ -136,7 +135,7 @@ TEST(Ssfk, GivesBackWhatWasWrittenToATenthOfAMicrometre) {
                                 rotary};
     std::string text;
     ASSERT_TRUE(write_ssfk(table, text).ok());
-    const host::SsfkTable back = host::read_ssfk(text, rotary);
+    const host::SsfkTable back = read_ssfk(text, rotary);
     const double half = rotary ? 0.5001e-4 * kDegree : 0.5001e-4;
     for (int k = 0; k < 30; ++k) {
       const double z = -12.0 + 0.7 * k;
@@ -213,7 +212,7 @@ TEST(ControllerTableFile, ComplaintsNameTheLine) {
   const auto changed = [&text](const std::string& from, const std::string& to) {
     std::string other = text;
     other.replace(other.find(from), from.size(), to);
-    return complaint([&other] { (void)host::read_enc_comp(other, false); });
+    return complaint([&other] { (void)read_enc_comp(other, false); });
   };
   EXPECT_EQ(changed("-0.020000", "-0,02"), "line 4: '-0,02' is not a number");
   EXPECT_EQ(changed("[0,1,Z1]", "[0,0,Z1]"), "line 4: an entry is there twice");
@@ -236,11 +235,9 @@ TEST(ControllerTableFile, ComplaintsNameTheLine) {
   EXPECT_EQ(linuxcnc("0 0 0\n"), "x.comp: 1 entries; 2 to 256 are allowed");
   EXPECT_EQ(linuxcnc(std::string("\xFF\xFE") + "0"),
             "x.comp:1: the file is UTF-16; it must be saved as UTF-8 or ASCII");
-  EXPECT_EQ(
-      complaint([] { (void)host::read_ssfk("kopf.log_achs_nr 1\nkopf.log_achs_nr 1\n", false); }),
-      "line 2: kopf.log_achs_nr is there twice");
-  EXPECT_EQ(complaint([] { (void)host::read_ssfk("a b c\n", false); }),
-            "line 1: expected: key value");
+  EXPECT_EQ(complaint([] { (void)read_ssfk("kopf.log_achs_nr 1\nkopf.log_achs_nr 1\n", false); }),
+            "line 2: kopf.log_achs_nr is there twice");
+  EXPECT_EQ(complaint([] { (void)read_ssfk("a b c\n", false); }), "line 1: expected: key value");
 }
 
 // Files that come from a control end their lines as Windows does.
@@ -249,7 +246,7 @@ TEST(ControllerTableFile, CarriageReturnsDoNotMatter) {
   ASSERT_TRUE(write_enc_comp({"Z1", {0.01, 0.02, 0.03}, 0, 1, false, false}, text).ok());
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 2))
     text.insert(at, 1, '\r');
-  EXPECT_DOUBLE_EQ(host::read_enc_comp(text, false).offset.at(1), 0.02);
+  EXPECT_DOUBLE_EQ(read_enc_comp(text, false).offset.at(1), 0.02);
   EXPECT_EQ(read_linuxcnc("0 0 0\r\n1 2 3\r\n").reverse.at(1), 3.0);
 }
 
@@ -288,12 +285,12 @@ TEST(VolumetricFiles, AreTheModelUpToTheirRemainder) {
   for (std::size_t a = 0; a < own.size(); ++a) {
     std::string text;
     ASSERT_TRUE(write_enc_comp(files.own[a], text).ok());
-    own[a] = host::read_enc_comp(text, false);
+    own[a] = read_enc_comp(text, false);
   }
   for (std::size_t i = 0; i < cross.size(); ++i) {
     std::string text;
     ASSERT_TRUE(write_cec(files.cross[i], text).ok());
-    cross[i] = host::read_cec(text, false, 1);
+    cross[i] = read_cec(text, false, 1);
   }
 
   Vec3 worst = Vec3::Zero();
@@ -316,9 +313,6 @@ TEST(VolumetricFiles, AreTheModelUpToTheirRemainder) {
     EXPECT_NEAR(kUmPerMm * worst(k), files.remainder_max_um(k), 3.0 * 0.5e-3);
   EXPECT_NEAR(kUmPerMm * std::sqrt(squares / 375.0), files.remainder_rms_um, 1e-3);
   EXPECT_GT(files.remainder_rms_um, 0.1) << "angles with levers are no sum of functions";
-  const std::string text = remainder_text(files);
-  EXPECT_NE(text.find("not represented in X: up to"), std::string::npos);
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
 }
 
 }  // namespace

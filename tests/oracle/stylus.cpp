@@ -1,8 +1,8 @@
-#include "comp/metrology/fits/stylus.hpp"
+#include "tests/oracle/stylus.hpp"
 
 #include <cmath>
 
-namespace volcomp {
+namespace volcomp::test {
 
 Status contact_point(const Vec3& centre, const Vec3& normal, double ball_radius, Vec3& out) {
   if (!centre.allFinite() || !normal.allFinite() || !std::isfinite(ball_radius))
@@ -13,4 +13,4 @@ Status contact_point(const Vec3& centre, const Vec3& normal, double ball_radius,
   return {};
 }
 
-}  // namespace volcomp
+}  // namespace volcomp::test

@@ -10,9 +10,9 @@
 #include "comp/core/span.hpp"
 #include "comp/core/status.hpp"
 #include "comp/metrology/faces/measuring_grid.hpp"
-#include "comp/metrology/faces/spline_basis.hpp"
+#include "tests/oracle/spline_basis.hpp"
 
-namespace volcomp {
+namespace volcomp::test {
 
 // How nodes become parameters. Uniform reproduces the control points of the paper's Table 3.
 enum class Parametrisation : std::uint8_t {
@@ -57,4 +57,4 @@ class SplinePatch {
 // Unit normal on the side of the patch that `outward` points to; zero where the patch degenerates.
 [[nodiscard]] Vec3 normal_of(const PatchPoint& place, const Vec3& outward);
 
-}  // namespace volcomp
+}  // namespace volcomp::test

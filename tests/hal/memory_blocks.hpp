@@ -12,7 +12,7 @@
 
 #include "hal/block_device.hpp"
 
-namespace volcomp::hal {
+namespace volcomp::test {
 
 // What an operation that was cut short leaves in its unit or sector. `done` is what it would have
 // left at its end, `erased` what a unit holds before it is programmed.
@@ -41,7 +41,7 @@ class MemoryBlocks {
   static constexpr std::size_t kBytes = SectorBytes * Sectors;
   static constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
 
-  MemoryBlocks() { bytes_.fill(kErasedByte); }
+  MemoryBlocks() { bytes_.fill(hal::kErasedByte); }
 
   // --- what goes wrong
 
@@ -76,22 +76,22 @@ class MemoryBlocks {
 
   // --- the block device
 
-  BlockRead read(std::size_t at, Span<std::uint8_t> out) {
-    const bool allowed = count_misuse_unless(is_inside<MemoryBlocks>(at, out.size()));
-    if (!powered_ || !allowed) return BlockRead::failed;
-    BlockRead result = BlockRead::done;
+  hal::BlockRead read(std::size_t at, Span<std::uint8_t> out) {
+    const bool allowed = count_misuse_unless(hal::is_inside<MemoryBlocks>(at, out.size()));
+    if (!powered_ || !allowed) return hal::BlockRead::failed;
+    hal::BlockRead result = hal::BlockRead::done;
     for (std::size_t i = 0; i < out.size();) {
       const std::size_t here = at + i;
-      if (refuse_reads_[here / SectorBytes]) return BlockRead::failed;
+      if (refuse_reads_[here / SectorBytes]) return hal::BlockRead::failed;
       const std::size_t count = std::min(UnitBytes - here % UnitBytes, out.size() - i);
-      if (!read_unit(here, {&out[i], count})) result = BlockRead::uncorrectable;
+      if (!read_unit(here, {&out[i], count})) result = hal::BlockRead::uncorrectable;
       i += count;
     }
     return result;
   }
 
   bool program(std::size_t at, Span<const std::uint8_t> bytes) {
-    const bool allowed = count_misuse_unless(is_whole_units<MemoryBlocks>(at, bytes.size()) &&
+    const bool allowed = count_misuse_unless(hal::is_whole_units<MemoryBlocks>(at, bytes.size()) &&
                                              never_programmed(at, bytes.size()));
     if (!powered_ || refuse_programs_ || !allowed) return false;
     for (std::size_t i = 0; i < bytes.size(); i += UnitBytes) {
@@ -162,7 +162,7 @@ class MemoryBlocks {
     if (torn == Torn::untouched) return;
     unit_[unit] = torn == Torn::complete ? Unit::erased : Unit::programmed;
     UnitContent done{};
-    done.fill(torn == Torn::unstable ? std::uint8_t{0} : kErasedByte);
+    done.fill(torn == Torn::unstable ? std::uint8_t{0} : hal::kErasedByte);
     leave(unit, torn, done);
   }
 
@@ -204,7 +204,7 @@ class MemoryBlocks {
     if (unit != Unit::unstable) return unit != Unit::uncorrectable;
     const unsigned outcome = draw_() % 4;
     for (std::uint8_t& byte : out) {
-      if (outcome == 1) byte = kErasedByte;
+      if (outcome == 1) byte = hal::kErasedByte;
       if (outcome == 2) byte = static_cast<std::uint8_t>(byte | random_byte());
     }
     return outcome != 3;
@@ -223,4 +223,4 @@ class MemoryBlocks {
   std::minstd_rand draw_{1};
 };
 
-}  // namespace volcomp::hal
+}  // namespace volcomp::test

@@ -1,10 +1,10 @@
-#include "comp/metrology/faces/map_polynomial.hpp"
+#include "tests/oracle/map_polynomial.hpp"
 
 #include <cmath>
 
 #include "comp/metrology/fits/pseudo_inverse.hpp"
 
-namespace volcomp {
+namespace volcomp::test {
 namespace {
 
 constexpr int kTerms = static_cast<int>(kMaxMapTerms);
@@ -86,4 +86,4 @@ Status fit_map(const ErrorMap& map, int degree, MapPolynomial& out) {
   return {};
 }
 
-}  // namespace volcomp
+}  // namespace volcomp::test

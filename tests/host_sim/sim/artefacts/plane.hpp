@@ -5,15 +5,15 @@
 
 #include "host_sim/sim/artefacts/artefact.hpp"
 
-namespace volcomp::sim {
+namespace volcomp::test {
 
-class Plane final : public Artefact {
+class Plane final : public sim::Artefact {
  public:
   // `outward`: any length but zero.
   Plane(Vec3 point, const Vec3& outward)
       : point_(std::move(point)), normal_(outward.normalized()) {}
 
-  [[nodiscard]] Gap gap(const Vec3& centre, double ball_radius) const override {
+  [[nodiscard]] sim::Gap gap(const Vec3& centre, double ball_radius) const override {
     return {normal_.dot(centre - point_) - ball_radius, normal_};
   }
 
@@ -22,4 +22,4 @@ class Plane final : public Artefact {
   Vec3 normal_;
 };
 
-}  // namespace volcomp::sim
+}  // namespace volcomp::test

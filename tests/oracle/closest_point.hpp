@@ -6,9 +6,9 @@
 // sign, and may lose the nearest point: in the nodes of the paper's Table 3 it is up to 0.14 µm off
 // with 10 × 10 cells, 20 µm with 4 × 4.
 
-#include "comp/metrology/faces/spline_patch.hpp"
+#include "tests/oracle/spline_patch.hpp"
 
-namespace volcomp {
+namespace volcomp::test {
 
 struct ClosestPoint {
   double u = 0.0;
@@ -41,4 +41,4 @@ struct SubdivisionSearch {
 Status closest_point_by_subdivision(const SplinePatch& patch, const Vec3& q, int cells,
                                     double accuracy, SubdivisionSearch& out);
 
-}  // namespace volcomp
+}  // namespace volcomp::test

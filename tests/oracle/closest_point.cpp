@@ -1,10 +1,10 @@
-#include "comp/metrology/faces/closest_point.hpp"
+#include "tests/oracle/closest_point.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace volcomp {
+namespace volcomp::test {
 namespace {
 
 constexpr int kMostIterations = 30;
@@ -159,4 +159,4 @@ Status closest_point_by_subdivision(const SplinePatch& patch, const Vec3& q, int
   return {};
 }
 
-}  // namespace volcomp
+}  // namespace volcomp::test

@@ -7,7 +7,7 @@
 
 #include "comp/metrology/faces/error_map.hpp"
 
-namespace volcomp {
+namespace volcomp::test {
 
 inline constexpr int kMaxMapDegree = 4;
 inline constexpr std::size_t kMaxMapTerms = 15;  // x^i y^j with i + j ≤ kMaxMapDegree
@@ -36,4 +36,4 @@ struct MapPolynomial {
 // that they do not determine it.
 Status fit_map(const ErrorMap& map, int degree, MapPolynomial& out);
 
-}  // namespace volcomp
+}  // namespace volcomp::test
