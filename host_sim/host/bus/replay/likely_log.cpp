@@ -1,7 +1,6 @@
 #include "host_sim/host/bus/replay/likely_log.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -17,69 +16,49 @@ constexpr bool is_process_data(std::uint16_t id) {
   return id > canopen::kTpdo1 && id < canopen::kSdoResponse;
 }
 
-// One frame: in its cycle, or in the one before or after, each with the least that it costs.
+// A frame of the log, and the cycles that it may belong to: one beside its own, over a SYNC it
+// stands beside.
 struct Choice {
   std::size_t at = 0;  // in the log
-  std::uint64_t cycle = 0;
-  std::array<std::uint64_t, 3> cost{};
-  std::array<std::size_t, 3> from{};  // choice of the frame before
+  std::size_t first = 0;
+  std::size_t written = 0;
+  std::size_t last = 0;
+  std::size_t chosen = 0;
 };
 
-constexpr std::uint64_t kImpossible = UINT64_MAX / 4;
-constexpr std::uint64_t kTwoInACycle = 1'000'000'000;
-constexpr std::uint64_t kFromExpectedSide = 1000;
-constexpr std::size_t kStay = 1;
+// Moves every frame that shares the cycle of the one before it to the next cycle.
+void move_on(std::vector<Choice>& frames) {
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    frames[i].chosen =
+        std::min(std::max(frames[i].chosen, frames[i - 1].chosen + 1), frames[i].last);
+}
 
-class Cycles {
- public:
-  explicit Cycles(const std::vector<LoggedFrame>& log) {
-    for (std::size_t i = 0; i < log.size(); ++i) {
-      if (log[i].frame.id == canopen::kSync) syncs_.push_back(i);
-    }
-  }
-  // The number of SYNC messages before it.
-  [[nodiscard]] std::size_t cycle(std::size_t at) const {
-    return static_cast<std::size_t>(std::upper_bound(syncs_.begin(), syncs_.end(), at) -
-                                    syncs_.begin());
-  }
-  // Where the SYNC stands over which `choice` moves a frame; the frame itself where it may not.
-  [[nodiscard]] std::size_t over(std::size_t at, std::size_t choice) const {
-    const std::size_t c = cycle(at);
-    if (choice == 0 && c > 0 && at - syncs_[c - 1] <= kBeside) return syncs_[c - 1];
-    if (choice == 2 && c < syncs_.size() && syncs_[c] - at <= kBeside) return syncs_[c];
-    return at;
-  }
+void move_back(std::vector<Choice>& frames) {
+  for (std::size_t i = frames.size(); i-- > 1;)
+    frames[i - 1].chosen =
+        std::max(std::min(frames[i - 1].chosen + 1, frames[i].chosen) - 1, frames[i - 1].first);
+}
 
- private:
-  std::vector<std::size_t> syncs_;
-};
-
-// The cheapest choice for all frames of one identifier: two in a cycle cost most, then moves from
-// the side of the SYNC on which this identifier usually stands.
-void choose(std::vector<Choice>& frames, const Cycles& cycles) {
-  const auto movable = [&](std::size_t c) {
-    return std::count_if(frames.begin(), frames.end(),
-                         [&](const Choice& f) { return cycles.over(f.at, c) != f.at; });
-  };
-  const std::size_t usual = movable(0) > movable(2) ? 0 : 2;
+// Cycles with two frames, then moves.
+std::pair<std::size_t, std::size_t> cost_of(const std::vector<Choice>& frames) {
+  std::pair<std::size_t, std::size_t> cost{0, 0};
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      Choice& f = frames[i];
-      const bool possible = c == kStay || cycles.over(f.at, c) != f.at;
-      f.cost[c] = !possible ? kImpossible : c == kStay ? 0 : c == usual ? kFromExpectedSide : 1;
-      if (i == 0 || !possible) continue;
-      const Choice& before = frames[i - 1];
-      std::uint64_t least = kImpossible;
-      for (std::size_t b = 0; b < 3; ++b) {
-        if (before.cycle + b > f.cycle + c) continue;
-        const bool two = before.cycle + b == f.cycle + c;
-        const std::uint64_t cost = before.cost[b] + (two ? kTwoInACycle : 0);
-        if (cost < least) f.from[c] = b;
-        least = std::min(least, cost);
-      }
-      f.cost[c] += least;
-    }
+    if (i > 0 && frames[i].chosen <= frames[i - 1].chosen) ++cost.first;
+    if (frames[i].chosen != frames[i].written) ++cost.second;
   }
+  return cost;
+}
+
+// All frames of one identifier, which stands before the SYNC or behind it: one of the two ways
+// takes more moves.
+std::vector<Choice> spread(const std::vector<Choice>& frames) {
+  std::vector<Choice> on = frames;
+  move_on(on);
+  move_back(on);
+  std::vector<Choice> back = frames;
+  move_back(back);
+  move_on(back);
+  return cost_of(on) < cost_of(back) ? on : back;
 }
 
 }  // namespace
@@ -93,20 +72,25 @@ bool beside_sync(const std::vector<LoggedFrame>& log, std::size_t at) {
 }
 
 std::vector<LoggedFrame> one_per_cycle(const std::vector<LoggedFrame>& log) {
-  const Cycles cycles(log);
+  std::vector<std::size_t> syncs;
+  for (std::size_t i = 0; i < log.size(); ++i) {
+    if (log[i].frame.id == canopen::kSync) syncs.push_back(i);
+  }
   std::map<std::uint16_t, std::vector<Choice>> frames;
   std::vector<std::pair<std::size_t, std::size_t>> order;  // twice the place, and where it stood
-  for (std::size_t i = 0; i < log.size(); ++i) {
+  for (std::size_t i = 0, cycle = 0; i < log.size(); ++i) {
     order.emplace_back(2 * i + 1, i);
-    if (is_process_data(log[i].frame.id))
-      frames[log[i].frame.id].push_back({i, cycles.cycle(i), {}, {}});
+    if (log[i].frame.id == canopen::kSync) ++cycle;
+    if (!is_process_data(log[i].frame.id)) continue;
+    const bool after = cycle > 0 && i - syncs[cycle - 1] <= kBeside;
+    const bool before = cycle < syncs.size() && syncs[cycle] - i <= kBeside;
+    frames[log[i].frame.id].push_back(
+        {i, cycle - (after ? 1 : 0), cycle, cycle + (before ? 1 : 0), cycle});
   }
-  for (auto& [id, choices] : frames) {
-    choose(choices, cycles);
-    const auto& last = choices.back().cost;
-    auto c = static_cast<std::size_t>(std::min_element(last.begin(), last.end()) - last.begin());
-    for (auto f = choices.rbegin(); f != choices.rend(); c = f->from[c], ++f) {
-      if (c != kStay) order[f->at].first = 2 * cycles.over(f->at, c) + c;
+  for (const auto& [id, choices] : frames) {
+    for (const Choice& f : spread(choices)) {
+      if (f.chosen < f.written) order[f.at].first = 2 * syncs[f.written - 1];
+      if (f.chosen > f.written) order[f.at].first = 2 * syncs[f.written] + 2;
     }
   }
   std::sort(order.begin(), order.end());

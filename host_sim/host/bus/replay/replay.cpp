@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "comp/tables/image.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/host/bus/replay/likely_log.hpp"
 #include "host_sim/host/bus/replay/replay_comparison.hpp"
@@ -45,26 +44,17 @@ MakeNode in_this_process(std::uint8_t node_id, const std::vector<std::uint8_t>& 
   };
 }
 
-// The first status frame shows the tables with which the node began.
-void check_tables(const Log& log, std::uint8_t node_id, const std::vector<std::uint8_t>& image) {
-  Comparison trial(node_id, in_this_process(node_id, image));
-  const std::size_t start = find_start(log, node_id);
-  trial.start(log[start]);
-  for (std::size_t i = start; i < log.size(); ++i) {
-    trial.take(log[i], true);
-    if (!trial.node().is_status(log[i].frame.id)) continue;
-    const auto had = static_cast<std::uint32_t>(canopen::load_le(log[i].frame.data.data(), 4));
-    if (trial.node().active_crc() == had) return;
-    if (image.empty())
-      throw UserError(
-          fmt::format("node {} began with tables of CRC-32 {:08X} that the log does not contain: "
-                      "give them with --image",
-                      node_id, had));
-    throw UserError(fmt::format(
-        "node {} began {}, the image given has CRC-32 {:08X}", node_id,
-        had == 0 ? std::string("without tables") : fmt::format("with tables of CRC-32 {:08X}", had),
-        image_crc({image.data(), image.size()})));
-  }
+void refuse_other_tables(std::uint8_t node_id, std::uint32_t had,
+                         const std::vector<std::uint8_t>& image) {
+  if (image.empty())
+    throw UserError(
+        fmt::format("node {} began with tables of CRC-32 {:08X} that the log does not contain: "
+                    "give them with --image",
+                    node_id, had));
+  throw UserError(fmt::format(
+      "node {} began {}, the image given has CRC-32 {:08X}", node_id,
+      had == 0 ? std::string("without tables") : fmt::format("with tables of CRC-32 {:08X}", had),
+      image_crc({image.data(), image.size()})));
 }
 
 ReplayResult compare(const Log& log, std::uint8_t node_id, const MakeNode& make_node) {
@@ -108,7 +98,8 @@ Judged most_likely(const Log& log, std::uint8_t node_id, const std::vector<std::
         try_commands(i == 1 ? even : one_per_cycle(i == 0 ? log : even), node_id, make_node);
     if (is_better(likely.second, best.second)) best = std::move(likely);
   }
-  if (!best.second.equal()) check_tables(best.first, node_id, image);
+  const std::optional<std::uint32_t> other_tables = best.second.other_tables;
+  if (!best.second.equal() && other_tables) refuse_other_tables(node_id, *other_tables, image);
   return best;
 }
 

@@ -4,8 +4,9 @@
 //
 // Compared bit for bit: offsets and other process data, by identifier, each in the cycle of its
 // SYNC; SDO responses in their order, but for values of up to four bytes, which are those of the
-// moment. What leaves by the node's clock, the status PDO above all, has to be true in its cycle or
-// in one beside it. Heartbeats, emergency messages and the time of a frame are not compared.
+// moment. What leaves by the node's clock, the status PDO above all, has to be what the replayed
+// node had to send at some time; the status names its cycle. Heartbeats, emergency messages and the
+// time of a frame are not compared.
 //
 // A log holds what was on the bus, but not the exact order in which the node received it:
 // - A frame within three lines of a SYNC may belong to the cycle on its other side. It does where
@@ -56,6 +57,8 @@ struct ReplayResult {
   std::vector<ClockSet> clock_set;             // by a millisecond or more
   std::optional<ReplayDifference> difference;  // the first; the replay ends there
   std::string lacks;  // line and reason, where the log lacks what the node may have seen
+  // CRC-32 of the tables the node began with, where the replayed one began with others.
+  std::optional<std::uint32_t> other_tables;
 
   [[nodiscard]] bool equal() const { return !difference; }
 };

@@ -24,6 +24,10 @@ bool same_answer(const hal::CanFrame& a, const hal::CanFrame& b) {
                     std::equal(a.data.begin(), a.data.begin() + 4, b.data.begin()));
 }
 
+std::pair<std::uint16_t, std::vector<std::uint8_t>> content_of(const hal::CanFrame& frame) {
+  return {frame.id, {frame.data.begin(), frame.data.begin() + frame.size}};
+}
+
 }  // namespace
 
 Comparison::Comparison(std::uint8_t node_id, const MakeNode& make_node)
@@ -51,11 +55,6 @@ void Comparison::differs(const Said& where, const std::string& what,
   if (lacks_until_cycle_ < where.place.cycle) result_.lacks.clear();
 }
 
-// Either the first node did not send it, or it had lost power: then its boot-up comes next.
-void Comparison::not_logged(const Said& said) {
-  if (!missing_) missing_ = said;
-}
-
 void Comparison::lacks(const std::string& what, std::uint64_t until_cycle) {
   if (until_cycle < lacks_until_cycle_) return;
   result_.lacks = fmt::format("line {}: {}", now_.line, what);
@@ -77,7 +76,7 @@ void Comparison::replayed(const hal::CanFrame& frame) {
     return;
   Said said{frame, now_, false, false};
   said.place.line = 0;
-  if (node_->is_timed(frame.id)) return timed_.push_back(said);
+  if (node_->is_timed(frame.id)) return take_timed(said);
   Stream& stream = streams_[frame.id];
   stream.replayed.push_back(said);
   match(stream);
@@ -100,12 +99,8 @@ void Comparison::match(Stream& stream) {
       continue;
     }
     if (!together && e < g) return not_sent(expected);
-    if (!together) {
-      differs(got, "is not in the log", std::nullopt, got.frame);
-    } else if (!same) {
-      differs(expected, "differs", expected.frame, got.frame);
-    }
-    if (result_.difference) return;
+    if (!together) return not_logged(got);
+    if (!same) return differs(expected, "differs", expected.frame, got.frame);
     ++result_.compared;
     fresh_ = false;
     stream.logged.pop_front();
@@ -131,11 +126,7 @@ void Comparison::take(const LoggedFrame& logged, bool beside_sync) {
 // the very next frame may have come before.
 void Comparison::take_input(const LoggedFrame& logged) {
   const bool sync = logged.frame.id == canopen::kSync;
-  if (offset_line_ != 0 && (sync || logged.line > offset_line_ + 1)) {
-    node_->pass_deadline();
-    observe_timed();
-    offset_line_ = 0;
-  }
+  if (offset_line_ != 0 && (sync || logged.line > offset_line_ + 1)) end_cycle();
   if (sync) begin_cycle(logged.frame);
   if (node_->awaits(logged.frame.id)) heard_.insert(logged.frame.id);
   ++result_.fed;
@@ -145,15 +136,15 @@ void Comparison::take_input(const LoggedFrame& logged) {
 
 void Comparison::take_answer(const LoggedFrame& logged, bool beside_sync) {
   const std::uint16_t id = logged.frame.id;
-  if (missing_ && !result_.difference)
-    differs(*missing_, "is not in the log", std::nullopt, missing_->frame);
+  last_cycle_ = now_.cycle;
   if (id == canopen::kEmergency + node_id_ && logged.frame.size == 8 &&
       canopen::load_le(logged.frame.data.data(), 2) ==
           static_cast<std::uint64_t>(canopen::ErrorCode::can_overrun))
     lacks("the node had not seen all frames that are in the log", UINT64_MAX);
   if (id == canopen::kHeartbeat + node_id_ || id == canopen::kEmergency + node_id_) return;
   const Said said{logged.frame, now_, beside_sync, false};
-  if (node_->is_timed(id)) return timed_.push_back(said);
+  if (node_->is_status(id)) look_at_tables(logged.frame);
+  if (node_->is_timed(id)) return take_timed(said);
   Stream& stream = streams_[id];
   const bool of_open_cycle = node_->cycle_open() && stream.replayed.empty();
   if (offset_line_ == 0 && of_open_cycle && node_->is_offset(id)) offset_line_ = logged.line;
@@ -164,11 +155,10 @@ void Comparison::take_answer(const LoggedFrame& logged, bool beside_sync) {
 // One that no command explains: the node has been without power. A node that was reset while its
 // first boot-up had not yet left sends two in a row.
 void Comparison::take_boot_up(const LoggedFrame& logged) {
-  missing_.reset();
   if (boot_ups_ == 0 && !fresh_) {
-    finish();
+    end_cycle();
+    judge_unmatched();
     streams_.clear();
-    timed_.clear();
     ++result_.power_ups;
     node_->power_on(logged.time_us);
   }
@@ -185,17 +175,12 @@ void Comparison::begin_cycle(const hal::CanFrame& sync) {
   now_.sync_counter = sync.data[0];
   now_.cycle = ++result_.cycles;
   heard_earlier_ = std::exchange(heard_, {});
-  for (auto& [id, stream] : streams_) {
-    if (id == canopen::kSdoResponse + node_id_) continue;
-    while (!stream.replayed.empty() && stream.replayed.front().may_be_lost)
-      stream.replayed.pop_front();
-    const auto old = [this](const std::deque<Said>& waiting) {
-      return !waiting.empty() && waiting.front().place.cycle + 2 < now_.cycle;
-    };
-    if (old(stream.logged)) not_sent(stream.logged.front());
-    if (old(stream.replayed)) not_logged(stream.replayed.front());
-  }
-  judge_timed(now_.cycle - std::min<std::uint64_t>(now_.cycle, 2));
+}
+
+void Comparison::end_cycle() {
+  if (offset_line_ != 0) node_->pass_deadline();
+  offset_line_ = 0;
+  observe_timed();
 }
 
 // Frames that were on the bus, and candump did not see them: what the node saw is not known.
@@ -212,46 +197,52 @@ void Comparison::look_for_gaps(const hal::CanFrame& sync) {
 // --- process data whose time depends on the node's clock
 
 void Comparison::observe_timed() {
-  for (const hal::CanFrame& frame : node_->timed()) {
-    const std::pair now{now_.cycle, frame};
-    if (std::find(could_say_.rbegin(), could_say_.rend(), now) == could_say_.rend())
-      could_say_.push_back(now);
-  }
+  for (const hal::CanFrame& frame : node_->timed())
+    true_once_.insert(content_of(frame));
 }
 
-// The frames of both nodes hold in their cycle or in one beside it.
-void Comparison::judge_timed(std::uint64_t before_cycle) {
-  for (; !timed_.empty() && timed_.front().place.cycle < before_cycle; timed_.pop_front()) {
-    const Said& said = timed_.front();
-    const auto true_then = [&said](const auto& could) {
-      return could.second == said.frame && could.first + 2 >= said.place.cycle &&
-             could.first <= said.place.cycle + 1;
-    };
-    if (std::any_of(could_say_.begin(), could_say_.end(), true_then)) {
-      result_.compared += said.place.line != 0 ? 1U : 0U;
-      continue;
-    }
-    const auto near = std::find_if(could_say_.begin(), could_say_.end(), [&said](const auto& c) {
-      return c.second.id == said.frame.id && c.first >= said.place.cycle;
-    });
-    const auto other = near == could_say_.end() ? std::optional<hal::CanFrame>() : near->second;
+// The first status frame shows the tables with which the node began.
+void Comparison::look_at_tables(const hal::CanFrame& status) {
+  const auto had = static_cast<std::uint32_t>(canopen::load_le(status.data.data(), 4));
+  if (!status_seen_ && node_->active_crc() != had) result_.other_tables = had;
+  status_seen_ = true;
+}
+
+void Comparison::take_timed(const Said& said) {
+  const std::vector<hal::CanFrame> now = node_->timed();
+  const auto other = std::find_if(
+      now.begin(), now.end(), [&said](const hal::CanFrame& f) { return f.id == said.frame.id; });
+  timed_.emplace_back(said, other == now.end() ? std::optional<hal::CanFrame>() : *other);
+}
+
+void Comparison::judge_timed() {
+  for (const auto& [said, other] : timed_) {
     const bool logged = said.place.line != 0;
-    differs(said, "differs", logged ? said.frame : other, logged ? other : said.frame);
+    if (true_once_.count(content_of(said.frame)) != 0) {
+      result_.compared += logged ? 1U : 0U;
+    } else {
+      differs(said, "differs", logged ? said.frame : other, logged ? other : said.frame);
+    }
   }
-  while (!could_say_.empty() && could_say_.front().first + 3 < before_cycle)
-    could_say_.pop_front();
 }
 
-// The log may end before the last answers do, but it may not hold more than there are.
-void Comparison::finish() {
-  if (offset_line_ != 0) node_->pass_deadline();
-  offset_line_ = 0;
-  observe_timed();
-  if (missing_) differs(*missing_, "is not in the log", std::nullopt, missing_->frame);
-  for (const auto& [id, stream] : streams_) {
-    if (!stream.logged.empty()) return not_sent(stream.logged.front());
+// The log, or the power of the first node, may end before the last answers do.
+void Comparison::judge_unmatched() {
+  for (auto& [id, stream] : streams_) {
+    std::deque<Said>& sent = stream.replayed;
+    while (!sent.empty() && sent.front().may_be_lost)
+      sent.pop_front();
+    if (!stream.logged.empty()) not_sent(stream.logged.front());
+    const bool of_cycle = id != canopen::kSdoResponse + node_id_;
+    if (of_cycle && !sent.empty() && sent.front().place.cycle + 2 < last_cycle_)
+      not_logged(sent.front());
   }
-  judge_timed(UINT64_MAX);
+}
+
+void Comparison::finish() {
+  end_cycle();
+  judge_unmatched();
+  judge_timed();
 }
 
 }  // namespace volcomp::host

@@ -5,6 +5,8 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "host_sim/host/bus/replay/replay.hpp"
 
@@ -27,7 +29,6 @@ class Comparison {
   // After the last frame.
   void finish();
 
-  [[nodiscard]] const ReplayedNode& node() const { return *node_; }
   [[nodiscard]] const ReplayResult& result() const { return result_; }
 
  private:
@@ -51,13 +52,19 @@ class Comparison {
   void match(Stream& stream);
   void begin_cycle(const hal::CanFrame& sync);
   void look_for_gaps(const hal::CanFrame& sync);
+  void end_cycle();
   void observe_timed();
-  void judge_timed(std::uint64_t before_cycle);
+  void look_at_tables(const hal::CanFrame& status);
+  void take_timed(const Said& said);
+  void judge_unmatched();
+  void judge_timed();
   void differs(const Said& where, const std::string& what,
                const std::optional<hal::CanFrame>& expected,
                const std::optional<hal::CanFrame>& got);
   void not_sent(const Said& said) { differs(said, "is not sent", said.frame, std::nullopt); }
-  void not_logged(const Said& said);
+  void not_logged(const Said& said) {
+    differs(said, "is not in the log", std::nullopt, said.frame);
+  }
   void lacks(const std::string& what, std::uint64_t until_cycle);
 
   std::uint8_t node_id_;
@@ -65,17 +72,19 @@ class Comparison {
   ReplayResult result_;
   ReplayPlace now_{};
   std::map<std::uint16_t, Stream> streams_;
-  std::optional<Said> missing_;  // in the log: the first, until the node sends another
-  std::size_t boot_ups_ = 0;     // of the replayed node that the log has not yet
-  bool fresh_ = true;            // nothing has been compared since the last boot-up
-  std::size_t offset_line_ = 0;  // in the log, of the first offset of the open cycle
+  std::uint64_t last_cycle_ = 0;  // in which the log has a frame of the node
+  std::size_t boot_ups_ = 0;      // of the replayed node that the log has not yet
+  bool status_seen_ = false;      // in the log
+  bool fresh_ = true;             // nothing has been compared since the last boot-up
+  std::size_t offset_line_ = 0;   // in the log, of the first offset of the open cycle
 
   std::set<std::uint16_t> heard_;          // in this cycle, of what a cycle waits for
   std::set<std::uint16_t> heard_earlier_;  // in the one before
   std::uint64_t lacks_until_cycle_ = 0;
 
-  std::deque<Said> timed_;                                         // of both nodes, not judged
-  std::deque<std::pair<std::uint64_t, hal::CanFrame>> could_say_;  // with the cycle
+  // Of both nodes, with what the node in this process had to send at that time.
+  std::vector<std::pair<Said, std::optional<hal::CanFrame>>> timed_;
+  std::set<std::pair<std::uint16_t, std::vector<std::uint8_t>>> true_once_;
 };
 
 }  // namespace volcomp::host
