@@ -6,7 +6,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
-#include "host_sim/cli/run_options.hpp"
+#include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/experiments/face_gear/figures.hpp"
 #include "host_sim/experiments/face_gear/report.hpp"
 #include "host_sim/host/measure/map_csv.hpp"
@@ -20,36 +20,29 @@ struct FaceGearArguments : RunArguments {
 };
 
 // As volcomp compare reads them.
-void add_maps(const std::string& folder, const face_gear::FaceGearResult& run, Results& results) {
-  if (folder.empty()) return;
+std::vector<host::NamedText> map_files(const face_gear::FaceGearResult& run) {
   std::vector<host::NamedText> files;
   const auto compensated = static_cast<std::size_t>(face_gear::FaceStage::compensated);
   for (const face_gear::FlankMap& flank : run.inspection.at(compensated).maps)
     files.push_back({fmt::format("slot{}_{}_um.csv", flank.flank.slot + 1,
                                  face_gear::kFaceSideNames[flank.flank.side > 0 ? 0 : 1]),
                      host::map_csv(flank.map)});
-  results.add_files(folder, files);
+  return files;
 }
 
-int run_face_gear_command(const FaceGearArguments& arguments) {
-  Results results = run_results(arguments, {arguments.options.gear});
-  const std::unique_ptr<RunView> view = run_view(arguments, results);
-  ScenarioBus bus(arguments.node, view.get());
+RunOutcome face_gear_outcome(RunPlace& place, const FaceGearArguments& arguments,
+                             const host::Progress& progress) {
   face_gear::FaceGearOptions options = arguments.options;
   options.machine = machine_of(arguments, "yk7280");
-  options.make_axes = bus.axes();
+  options.make_axes = place.axes();
   options.cycle_hz = arguments.node.cycle_hz;
-  const face_gear::FaceGearResult run =
-      run_watched(*view, &bus, [&options](const host::Progress& progress) {
-        return face_gear::run_face_gear(options, progress);
-      });
-  fmt::print(results.text(), "{}transport: {}\n", face_gear::face_gear_summary(run),
-             describe(arguments.node));
-  add_maps(arguments.map_folder, run, results);
-  const nlohmann::json document = face_gear::face_gear_document(run, run_context(arguments, *view));
-  write_results(arguments, document, face_gear::face_gear_figures(run), results);
-  view->ended(document);
-  return face_gear::face_gear_verdict(run).ok ? 0 : 1;
+  const face_gear::FaceGearResult run = face_gear::run_face_gear(options, progress);
+  return {face_gear::face_gear_summary(run),
+          face_gear::face_gear_document(run, place.context()),
+          face_gear::face_gear_figures(run),
+          face_gear::face_gear_verdict(run).ok,
+          arguments.map_folder,
+          map_files(run)};
 }
 
 }  // namespace
@@ -77,18 +70,14 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
       {{"tables", face_gear::FormTruth::tables}, {"synthetic", face_gear::FormTruth::synthetic}},
       "Form of the simulated flanks, that of the paper's Tables 7 and 8 or a "
       "smooth one");
-  face_gear->add_option("--seed", options.seed, "Seed of the errors of machine and gear")
-      ->check(seed_number())
-      ->capture_default_str();
-  face_gear
-      ->add_option("--can", a->node.can,
-                   fmt::format("Bus: loopback (node in this process), {}", host::kLinkForms))
-      ->capture_default_str();
+  add_seed(*face_gear, "--seed", options.seed, "Seed of the errors of machine and gear");
+  add_can_option(*face_gear, a->node);
   face_gear->add_option("--maps", a->map_folder,
                         "Folder for the error maps as CSV, for volcomp compare");
   add_output_options(*face_gear, *a);
   add_bus_options(*face_gear, a->node);
-  face_gear->callback([a, &code] { code = run_face_gear_command(*a); });
+  face_gear->callback(
+      [a, &code] { code = run_experiment(*a, {a->options.gear}, face_gear_outcome); });
 }
 
 }  // namespace volcomp::cli

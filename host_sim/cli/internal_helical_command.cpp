@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/commands.hpp"
-#include "host_sim/cli/run_options.hpp"
+#include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/experiments/internal_helical/controller_files.hpp"
 #include "host_sim/experiments/internal_helical/figures.hpp"
 #include "host_sim/experiments/internal_helical/report.hpp"
@@ -18,47 +18,36 @@ struct InternalHelicalArguments : RunArguments {
   std::string table_folder;  // empty: none
 };
 
-std::vector<std::string> add_tables(const std::string& folder,
-                                    const internal_helical::InternalHelicalResult& run,
-                                    Results& results) {
-  std::vector<std::string> names;
-  if (folder.empty()) return names;
-  std::vector<host::NamedText> files;
+// The learned tables and what is in them.
+void add_tables(const std::string& folder, const internal_helical::InternalHelicalResult& run,
+                RunOutcome& outcome) {
   for (const internal_helical::ControllerFile& file :
        internal_helical::controller_files(run.gear, run.detail.tables)) {
-    files.push_back({file.name, file.text});
-    fmt::print(results.text(), "table: {} ({})\n",
-               (std::filesystem::path(folder) / file.name).string(), file.meaning);
-    names.push_back(file.name);
+    outcome.files.push_back({file.name, file.text});
+    outcome.file_lines += fmt::format(
+        "table: {} ({})\n", (std::filesystem::path(folder) / file.name).string(), file.meaning);
   }
-  results.add_files(folder, files);
-  return names;
+  outcome.folder = folder;
 }
 
-int run_internal_helical_command(const InternalHelicalArguments& arguments) {
+RunOutcome internal_helical_outcome(RunPlace& place, const InternalHelicalArguments& arguments,
+                                    const host::Progress& progress) {
   internal_helical::InternalHelicalOptions options = arguments.options;
   options.machine = machine_of(arguments, "internal_grinder");
-  Results results = run_results(arguments);
-  const std::unique_ptr<RunView> view = run_view(arguments, results);
-  options.watch = view.get();
-  std::unique_ptr<ScenarioBus> bus;
-  if (!arguments.node.integrated()) {
-    bus = std::make_unique<ScenarioBus>(arguments.node, view.get());
-    options.make_axes = bus->axes();
-  }
+  options.make_axes = place.axes();
+  options.watch = &place.watch();
   const internal_helical::InternalHelicalResult run =
-      run_watched(*view, bus.get(), [&options](const host::Progress& progress) {
-        return internal_helical::run_internal_helical(options, progress);
-      });
-  fmt::print(results.text(), "{}transport: {}\n", internal_helical::internal_helical_summary(run),
-             describe(arguments.node));
-  const std::vector<std::string> tables = add_tables(arguments.table_folder, run, results);
-  const nlohmann::json document =
-      internal_helical::internal_helical_document(run, run_context(arguments, *view));
-  write_results(arguments, document, internal_helical::internal_helical_figures(run, tables),
-                results);
-  view->ended(document);
-  return internal_helical::internal_helical_verdict(run).ok ? 0 : 1;
+      internal_helical::run_internal_helical(options, progress);
+  RunOutcome outcome;
+  if (!arguments.table_folder.empty()) add_tables(arguments.table_folder, run, outcome);
+  std::vector<std::string> names;
+  for (const host::NamedText& file : outcome.files)
+    names.push_back(file.name);
+  outcome.summary = internal_helical::internal_helical_summary(run);
+  outcome.document = internal_helical::internal_helical_document(run, place.context());
+  outcome.figures = internal_helical::internal_helical_figures(run, names);
+  outcome.good = internal_helical::internal_helical_verdict(run).ok;
+  return outcome;
 }
 
 }  // namespace
@@ -85,15 +74,12 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
   helical->add_option("--tables", a->table_folder,
                       "Folder for the learned tables as files of controllers");
   add_output_options(*helical, *a);
-  helical->add_option(
-      "--can", a->node.can,
-      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}",
-                  host::kLinkForms));
+  add_can_option(*helical, a->node);
   helical
       ->add_option("--log", a->node.log_file,
                    "Write all frames to this file, as candump -L does (-: standard output)")
       ->needs("--can");
-  helical->callback([a, &code] { code = run_internal_helical_command(*a); });
+  helical->callback([a, &code] { code = run_experiment(*a, {}, internal_helical_outcome); });
 }
 
 }  // namespace volcomp::cli

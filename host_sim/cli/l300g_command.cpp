@@ -6,7 +6,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
-#include "host_sim/cli/run_options.hpp"
+#include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/experiments/l300g/figures.hpp"
 #include "host_sim/experiments/l300g/report.hpp"
 
@@ -18,30 +18,20 @@ struct L300gArguments : RunArguments {
   std::string gcode_folder;  // empty: none
 };
 
-void add_programs(const std::string& folder, const l300g::L300gResult& result, Results& results) {
-  if (folder.empty()) return;
-  results.add_files(folder, {{"inspection_before.ngc", result.before.program},
-                             {"inspection_after.ngc", result.after.program}});
-}
-
-int run_l300g_command(const L300gArguments& arguments) {
-  Results results = run_results(arguments, {arguments.options.errors});
-  const std::unique_ptr<RunView> view = run_view(arguments, results);
-  ScenarioBus bus(arguments.node, view.get());
+RunOutcome l300g_outcome(RunPlace& place, const L300gArguments& arguments,
+                         const host::Progress& progress) {
   l300g::L300gOptions options = arguments.options;
   options.machine = machine_of(arguments, "l300g");
-  options.make_axes = bus.axes();
+  options.make_axes = place.axes();
   options.cycle_hz = arguments.node.cycle_hz;
-  const l300g::L300gResult result = run_watched(
-      *view, &bus,
-      [&options](const host::Progress& progress) { return l300g::run_l300g(options, progress); });
-  fmt::print(results.text(), "{}transport: {}\n", l300g::l300g_summary(result),
-             describe(arguments.node));
-  add_programs(arguments.gcode_folder, result, results);
-  const nlohmann::json document = l300g::l300g_document(result, run_context(arguments, *view));
-  write_results(arguments, document, l300g::l300g_figures(result), results);
-  view->ended(document);
-  return l300g::l300g_verdict(result).ok ? 0 : 1;
+  const l300g::L300gResult result = l300g::run_l300g(options, progress);
+  return {l300g::l300g_summary(result),
+          l300g::l300g_document(result, place.context()),
+          l300g::l300g_figures(result),
+          l300g::l300g_verdict(result).ok,
+          arguments.gcode_folder,
+          {{"inspection_before.ngc", result.before.program},
+           {"inspection_after.ngc", result.after.program}}};
 }
 
 }  // namespace
@@ -72,18 +62,13 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
           "--errors", options.errors,
           fmt::format("What is wrong with the machine: {}, or a file", l300g::kNamedErrors))
       ->capture_default_str();
-  l300g->add_option("--seed", options.seed, "Seed of the phases of the waves")
-      ->check(seed_number())
-      ->capture_default_str();
-  l300g
-      ->add_option("--can", a->node.can,
-                   fmt::format("Bus: loopback (node in this process), {}", host::kLinkForms))
-      ->capture_default_str();
+  add_seed(*l300g, "--seed", options.seed, "Seed of the phases of the waves");
+  add_can_option(*l300g, a->node);
   l300g->add_option("--gcode", a->gcode_folder,
                     "Folder for the inspection as NC programs, before and after compensation");
   add_output_options(*l300g, *a);
   add_bus_options(*l300g, a->node);
-  l300g->callback([a, &code] { code = run_l300g_command(*a); });
+  l300g->callback([a, &code] { code = run_experiment(*a, {a->options.errors}, l300g_outcome); });
 }
 
 }  // namespace volcomp::cli

@@ -6,7 +6,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
-#include "host_sim/cli/run_options.hpp"
+#include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/experiments/any_machine/figures.hpp"
 #include "host_sim/experiments/any_machine/report.hpp"
 
@@ -17,39 +17,16 @@ struct MachineArguments : RunArguments {
   any_machine::MachineOptions options;
 };
 
-std::string letters_of(const host::MachineFile& machine) {
-  std::string letters;
-  for (const host::AxisFile& axis : machine.axes)
-    letters += axis.letter;
-  return letters;
-}
-
-int run_machine_command(const MachineArguments& arguments) {
+RunOutcome machine_outcome(RunPlace& place, const MachineArguments& arguments,
+                           const host::Progress& progress) {
   any_machine::MachineOptions options = arguments.options;
   options.machine = machine_of(arguments, "trunnion");
-  Results results = run_results(arguments);
-  const std::unique_ptr<RunView> view = run_view(arguments, results);
-  const host::MachineFile file = host::read_machine_file(options.machine);
-  std::unique_ptr<ScenarioBus> bus;
-  if (arguments.node.integrated()) {
-    options.make_cell = sim::watched_integrated_cells(letters_of(file), *view);
-  } else {
-    bus = std::make_unique<ScenarioBus>(arguments.node, view.get());
-    options.make_cell = bus->cells(file);
-    options.knots = knots_at(arguments.node);
-  }
-  any_machine::MachineResult result =
-      run_watched(*view, bus.get(), [&options](const host::Progress& progress) {
-        return any_machine::run_machine(options, progress);
-      });
-  result.options.make_cell = {};  // the bus has ended
-  fmt::print(results.text(), "{}transport: {}\n", any_machine::machine_summary(result),
-             describe(arguments.node));
-  const nlohmann::json document =
-      any_machine::machine_document(result, run_context(arguments, *view));
-  write_results(arguments, document, any_machine::machine_figures(result), results);
-  view->ended(document);
-  return any_machine::machine_verdict(result).ok ? 0 : 1;
+  options.make_cell = place.cells(options.machine);
+  options.knots = knots_at(arguments.node);
+  const any_machine::MachineResult result = any_machine::run_machine(options, progress);
+  return {any_machine::machine_summary(result),
+          any_machine::machine_document(result, place.context()),
+          any_machine::machine_figures(result), any_machine::machine_verdict(result).ok};
 }
 
 }  // namespace
@@ -61,9 +38,7 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
   a->command = command;
   a->node.cycle_hz = sim::kBusCycleOfFive_hz;
   any_machine::MachineOptions& options = a->options;
-  machine->add_option("--seed", options.seed, "Seed of the machine, of the places and of the noise")
-      ->check(seed_number())
-      ->capture_default_str();
+  add_seed(*machine, "--seed", options.seed, "Seed of the machine, of the places and of the noise");
   machine->add_flag("--noise", options.noise, "Measure with realistic instruments");
   machine->add_option("--places", options.places, "Random places all over the travel")
       ->check(CLI::Range(std::size_t{10}, std::size_t{10000}))
@@ -73,18 +48,12 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
                    "Longer tool for the effect of orientation errors, mm")
       ->check(number_between(0.0, 2000.0))
       ->capture_default_str();
-  machine->add_option(
-      "--can", a->node.can,
-      fmt::format("Compensate by a node on a CAN bus: loopback (in this process), {}",
-                  host::kLinkForms));
+  add_can_option(*machine, a->node);
   add_output_options(*machine, *a);
   const std::vector<CLI::Option*> on_a_bus = add_bus_options(*machine, a->node);
   machine->callback([a, on_a_bus, &code] {
-    for (const CLI::Option* option : on_a_bus) {
-      if (a->node.integrated() && option->count() > 0)
-        throw CLI::RequiresError(option->get_name(), "--can");
-    }
-    code = run_machine_command(*a);
+    require_node(on_a_bus, a->node, "--can");
+    code = run_experiment(*a, {}, machine_outcome);
   });
 }
 

@@ -1,24 +1,18 @@
 #include "host_sim/cli/run_options.hpp"
 
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "host_sim/cli/number_check.hpp"
+#include "host_sim/host/bus/links/frame_link.hpp"
+#include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/machine_bus.hpp"
 #include "host_sim/host/report/page/report.hpp"
-#include "host_sim/sim/controller/tick_tables.hpp"
 
 namespace volcomp::cli {
 namespace {
 
-struct ReportFiles {
-  std::string data;
-  std::string page;
-};
-
-ReportFiles report_files(const std::filesystem::path& folder) {
-  return {(folder / "report.json").string(), (folder / "report.html").string()};
+std::string report_data(const std::filesystem::path& folder) {
+  return (folder / "report.json").string();
 }
 
 }  // namespace
@@ -33,10 +27,6 @@ std::string command_line(int argc, char** argv) {
 CLI::Option* add_output_options(CLI::App& scenario, RunArguments& arguments) {
   scenario.add_option("--machine", arguments.machine,
                       "Machine file (default: the machine that comes with the program)");
-  return add_figure_options(scenario, arguments);
-}
-
-CLI::Option* add_figure_options(CLI::App& scenario, RunArguments& arguments) {
   scenario.add_option("--json", arguments.json_file,
                       "Write the figures to this file (-: standard output)");
   CLI::Option* serve =
@@ -52,6 +42,15 @@ CLI::Option* add_figure_options(CLI::App& scenario, RunArguments& arguments) {
                              "Write report.html, report.json and what belongs to them here");
 }
 
+void add_can_option(CLI::App& scenario, NodePlace& node) {
+  const char* const what = node.integrated()
+                               ? "Compensate by a node on a CAN bus: loopback (in this process), {}"
+                               : "Bus: loopback (node in this process), {}";
+  CLI::Option* can =
+      scenario.add_option("--can", node.can, fmt::format(fmt::runtime(what), host::kLinkForms));
+  if (!node.integrated()) can->capture_default_str();
+}
+
 std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node) {
   CLI::Option* cycle = scenario.add_option("--cycle-hz", node.cycle_hz, "Cycle on the bus")
                            ->check(number_between(host::kLeastCycle_hz, host::kMostCycle_hz))
@@ -60,6 +59,18 @@ std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node) {
                                          "Write all frames to this file, as candump -L does (-: "
                                          "standard output)");
   return {cycle, log};
+}
+
+void require_node(const std::vector<CLI::Option*>& options, const NodePlace& node,
+                  const std::string& place) {
+  for (const CLI::Option* option : options)
+    if (node.integrated() && option->count() > 0)
+      throw CLI::RequiresError(option->get_name(), place);
+}
+
+void add_seed(CLI::App& scenario, const std::string& name, std::uint64_t& seed,
+              const std::string& what) {
+  scenario.add_option(name, seed, what)->check(seed_number())->capture_default_str();
 }
 
 std::filesystem::path machine_of(const RunArguments& arguments, const std::string& bundled) {
@@ -75,50 +86,21 @@ void require_page(const std::string& option) {
                         "volcomp again");
 }
 
-std::unique_ptr<RunView> run_view(const RunArguments& arguments, const Results& results) {
-  if (arguments.live.port) require_page("--serve");
-  return std::make_unique<RunView>(arguments.live, arguments.command, describe(arguments.node),
-                                   results.text());
-}
-
-host::RunContext run_context(const RunArguments& arguments, const RunView& view) {
-  return {arguments.command, describe(arguments.node), [&view] {
-            return view.ticks().periods() > 0 ? sim::tick_tables(view.ticks())
-                                              : nlohmann::json::array();
-          }};
-}
-
-Results run_results(const RunArguments& arguments, const std::vector<std::string>& more_inputs) {
-  std::vector<std::string> inputs = more_inputs;
-  inputs.insert(inputs.end(), {arguments.machine, arguments.node.firmware.image.string()});
-  return Results(
-      with_report({arguments.json_file, arguments.node.log_file}, arguments.report_folder),
-      std::move(inputs), arguments.report_folder);
-}
-
-void write_results(const RunArguments& arguments, const nlohmann::json& document,
-                   nlohmann::json figures, Results& results) {
-  const std::string& folder = arguments.report_folder;
-  if (!folder.empty()) add_report(results, folder, document);
-  figures["transport"] = describe(arguments.node);
-  results.add(arguments.json_file, json_text(figures));
-  results.write();
-  if (!folder.empty()) fmt::print(results.text(), "report: {}\n", report_files(folder).page);
+std::string report_page(const std::filesystem::path& folder) {
+  return (folder / "report.html").string();
 }
 
 std::vector<std::string> with_report(std::vector<std::string> names, const std::string& folder) {
   if (folder.empty()) return names;
   require_page("--report");
-  const ReportFiles report = report_files(folder);
-  names.insert(names.end(), {report.data, report.page});
+  names.insert(names.end(), {report_data(folder), report_page(folder)});
   return names;
 }
 
 void add_report(Results& results, const std::string& folder, const nlohmann::json& document) {
-  const ReportFiles report = report_files(folder);
   results.add_folder(folder);
-  results.add(report.data, host::report_text(document));
-  results.add(report.page, host::report_html(document));
+  results.add(report_data(folder), host::report_text(document));
+  results.add(report_page(folder), host::report_html(document));
 }
 
 }  // namespace volcomp::cli

@@ -9,7 +9,7 @@
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_files.hpp"
-#include "host_sim/cli/run_options.hpp"
+#include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/experiments/xyfz/scenario.hpp"
 #include "host_sim/experiments/xyfz/truth.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
