@@ -1,78 +1,79 @@
 #include "host_sim/cli/command_tree.hpp"
 
-#include <sstream>
+#include <cstddef>
+#include <utility>
 
 namespace volcomp::cli {
 namespace {
 
+constexpr auto kAll = [](const CLI::App*) { return true; };
+
 // "TEXT:{lsq,end}": the validator describes its choices.
-std::vector<std::string> choices_of(const std::string& type) {
+std::vector<std::string> choices_in(const std::string& type) {
   const std::size_t open = type.find('{');
   const std::size_t close = type.find('}', open);
   if (open == std::string::npos || close == std::string::npos) return {};
-  std::vector<std::string> choices;
-  std::istringstream list(type.substr(open + 1, close - open - 1));
-  for (std::string choice; std::getline(list, choice, ',');)
-    choices.push_back(choice);
-  return choices;
+  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
 }
 
-OptionText option_text(const CLI::Option& option) {
-  OptionText text;
-  for (const std::string& name : option.get_snames())
-    text.names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames())
-    text.names.push_back("--" + name);
-  if (option.get_positional()) text.names.push_back(option.get_name(true));
-  text.description = option.get_description();
-  text.default_value = option.get_default_str();
-  text.group = option.get_group();
-  text.required = option.get_required();
-  text.many = option.get_items_expected_max() > 1;
-  const std::string type = option.get_type_name();
-  text.choices = choices_of(type);
-  if (option.get_items_expected_max() == 0) {
-    text.value = ValueKind::none;
-  } else if (!text.choices.empty()) {
-    text.value = ValueKind::choice;
-  } else {
-    text.value = type.rfind("TEXT", 0) == 0 ? ValueKind::text : ValueKind::number;
-  }
-  return text;
+std::vector<const CLI::Option*> shown(const CLI::App& command, bool arguments) {
+  return command.get_options([&](const CLI::Option* option) {
+    return !option->get_group().empty() && option->get_positional() == arguments;
+  });
 }
-
-// Commands are three deep at most.
-// NOLINTBEGIN(misc-no-recursion)
-CommandText command_text(const CLI::App& app, const std::string& above) {
-  CommandText command;
-  command.name = above.empty() ? app.get_name() : above + " " + app.get_name();
-  command.description = app.get_description();
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->get_group().empty()) continue;  // hidden
-    (option->get_positional() ? command.arguments : command.options)
-        .push_back(option_text(*option));
-  }
-  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; }))
-    command.commands.push_back(command_text(*below, command.name));
-  return command;
-}
-
-void collect(const CommandText& command, std::vector<const CommandText*>& all) {
-  all.push_back(&command);
-  for (const CommandText& below : command.commands)
-    collect(below, all);
-}
-
-// NOLINTEND(misc-no-recursion)
 
 }  // namespace
 
-CommandText command_tree(const CLI::App& app) { return command_text(app, {}); }
+OptionValue value_of(const CLI::Option& option) {
+  if (option.get_items_expected_max() == 0) return {};
+  const std::string type = option.get_type_name();
+  if (std::vector<std::string> choices = choices_in(type); !choices.empty())
+    return {ValueKind::choice, std::move(choices)};
+  return {type.rfind("TEXT", 0) == 0 ? ValueKind::text : ValueKind::number, {}};
+}
 
-std::vector<const CommandText*> all_commands(const CommandText& tree) {
-  std::vector<const CommandText*> all;
-  collect(tree, all);
+std::vector<std::string> names_of(const CLI::Option& option) {
+  if (option.get_positional()) return {option.get_name(true)};
+  std::vector<std::string> names;
+  for (const std::string& name : option.get_snames())
+    names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames())
+    names.push_back("--" + name);
+  return names;
+}
+
+std::vector<const CLI::Option*> shown_options(const CLI::App& command) {
+  return shown(command, false);
+}
+
+std::vector<const CLI::Option*> shown_arguments(const CLI::App& command) {
+  return shown(command, true);
+}
+
+std::vector<const CLI::App*> commands_below(const CLI::App& command) {
+  return command.get_subcommands(kAll);
+}
+
+const CLI::App* command_named(const CLI::App& above, const std::string& name) {
+  for (const CLI::App* command : commands_below(above))
+    if (command->get_name() == name) return command;
+  return nullptr;
+}
+
+std::vector<CLI::App*> all_commands(CLI::App& program) {
+  std::vector<CLI::App*> all{&program};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::vector<CLI::App*> below = all[i]->get_subcommands(kAll);
+    all.insert(all.begin() + static_cast<std::ptrdiff_t>(i) + 1, below.begin(), below.end());
+  }
   return all;
+}
+
+std::string full_name(const CLI::App& command) {
+  std::string name = command.get_name();
+  for (const CLI::App* above = command.get_parent(); above != nullptr; above = above->get_parent())
+    name.insert(0, above->get_name() + " ");
+  return name;
 }
 
 }  // namespace volcomp::cli

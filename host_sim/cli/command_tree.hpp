@@ -1,7 +1,8 @@
 #pragma once
-// The commands of a program as plain data, read from its CLI::App: what completion and manual pages
-// are made of.
+// The commands of a program and the values of their options, read from its CLI::App: what
+// completion, the manual page and the remedy for a misspelt word are made of.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,28 +12,27 @@ namespace volcomp::cli {
 
 enum class ValueKind : std::uint8_t { none, choice, number, text };
 
-struct OptionText {
-  std::vector<std::string> names;  // "--json", "-h"; of an argument its name alone, "FILE"
-  std::string description;
-  ValueKind value = ValueKind::none;
+struct OptionValue {
+  ValueKind kind = ValueKind::none;
   std::vector<std::string> choices;
-  std::string default_value;  // empty: none, or not worth printing
-  std::string group;          // of the help text
-  bool required = false;
-  bool many = false;  // more than one value
 };
 
-struct CommandText {
-  std::string name;  // with those above it: "volcomp run xyfz"
-  std::string description;
-  std::vector<OptionText> options;
-  std::vector<OptionText> arguments;
-  std::vector<CommandText> commands;
-};
+[[nodiscard]] OptionValue value_of(const CLI::Option& option);
 
-[[nodiscard]] CommandText command_tree(const CLI::App& app);
+// "-h", "--help"; of an argument its name alone, "FILE".
+[[nodiscard]] std::vector<std::string> names_of(const CLI::Option& option);
 
-// The tree as a list, a command before those below it. It refers to the tree.
-[[nodiscard]] std::vector<const CommandText*> all_commands(const CommandText& tree);
+// In the order of the help text, without what it hides.
+[[nodiscard]] std::vector<const CLI::Option*> shown_options(const CLI::App& command);
+[[nodiscard]] std::vector<const CLI::Option*> shown_arguments(const CLI::App& command);
+
+// The commands directly below.
+[[nodiscard]] std::vector<const CLI::App*> commands_below(const CLI::App& command);
+// One of them, or null.
+[[nodiscard]] const CLI::App* command_named(const CLI::App& above, const std::string& name);
+// The program and all its commands, each before those below it.
+[[nodiscard]] std::vector<CLI::App*> all_commands(CLI::App& program);
+// With those above it: "volcomp run xyfz".
+[[nodiscard]] std::string full_name(const CLI::App& command);
 
 }  // namespace volcomp::cli

@@ -1,15 +1,22 @@
 #pragma once
-// Scripts that let a shell complete commands, options, choices and file names.
+// What a shell offers for Tab: scripts that ask the program itself.
 
 #include <string>
+#include <vector>
 
-#include "host_sim/cli/command_tree.hpp"
+#include <CLI/CLI.hpp>
 
 namespace volcomp::cli {
 
-// Each stands on its own; all follow the words typed so far to the command they belong to.
-[[nodiscard]] std::string bash_completion(const CommandText& program);
-[[nodiscard]] std::string zsh_completion(const CommandText& program);
-[[nodiscard]] std::string fish_completion(const CommandText& program);
+// The word after the name of the program that asks for candidates. It is in no help text.
+inline constexpr const char* kCompleteCommand = "__complete";
+
+// Prints what can stand in the place of the last of `words`, which follow the name of the program
+// on the command line: a candidate a line, a tab, its description; the shell leaves out what does
+// not begin as that word. Returns the exit code: 0, or 1 where the names of files belong.
+[[nodiscard]] int print_candidates(const CLI::App& program, std::vector<std::string> words);
+
+// For "bash", "zsh" or "fish".
+[[nodiscard]] const char* completion_script(const std::string& shell);
 
 }  // namespace volcomp::cli

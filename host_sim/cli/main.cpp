@@ -1,7 +1,6 @@
 // volcomp: the host tool. Exit codes: exit_codes.hpp.
 
 #include <csignal>
-#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -9,7 +8,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "host_sim/cli/command_tree.hpp"
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/completion.hpp"
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/cli/misspelt.hpp"
 #include "host_sim/cli/output.hpp"
@@ -25,15 +26,11 @@ void refuse_empty_values(CLI::App& app) {
                                return std::string(value.empty() ? "the value is empty" : "");
                              },
                              ""};
-  std::vector<CLI::App*> commands{&app};  // with those below them, appended as they are met
-  for (std::size_t i = 0; i < commands.size(); ++i) {
-    for (CLI::Option* option : commands[i]->get_options()) {
+  for (CLI::App* command : all_commands(app)) {
+    for (CLI::Option* option : command->get_options()) {
       const bool takes_none = option->get_name() == "--gear";  // "": no gear
       if (option->get_items_expected_max() > 0 && !takes_none) option->check(given);
     }
-    const std::vector<CLI::App*> below =
-        commands[i]->get_subcommands([](CLI::App*) { return true; });
-    commands.insert(commands.end(), below.begin(), below.end());
   }
 }
 
@@ -75,6 +72,11 @@ int run(int argc, char** argv) {
   add_completion_command(app, code);
   add_man_command(app, code);
   refuse_empty_values(app);
+  if (argc > 1 && argv[1] == std::string(kCompleteCommand)) {
+    code = print_candidates(app, {argv + 2, argv + argc});
+    finish_standard_output();
+    return code;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -2,46 +2,24 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/cli/command_tree.hpp"
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/host/io/version.hpp"
 
 namespace volcomp::cli {
 namespace {
 
-// The code point that begins at `at`, which moves behind it. Our texts are UTF-8.
-std::uint32_t code_point(const std::string& text, std::size_t& at) {
-  const auto byte = [&] { return static_cast<unsigned char>(text[at++]); };
-  const std::uint32_t first = byte();
-  if (first < 0x80) return first;
-  const std::size_t more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
-  std::uint32_t value = first & (0x3FU >> more);
-  for (std::size_t i = 0; i < more && at < text.size(); ++i)
-    value = value << 6U | (byte() & 0x3FU);
-  return value;
-}
-
 // Text as troff shows it unchanged: no request at the beginning of a line, no escapes, and a minus
 // that can be copied into a shell.
 std::string troff(const std::string& text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::uint32_t c = code_point(text, at);
-    if (out.empty() && (c == '.' || c == '\'')) out += "\\&";
-    switch (c) {
-      case '\\':
-        out += "\\e";
-        break;
-      case '-':
-        out += "\\-";
-        break;
-      case '\'':
-        out += "\\(aq";
-        break;
-      case '\n':
-        out += "\n";
-        break;
-      default:
-        out += c < 0x80 ? std::string(1, static_cast<char>(c)) : fmt::format("\\[u{:04X}]", c);
+  std::string out = text.rfind('.', 0) == 0 ? "\\&" : "";
+  for (const char c : text) {
+    if (c == '\\' || c == '-') {
+      out += c == '-' ? "\\-" : "\\e";
+    } else if (c == '\'') {
+      out += "\\(aq";
+    } else {
+      out += c;
     }
   }
   return out;
@@ -50,61 +28,40 @@ std::string troff(const std::string& text) {
 std::string bold(const std::string& text) { return "\\fB" + troff(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + troff(text) + "\\fR"; }
 
-std::string value_name(const OptionText& o) {
-  switch (o.value) {
-    case ValueKind::none:
-      return {};
-    case ValueKind::choice:
-      return fmt::format("{}", fmt::join(o.choices, "|"));
-    case ValueKind::number:
-      return "NUMBER";
-    case ValueKind::text:
-      return "TEXT";
+// "--json TEXT", "--model naive|abbe"; "FILE ..." where there may be several.
+std::string heading(const CLI::Option& o) {
+  const OptionValue value = value_of(o);
+  std::string text = italic(o.get_name(true));
+  if (!o.get_positional()) {
+    text.clear();
+    for (const std::string& name : names_of(o))
+      text += (text.empty() ? "" : ", ") + bold(name);
+    if (value.kind == ValueKind::choice)
+      text += " " + italic(CLI::detail::join(value.choices, "|"));
+    if (value.kind == ValueKind::number) text += " " + italic("NUMBER");
+    if (value.kind == ValueKind::text) text += " " + italic("TEXT");
   }
-  return {};
+  return text + (o.get_items_expected_max() > 1 ? " \\&..." : "");
 }
 
-std::string sentence(const OptionText& o) {
-  std::string text = troff(o.description);
-  if (!o.default_value.empty()) text += fmt::format(" (default: {})", troff(o.default_value));
-  return text + (o.required ? "; required" : "");
+std::string paragraph(const CLI::Option& o) {
+  std::string text = fmt::format(".TP\n{}\n{}", heading(o), troff(o.get_description()));
+  if (!o.get_default_str().empty())
+    text += fmt::format(" (default: {})", troff(o.get_default_str()));
+  return text + (o.get_required() ? "; required\n" : "\n");
 }
 
-// ".TP" with the names in bold and the value in italics.
-std::string option_paragraph(const OptionText& o) {
-  std::vector<std::string> names;
-  names.reserve(o.names.size());
-  for (const std::string& name : o.names)
-    names.push_back(bold(name));
-  std::string line = fmt::format("{}", fmt::join(names, ", "));
-  if (o.value != ValueKind::none) line += " " + italic(value_name(o));
-  if (o.many) line += " \\&...";
-  return fmt::format(".TP\n{}\n{}\n", line, sentence(o));
-}
-
-std::string argument_paragraph(const OptionText& o) {
-  return fmt::format(".TP\n{}{}\n{}\n", italic(o.names.front()), o.many ? " \\&..." : "",
-                     sentence(o));
-}
-
-// "volcomp compare [OPTIONS] MAPS..."
-std::string synopsis(const CommandText& c) {
-  std::string line = bold(c.name) + " [" + italic("OPTIONS") + "]";
-  for (const OptionText& argument : c.arguments)
-    line += " " + italic(argument.names.front()) + (argument.many ? " \\&..." : "");
-  return line;
-}
-
-bool is_help(const OptionText& o) { return o.names.back() == "--help"; }
-
-std::string command_section(const CommandText& c) {
-  std::string text =
-      fmt::format(".SS {}\n{}.\n.PP\n{}\n", troff(c.name), troff(c.description), synopsis(c));
-  for (const OptionText& argument : c.arguments)
-    text += argument_paragraph(argument);
-  for (const OptionText& o : c.options) {
-    if (!is_help(o)) text += option_paragraph(o);
-  }
+std::string command_section(const CLI::App& command) {
+  const std::string name = full_name(command);
+  std::string text = fmt::format(".SS {}\n{}.\n.PP\n{} [{}]", troff(name),
+                                 troff(command.get_description()), bold(name), italic("OPTIONS"));
+  for (const CLI::Option* argument : shown_arguments(command))
+    text += " " + heading(*argument);
+  text += "\n";
+  for (const CLI::Option* argument : shown_arguments(command))
+    text += paragraph(*argument);
+  for (const CLI::Option* o : shown_options(command))
+    if (o != command.get_help_ptr()) text += paragraph(*o);
   return text;
 }
 
@@ -131,7 +88,7 @@ constexpr const char* kExamples =
 
 }  // namespace
 
-std::string manual_page(const CommandText& program) {
+std::string manual_page(CLI::App& program) {
   std::string text = fmt::format(
       ".TH VOLCOMP 1 \"\" \"volcomp {}\" \"User Commands\"\n"
       ".SH NAME\nvolcomp \\- volumetric error compensation for machine tools\n"
@@ -139,14 +96,15 @@ std::string manual_page(const CommandText& program) {
       ".SH DESCRIPTION\n{}\n.PP\n"
       "{}, {} or {} make a script for the shell that completes commands and options.\n"
       ".SH OPTIONS\n",
-      host::kVersion, bold(program.name), italic("COMMAND"), italic("OPTIONS"), italic("ARGUMENTS"),
-      troff(program.description), bold("volcomp completion bash"), bold("zsh"), bold("fish"));
-  for (const OptionText& o : program.options)
-    text += option_paragraph(o);
+      host::kVersion, bold(program.get_name()), italic("COMMAND"), italic("OPTIONS"),
+      italic("ARGUMENTS"), troff(program.get_description()), bold("volcomp completion bash"),
+      bold("zsh"), bold("fish"));
+  for (const CLI::Option* o : shown_options(program))
+    text += paragraph(*o);
   text += ".SH COMMANDS\n";
-  for (const CommandText* command : all_commands(program)) {
+  for (const CLI::App* command : all_commands(program)) {
     // A command that only has others below it has no section.
-    if (command->commands.empty()) text += command_section(*command);
+    if (commands_below(*command).empty()) text += command_section(*command);
   }
   text += kStreams;
   text += ".SH EXIT STATUS\n";

@@ -1,12 +1,13 @@
 #pragma once
-// volcomp(1), for man: troff made from the commands themselves.
+// volcomp(1), for man: made from the commands themselves.
 
 #include <string>
 
-#include "host_sim/cli/command_tree.hpp"
+#include <CLI/CLI.hpp>
 
 namespace volcomp::cli {
 
-[[nodiscard]] std::string manual_page(const CommandText& program);
+// Troff in UTF-8.
+[[nodiscard]] std::string manual_page(CLI::App& program);
 
 }  // namespace volcomp::cli

@@ -5,31 +5,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host_sim/cli/command_tree.hpp"
 #include "host_sim/host/io/nearest_word.hpp"
 
 namespace volcomp::cli {
 namespace {
 
-const CLI::App* command_named(const CLI::App& app, const std::string& name) {
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (command->get_name() == name) return command;
-  }
-  return nullptr;
-}
-
-std::vector<std::string> commands_of(const CLI::App& app) {
+std::vector<std::string> names_below(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* command : commands_below(app))
     names.push_back(command->get_name());
   return names;
 }
 
-std::vector<std::string> options_of(const CLI::App& app) {
+std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
+  for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames())
       names.push_back("--" + name);
-  }
   return names;
 }
 
@@ -44,15 +37,14 @@ std::string unknown(const char* what, const std::string& word,
 
 std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
   const CLI::App* command = &app;
-  std::string path = app.get_name();
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     if (word.rfind("--", 0) == 0 && word.size() > 2) {
       const std::string name = word.substr(0, word.find('='));
       const CLI::Option* option = command->get_option_no_throw(name);
       if (option == nullptr)
-        return unknown("option", name, options_of(*command),
-                       fmt::format(" (all: {} --help)", path));
+        return unknown("option", name, option_names(*command),
+                       fmt::format(" (all: {} --help)", full_name(*command)));
       const bool has_value = option->get_items_expected_max() > 0;
       if (has_value && name.size() == word.size()) ++i;
       continue;
@@ -60,10 +52,9 @@ std::string misspelt(const CLI::App& app, const std::vector<std::string>& words)
     if (word.rfind('-', 0) == 0 || command->get_require_subcommand_min() == 0) continue;
     const CLI::App* below = command_named(*command, word);
     if (below == nullptr)
-      return unknown("command", word, commands_of(*command),
-                     fmt::format(" (known: {})", fmt::join(commands_of(*command), ", ")));
+      return unknown("command", word, names_below(*command),
+                     fmt::format(" (known: {})", fmt::join(names_below(*command), ", ")));
     command = below;
-    path += " " + below->get_name();
   }
   return {};
 }

@@ -1,6 +1,5 @@
 // volcomp completion, volcomp man
 
-#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -18,11 +17,8 @@ void add_completion_command(CLI::App& app, int& code) {
   command->add_option("SHELL", *shell, "Whose: bash, zsh or fish")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
-  command->callback([&app, shell, &code] {
-    const CommandText program = command_tree(app);
-    fmt::print("{}", *shell == "bash"  ? bash_completion(program)
-                     : *shell == "zsh" ? zsh_completion(program)
-                                       : fish_completion(program));
+  command->callback([shell, &code] {
+    fmt::print("{}", completion_script(*shell));
     code = 0;
   });
 }
@@ -30,7 +26,7 @@ void add_completion_command(CLI::App& app, int& code) {
 void add_man_command(CLI::App& app, int& code) {
   CLI::App* command = app.add_subcommand("man", "Print the manual page (troff)");
   command->callback([&app, &code] {
-    fmt::print("{}", manual_page(command_tree(app)));
+    fmt::print("{}", manual_page(app));
     code = 0;
   });
 }

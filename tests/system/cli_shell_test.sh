@@ -102,6 +102,8 @@ for shell in bash fish zsh; do
   offers "$shell" 'volcomp run l300g --path ' fixed-a generate
   offers "$shell" 'volcomp completion ' bash zsh fish
   offers "$shell" 'volcomp machine check --js' --json
+  offers "$shell" 'volcomp run l300g --path=' --path=fixed-a --path=generate
+  [ -z "$("complete_$shell" 'volcomp run xyfz --draws ')" ] || { echo "FAILED: $shell offers words or files for a number"; failed=1; }
   not_offered "$shell" 'volcomp verify --' --can
   not_offered "$shell" 'volcomp run ' build-tables
 done
@@ -110,6 +112,11 @@ done
 grep -q '^complete -o default -F _volcomp volcomp$' "$work/volcomp.bash" || { echo 'FAILED: bash does not complete files'; failed=1; }
 offers fish 'volcomp build-tables --machine ' machine.toml
 offers zsh 'volcomp build-tables --machine ' machine.toml
+
+# fish shows what each is for, and the program is found as it was typed.
+fish --no-config -c "source $work/volcomp.fish; complete -C 'volcomp run xyf'" | grep -q $'^xyfz\tThree-axis machine' ||
+  { echo 'FAILED: fish shows no descriptions'; failed=1; }
+(PATH=/usr/bin:/bin && offers bash "$volcomp run " xyfz l300g && offers fish "$volcomp run " xyfz l300g && exit "$failed") || failed=1
 
 # Every command and every option that the help knows.
 options_of() { grep -oE '(^| |,)--[a-z][A-Za-z0-9-]+' <<<"$1" | grep -oE -- '--[A-Za-z0-9-]+' | sort -u; }

@@ -66,8 +66,9 @@ tools_run() {
   local name=share/man/man1/volcomp
   grep -q '^\.TH VOLCOMP 1' "$1/$name.1" || fail "$name.1 is no manual page"
   grep -q '^\.TH VOLCOMP-NODE 1' "$1/$name-node.1" || fail "$name-node.1 is no manual page"
+  "$1/bin/volcomp" __complete '' | grep -q build-tables || fail 'the completions know no command'
   for name in bash-completion/completions/volcomp zsh/vendor-completions/_volcomp fish/vendor_completions.d/volcomp.fish; do
-    grep -q build-tables "$1/share/$name" || fail "$name completes nothing"
+    grep -q __complete "$1/share/$name" || fail "$name completes nothing"
   done
   printf 'tools: they run\n'
 }
