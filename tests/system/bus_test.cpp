@@ -6,6 +6,7 @@
 
 #include "comp/metrology/tables/compensated_command.hpp"
 #include "host_sim/experiments/xyfz/dynamics.hpp"
+#include "host_sim/host/bus/bus_load.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 #include "tests/system/bus_world.hpp"
 
@@ -45,6 +46,7 @@ TEST(Bus, HasRoomForTheCycleOfThreeAxesWithTheLongestFrames) {
   const double load = static_cast<double>(axes.bus().bus().busy_ns() - busy_ns) /
                       static_cast<double>(axes.bus().bus().now_ns() - begin_ns);
   EXPECT_LT(load, 0.8);
+  EXPECT_NEAR(load, host::compute_bus_load(3, kBusCycle_hz).worst, 0.005);
   EXPECT_EQ(axes.node()->objects().deadline_missed, 0U);
   EXPECT_EQ(axes.node()->objects().cycles_skipped, 0U);
 }

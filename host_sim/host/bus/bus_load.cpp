@@ -1,10 +1,9 @@
 #include "host_sim/host/bus/bus_load.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
+#include <array>
 
 #include "hal/loopback/frame_bits.hpp"
+#include "host_sim/host/report/report_parts.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -16,6 +15,9 @@ constexpr std::size_t kHeartbeatBytes = 1;
 constexpr std::size_t kStatusBytes = 8;
 constexpr double kHeartbeats_hz = 10.0;
 constexpr double kStatus_hz = 10.0;
+
+constexpr std::array<double, 4> kRates_hz{125.0, 250.0, 500.0, 1000.0};
+constexpr double kDeadline = 0.6;  // of the period: by then the node needs all of a cycle
 
 template <class FrameBits>
 double load(std::size_t axes, double cycle_hz, FrameBits bits) {
@@ -30,16 +32,10 @@ double load(std::size_t axes, double cycle_hz, FrameBits bits) {
   return (cycle_hz * cycle + background) / kBitRate;
 }
 
-std::string verdict(const BusLoadRow& row) {
-  if (!row.fits()) return "does not fit";
-  if (!row.always_fits()) return "fits only by luck of the contents";
-  if (!row.measured) return "fits";
-  return row.measured->in_time() ? "fits, every cycle in time"
-                                 : fmt::format("{} of {} cycles late",
-                                               row.measured->deadline_missed, row.measured->cycles);
+const char* verdict(const ComputedLoad& computed) {
+  if (computed.nominal >= 1.0) return "does not fit";
+  return computed.worst >= 1.0 ? "fits only by luck of the contents" : "fits";
 }
-
-std::string percent(double share) { return fmt::format("{:.1f} %", 100.0 * share); }
 
 }  // namespace
 
@@ -48,63 +44,26 @@ ComputedLoad compute_bus_load(std::size_t axes, double cycle_hz) {
           load(axes, cycle_hz, hal::worst_case_frame_bits)};
 }
 
-std::vector<BusLoadRow> bus_load_table(const std::vector<std::size_t>& axes,
-                                       const MeasureLoads& measure) {
-  constexpr std::size_t kMeasuredAxes = 3;
-  std::vector<BusLoadRow> table;
-  std::vector<double> rates;
-  for (const std::size_t count : axes) {
-    for (const double rate : kBusLoadRates_hz) {
-      table.push_back({count, rate, compute_bus_load(count, rate), {}});
-      if (count == kMeasuredAxes && table.back().always_fits()) rates.push_back(rate);
-    }
-  }
-  const std::vector<MeasuredLoad> measured = measure(rates);
-  auto next = measured.begin();
-  for (BusLoadRow& row : table) {
-    if (row.axes == kMeasuredAxes && row.always_fits()) row.measured = *next++;
-  }
-  return table;
-}
-
-std::string describe(const std::vector<BusLoadRow>& table) {
-  std::string text = fmt::format(
-      "load of a bus with 1 Mbit/s; offsets: from SYNC to the last offset of the cycle, worst\n\n"
-      "{:>4} {:>8} {:>9} {:>11} {:>10} {:>11} {:>11}\n",
-      "axes", "cycle", "computed", "worst case", "measured", "offsets", "deadline");
-  for (const BusLoadRow& row : table) {
-    text +=
-        fmt::format("{:>4} {:>5.0f} Hz {:>9} {:>11} {:>10} {:>11} {:>11}  {}\n", row.axes,
-                    row.cycle_hz, percent(row.computed.nominal), percent(row.computed.worst),
-                    row.measured ? percent(row.measured->average) : "-",
-                    row.measured ? fmt::format("{:.0f} us", row.measured->worst_offset_us) : "-",
-                    fmt::format("{:.0f} us", 0.6e6 / row.cycle_hz), verdict(row));
-  }
-  return text +
-         "\ncomputed: without stuff bits; measured: with those the simulated machine needs\n"
-         "in time: the node had all of a cycle before the deadline, 60 % of the period after "
-         "SYNC\n";
-}
-
-nlohmann::json to_json(const std::vector<BusLoadRow>& table) {
+nlohmann::json bus_load_document(const std::vector<std::size_t>& axes) {
   nlohmann::json rows = nlohmann::json::array();
-  for (const BusLoadRow& row : table) {
-    nlohmann::json j{{"axes", row.axes},
-                     {"cycle_hz", row.cycle_hz},
-                     {"computed_load", row.computed.nominal},
-                     {"computed_worst_load", row.computed.worst},
-                     {"deadline_us", 0.6e6 / row.cycle_hz},
-                     {"fits", row.always_fits()},
-                     {"verdict", verdict(row)}};
-    if (row.measured) {
-      j["measured_load"] = row.measured->average;
-      j["measured_worst_offset_us"] = row.measured->worst_offset_us;
-      j["measured_cycles"] = row.measured->cycles;
-      j["measured_deadline_missed"] = row.measured->deadline_missed;
+  for (const std::size_t count : axes) {
+    for (const double rate : kRates_hz) {
+      const ComputedLoad load = compute_bus_load(count, rate);
+      rows.push_back({count, rate, load.nominal, load.worst, 100.0 * load.nominal,
+                      100.0 * load.worst, kDeadline * 1e6 / rate, load.worst < 1.0, verdict(load)});
     }
-    rows.push_back(j);
   }
-  return rows;
+  nlohmann::json table =
+      table_section("",
+                    {plain_column("axes", "axes"), column("cycle", "Hz", 0, "cycle_hz"),
+                     hidden_column("computed_load"), hidden_column("computed_worst_load"),
+                     column("computed", "%", 1), column("worst case", "%", 1),
+                     column("deadline", "us", 0, "deadline_us"), hidden_column("fits"),
+                     plain_column("", "verdict")},
+                    rows);
+  table["name"] = "loads";
+  table["note"] = "computed: without stuff bits; deadline: 60 % of the period after SYNC";
+  return {{"sections", {text_section("", {"load of a bus with 1 Mbit/s"}), table}}};
 }
 
 }  // namespace volcomp::host
