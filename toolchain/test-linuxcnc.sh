@@ -30,7 +30,7 @@ build_image() {
 }
 
 (cd "$root/source" && awk -f tests/system/linuxcnc/gear_runs.awk)
-build_image host_sim/machines/l300g.toml gear.vct --model abbe --runs "$root"/source/{X,Y,B,A}.csv
+build_image host_sim/machines/l300g.toml gear.vct --runs "$root"/source/{X,Y,B,A}.csv
 motion=tests/system/linuxcnc/motion
 in_root gcc -std=c99 -o /source/known_runs "/source/$motion/known_runs.c" -lm
 in_root bash -c 'cd /source && ./known_runs'

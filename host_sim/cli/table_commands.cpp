@@ -24,7 +24,6 @@ struct BuildArguments {
   std::vector<std::string> runs;
   std::string out;
   std::string json_file;
-  std::string model = "abbe_closed";
   std::string slope = "lsq";
   bool no_resampling = false;
   std::string stamp = "volcomp";
@@ -132,9 +131,6 @@ nlohmann::json build_json(const host::MachineFile& machine, const host::BuiltTab
 
 host::BuildOptions options_of(const BuildArguments& arguments) {
   host::BuildOptions options;
-  options.model = arguments.model == "naive"  ? host::ModelKind::naive
-                  : arguments.model == "abbe" ? host::ModelKind::abbe
-                                              : host::ModelKind::abbe_closed;
   options.slope = arguments.slope == "end" ? SlopeFit::end_points : SlopeFit::least_squares;
   options.allow_resampling = !arguments.no_resampling;
   options.knots = arguments.knots;
@@ -181,9 +177,6 @@ void add_build_tables_command(CLI::App& app, int& code) {
   build->add_option("--out", a->out, "Image file to write (-: standard output)")->required();
   build->add_option("--json", a->json_file,
                     "Write the figures of every axis to this file (-: standard output)");
-  build->add_option("--model", a->model, "Error model")
-      ->check(CLI::IsMember({"abbe_closed", "abbe", "naive"}))
-      ->capture_default_str();
   build
       ->add_option("--slope", a->slope,
                    "Line removed from straightness: least squares or end points")

@@ -98,7 +98,7 @@ for shell in bash fish zsh; do
   offers "$shell" 'volcomp ver' verify
   offers "$shell" 'volcomp run ' xyfz l300g
   offers "$shell" 'volcomp run xyfz --vol' --volume-points
-  offers "$shell" 'volcomp build-tables --model ' abbe_closed abbe naive
+  offers "$shell" 'volcomp build-tables --slope ' lsq end
   offers "$shell" 'volcomp run l300g --path ' fixed-a generate
   offers "$shell" 'volcomp completion ' bash zsh fish
   offers "$shell" 'volcomp machine check --js' --json
@@ -137,7 +137,7 @@ for page in "$work/volcomp.1" "$source_dir/firmware/posix/volcomp-node.1"; do
   [ -z "$warnings" ] || { printf 'FAILED: mandoc about %s:\n%s\n' "$page" "$warnings"; failed=1; }
 done
 shown=$(MANWIDTH=200 man -E UTF-8 -l "$work/volcomp.1" | col -b)
-for text in '--misalignment-mm' 'volcomp run xyfz' 'EXIT STATUS' 'volcomp download m.vct --can can0 --store' 'abbe_closed'; do
+for text in '--misalignment-mm' 'volcomp run xyfz' 'EXIT STATUS' 'volcomp download m.vct --can can0 --store' 'lsq|end'; do
   grep -qF -- "$text" <<<"$shown" || { echo "FAILED: the manual page lacks $text"; failed=1; }
 done
 shown=$(MANWIDTH=200 man -E UTF-8 -l "$source_dir/firmware/posix/volcomp-node.1" | col -b)
