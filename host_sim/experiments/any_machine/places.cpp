@@ -8,9 +8,10 @@
 namespace volcomp::any_machine {
 namespace {
 
+constexpr std::size_t kLinePoints = 21;
 constexpr double kFeed_mm_s = 50.0;
 constexpr double kRapid_mm_s = 400.0;
-constexpr double kOverrun_mm = 2.0;
+constexpr double kInset_mm = 2.0;
 
 Pose reference_pose(const host::MachineFile& file) {
   Pose q{};
@@ -69,19 +70,26 @@ std::vector<std::size_t> slides_of(const host::MachineFile& file) {
   return slides;
 }
 
-std::vector<LinePlan> diagonals_of(const host::MachineFile& file) {
+std::vector<sim::MeasuredLine> diagonals_of(const host::MachineFile& file) {
   const std::vector<std::size_t> slides = slides_of(file);
-  std::vector<LinePlan> lines;
+  const Vec3 tool = file.chain.tool_point();
+  std::vector<sim::MeasuredLine> lines;
   if (slides.empty()) return lines;
   for (const std::vector<bool>& downwards : senses(slides.size())) {
-    LinePlan line{"", reference_pose(file), reference_pose(file)};
+    sim::MeasuredLine line{"", reference_pose(file), reference_pose(file)};
+    line.points = kLinePoints;
+    line.feed_mm_s = kFeed_mm_s;
     for (std::size_t k = 0; k < slides.size(); ++k) {
       const host::AxisFile& axis = file.axes[slides[k]];
-      const double inset = std::min(kOverrun_mm, 0.1 * (axis.hi - axis.lo));
+      const double inset = std::min(kInset_mm, 0.1 * (axis.hi - axis.lo));
       line.name += downwards[k] ? 'N' : 'P';
       line.start[slides[k]] = downwards[k] ? axis.hi - inset : axis.lo + inset;
       line.end[slides[k]] = downwards[k] ? axis.lo + inset : axis.hi - inset;
     }
+    const Vec3 way = ideal_points(file.chain, line.end, tool).work -
+                     ideal_points(file.chain, line.start, tool).work;
+    line.length_mm = way.norm();
+    line.along = way / line.length_mm;
     lines.push_back(line);
   }
   return lines;
@@ -111,31 +119,10 @@ Vec3 within_reach(const MachineChain& chain, const Pose& q, const Vec3& error_wo
 }
 
 sim::MeasuredDiagonal measure_line(sim::MotionCell& cell, const MachineChain& chain,
-                                   const LinePlan& line, std::size_t points) {
-  const Vec3 tool = chain.tool_point();
-  const Vec3 way =
-      ideal_points(chain, line.end, tool).work - ideal_points(chain, line.start, tool).work;
-  const double length = way.norm();
-  const Vec3 direction = way / length;
-  const auto at = [&](double s) {
-    Pose q = line.start;
-    for (std::size_t a = 0; a < q.size(); ++a)
-      q[a] += s * (line.end[a] - line.start[a]);
-    return q;
-  };
-  const auto read = [&](std::size_t j) {
-    cell.move_to(at(static_cast<double>(j) / static_cast<double>(points - 1)), kFeed_mm_s);
-    return direction.dot(reachable_deviation(cell, chain));
-  };
-  // As the first point is approached, so are all others.
-  sim::DiagonalPass pass{std::vector<double>(points), std::vector<double>(points)};
-  cell.move_to(at(-kOverrun_mm / length), kRapid_mm_s);
-  for (std::size_t j = 0; j < points; ++j)
-    pass.up[j] = read(j);
-  cell.move_to(at(1.0 + kOverrun_mm / length), kRapid_mm_s);
-  for (std::size_t j = points; j > 0; --j)
-    pass.down[j - 1] = read(j - 1);
-  return sim::mean_of_directions(line.name, length, pass);
+                                   const sim::MeasuredLine& line) {
+  return sim::mean_of_directions(line, sim::pass_along(cell, line, [&](double) {
+                                   return line.along.dot(reachable_deviation(cell, chain));
+                                 }));
 }
 
 std::vector<PlaceReading> measure_places(sim::MotionCell& cell, const MachineChain& chain,

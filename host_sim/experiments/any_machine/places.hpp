@@ -9,19 +9,13 @@
 
 namespace volcomp::any_machine {
 
-// A straight line of the linear axes; the rotary ones stand at their references.
-struct LinePlan {
-  std::string name;  // "PNP": the second axis runs downwards
-  Pose start{};
-  Pose end{};
-};
-
 // The first three linear axes, in the order of the file.
 [[nodiscard]] std::vector<std::size_t> slides_of(const host::MachineFile& file);
 
-// Body diagonals (ISO 230-6) of three linear axes, both diagonals of two, the line of one; a little
-// shorter than the travels, so that every point can be approached.
-[[nodiscard]] std::vector<LinePlan> diagonals_of(const host::MachineFile& file);
+// Body diagonals (ISO 230-6) of three linear axes, both diagonals of two, the line of one, named as
+// "PNP": the second axis runs downwards. A little shorter than the travels, so that every point can
+// be approached; the rotary axes stand at their references.
+[[nodiscard]] std::vector<sim::MeasuredLine> diagonals_of(const host::MachineFile& file);
 
 // Random poses of all axes where the correcting ones can act. May be fewer than `count`.
 [[nodiscard]] std::vector<Pose> random_poses(const host::MachineFile& file, std::size_t count,
@@ -41,9 +35,9 @@ struct PlaceReading {
 // where three axes correct.
 [[nodiscard]] Vec3 within_reach(const MachineChain& chain, const Pose& q, const Vec3& error_work);
 
-// The line in both directions, deviations along it.
+// The line in both directions; deviations along it that the correcting axes can reach.
 [[nodiscard]] sim::MeasuredDiagonal measure_line(sim::MotionCell& cell, const MachineChain& chain,
-                                                 const LinePlan& line, std::size_t points);
+                                                 const sim::MeasuredLine& line);
 
 [[nodiscard]] std::vector<PlaceReading> measure_places(sim::MotionCell& cell,
                                                        const MachineChain& chain,

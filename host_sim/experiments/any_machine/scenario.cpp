@@ -13,7 +13,7 @@ struct Verification {
   const host::MachineFile& file;
   const sim::TrueMachine& truth;
   const MachineOptions& options;
-  std::vector<LinePlan> lines;
+  std::vector<sim::MeasuredLine> lines;
   std::vector<Pose> poses;
   SpherePlan sphere;
 };
@@ -34,8 +34,8 @@ MachineState verify(const Verification& v, const std::vector<std::uint8_t>& imag
     start[a] = v.file.axes[a].reference;
   cell->place(start);
   MachineState state;
-  for (const LinePlan& line : v.lines)
-    state.line.push_back(measure_line(*cell, v.file.chain, line, kLinePoints));
+  for (const sim::MeasuredLine& line : v.lines)
+    state.line.push_back(measure_line(*cell, v.file.chain, line));
   state.sphere = measure_sphere(*cell, v.file.chain, v.sphere);
   state.place = measure_places(*cell, v.file.chain, v.poses);
   state.volume = figures_of(v.file.chain, state.place);
@@ -113,7 +113,6 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
   result.options = options;
   result.machine = file;
   result.authority = host::least_authority(file);
-  result.lines = diagonals_of(file);
   progress(0.0, "choosing a place for the ball");
   result.sphere = plan_sphere_test(file);
 
@@ -131,7 +130,7 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
   const Verification verification{file,
                                   at_check,
                                   options,
-                                  result.lines,
+                                  diagonals_of(file),
                                   random_poses(file, options.places, options.seed),
                                   result.sphere};
   progress(0.1, "the machine as it is");

@@ -27,8 +27,6 @@ struct MachineOptions {
   sim::CellFactory make_cell = sim::make_integrated_cell;
 };
 
-inline constexpr std::size_t kLinePoints = 21;
-
 struct MachineState {
   std::vector<sim::MeasuredDiagonal> line;
   std::vector<PlaceReading> place;
@@ -47,7 +45,6 @@ struct MachineState {
 struct MachineResult {
   MachineOptions options;
   host::MachineFile machine;
-  std::vector<LinePlan> lines;
   SpherePlan sphere;
   host::LeastAuthority authority;
   MachineState before;

@@ -2,25 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/experiments/xyfz/bench.hpp"
+
 namespace volcomp::xyfz {
 namespace {
 
 constexpr double kLeastRate = 98.0;
-
-struct Setting {
-  const XyfzOptions& options;
-  host::MachineFile machine;
-  sim::TrueMachine truth;
-  DiagonalBox box;
-};
-
-sim::MeasuredDiagonal measure(const Setting& setting, const std::vector<std::uint8_t>& image) {
-  sim::Random unused(0);
-  const auto cell = setting.options.make_cell(setting.truth, setting.machine.correction, image);
-  cell->place(setting.box.lo);
-  return sim::measure_diagonal(*cell, body_diagonals(setting.box)[sim::kPnp], sim::kKnotPoints, {},
-                               unused);
-}
 
 nlohmann::json figures_of(const sim::MeasuredDiagonal& diagonal) {
   return {{"distance_mm", diagonal.distance_mm},
@@ -39,20 +26,20 @@ double OneDiagonal::rate() const {
 bool OneDiagonal::ok() const { return rate() >= kLeastRate; }
 
 OneDiagonal run_one_diagonal(const XyfzOptions& options, const host::Progress& progress) {
-  const host::MachineFile machine = host::read_machine_file(options.machine);
-  progress(0.0, "tuning the simulated machine");
-  const XyfzTuning tuning = tune_xyfz(machine, options.machine_seed);
-  const Setting setting{options, machine, make_xyfz_truth(machine, options.machine_seed, tuning),
-                        sim::travel_box(machine)};
-  const sim::Campaign campaign = sim::perfect_campaign(setting.truth, machine);
+  const Bench bench(options, progress);
+  const sim::Campaign campaign = sim::perfect_campaign(bench.truth, bench.machine);
   const auto tables =
       host::build_tables(campaign.machine, campaign.runs,
                          host::tables_only(host::ModelKind::abbe_closed, options.knots));
+  sim::Random unused(0);
+  const auto measure = [&](const std::vector<std::uint8_t>& image) {
+    return bench.pnp(bench.truth, image, sim::kKnotPoints, {}, unused);
+  };
   OneDiagonal result;
   progress(0.1, "diagonal PNP, uncompensated");
-  result.uncompensated = measure(setting, {});
+  result.uncompensated = measure({});
   progress(0.5, "diagonal PNP, compensated");
-  result.compensated = measure(setting, host::make_image(tables->tables));
+  result.compensated = measure(host::make_image(tables->tables));
   progress(1.0, "done");
   return result;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "comp/metrology/tables/per_axis.hpp"
+#include "host_sim/experiments/xyfz/bench.hpp"
 #include "host_sim/experiments/xyfz/dynamics.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
 #include "host_sim/host/io/whole_file.hpp"
@@ -18,15 +19,6 @@ namespace {
 constexpr std::array<host::ModelKind, 3> kModels{host::ModelKind::naive, host::ModelKind::abbe,
                                                  host::ModelKind::abbe_closed};
 constexpr std::size_t kPerAxisKnots = 32;
-
-// Everything a scenario run needs at hand.
-struct Bench {
-  const XyfzOptions& options;
-  host::MachineFile machine;
-  sim::TrueMachine truth;
-  DiagonalBox box;
-  std::filesystem::path folder;
-};
 
 // Writes the runs to files and reads them back, as with a user's own data.
 sim::Campaign through_files(const sim::Campaign& campaign, const std::filesystem::path& folder) {
@@ -42,30 +34,19 @@ sim::Campaign through_files(const sim::Campaign& campaign, const std::filesystem
 
 ModeResult verify_mode(const Bench& bench, const std::vector<std::uint8_t>& image) {
   sim::Random unused(0);
-  const auto cell = bench.options.make_cell(bench.truth, bench.machine.correction, image);
-  cell->place(bench.box.lo);
+  const auto cell = bench.cell(bench.truth, image);
+  const auto measured = [&](const Diagonal& d, std::size_t points) {
+    return sim::measure_diagonal(*cell, d, points, {}, unused);
+  };
   ModeResult result;
-  for (const Diagonal& d : body_diagonals(bench.box)) {
-    result.body.push_back(sim::measure_diagonal(*cell, d, sim::kDiagonalPoints, {}, unused));
-  }
-  for (const Diagonal& d : face_diagonals(bench.box)) {
-    result.face.push_back(sim::measure_diagonal(*cell, d, sim::kDiagonalPoints, {}, unused));
-  }
-  result.pnp_on_knots = sim::measure_diagonal(*cell, body_diagonals(bench.box)[sim::kPnp],
-                                              sim::kKnotPoints, {}, unused);
-  result.volume =
-      sim::measure_volume(*cell, bench.box, bench.options.volume_points, bench.options.seed);
+  for (const Diagonal& d : body_diagonals(bench.box))
+    result.body.push_back(measured(d, sim::kDiagonalPoints));
+  for (const Diagonal& d : face_diagonals(bench.box))
+    result.face.push_back(measured(d, sim::kDiagonalPoints));
+  result.pnp_on_knots = measured(body_diagonals(bench.box)[sim::kPnp], sim::kKnotPoints);
+  result.volume = host::aligned_volume_figures(sim::visit_volume(
+      *cell, host::XyzAxes(bench.machine), bench.options.volume_points, bench.options.seed));
   return result;
-}
-
-double measure_pnp(const sim::TrueMachine& truth, const Bench& bench,
-                   const std::vector<std::uint8_t>& image, const sim::InterferometerSetup& setup,
-                   sim::Random& random) {
-  const auto cell = bench.options.make_cell(truth, bench.machine.correction, image);
-  cell->place(bench.box.lo);
-  return sim::measure_diagonal(*cell, body_diagonals(bench.box)[sim::kPnp], sim::kDiagonalPoints,
-                               setup, random)
-      .max_abs_um;
 }
 
 // The files behind the tables that the report shows, while they are there.
@@ -80,26 +61,29 @@ void note_inputs(const sim::Campaign& campaign, const host::BuiltTables& tables,
 
 std::uint64_t draw_seed(std::uint64_t seed, std::size_t draw) { return seed * 1'000'003U + draw; }
 
-DrawResult run_draw(const Bench& bench, std::size_t draw, XyfzResult& result) {
+DrawResult run_draw(const Bench& bench, const std::filesystem::path& folder, std::size_t draw,
+                    XyfzResult& result) {
   const sim::NoiseClasses classes;
   sim::Random random(draw_seed(bench.options.seed, draw));
   const sim::Campaign measured =
       sim::measure_machine(bench.truth, bench.machine, classes, bench.options.runs, random);
   const sim::Campaign campaign =
-      through_files(measured, bench.folder / fmt::format("draw_{:03}", draw + 1));
+      through_files(measured, folder / fmt::format("draw_{:03}", draw + 1));
 
   sim::TrueMachine at_check = bench.truth;
   at_check.temperature_offset_K = random.normal(classes.temperature_K);
   const sim::InterferometerSetup setup{random.normal(classes.interferometer),
                                        classes.repeatability_mm,
                                        static_cast<int>(bench.options.runs)};
+  const auto measure_um = [&](const std::vector<std::uint8_t>& image) {
+    return bench.pnp(at_check, image, sim::kDiagonalPoints, setup, random).max_abs_um;
+  };
   DrawResult out;
-  out.raw_um = measure_pnp(at_check, bench, {}, setup, random);
+  out.raw_um = measure_um({});
   for (std::size_t m = 0; m < kModels.size(); ++m) {
     auto tables = host::build_tables(campaign.machine, campaign.runs,
                                      host::tables_only(kModels[m], bench.options.knots));
-    out.residual_um[m] =
-        measure_pnp(at_check, bench, host::make_image(tables->tables), setup, random);
+    out.residual_um[m] = measure_um(host::make_image(tables->tables));
     const bool keep = draw == 0 && kModels[m] == host::ModelKind::abbe_closed;
     if (!keep) continue;
     result.positioning.clear();
@@ -134,10 +118,8 @@ void look_closer(const Bench& bench, const host::BuiltTables& closed, XyfzResult
                                        static_cast<int>(bench.options.runs)};
   result.volume_points = sim::volume_grid(bench.box);
   for (const bool after : {false, true}) {
-    const auto cell = bench.options.make_cell(
-        bench.truth, bench.machine.correction,
-        after ? host::make_image(closed.tables) : std::vector<std::uint8_t>{});
-    cell->place(bench.box.lo);
+    const auto cell = bench.cell(
+        bench.truth, after ? host::make_image(closed.tables) : std::vector<std::uint8_t>{});
     result.volume_error.at(after ? 1 : 0) = sim::measure_errors(*cell, result.volume_points);
     for (host::Positioning& axis :
          sim::measure_positioning(*cell, bench.machine, after ? "after" : "before", setup, random))
@@ -147,10 +129,11 @@ void look_closer(const Bench& bench, const host::BuiltTables& closed, XyfzResult
 
 // Modes verified without noise; returns the closed model for what follows.
 std::unique_ptr<host::BuiltTables> run_noise_free(const Bench& bench,
+                                                  const std::filesystem::path& folder,
                                                   const host::Progress& progress,
                                                   XyfzResult& result) {
   const sim::Campaign campaign =
-      through_files(sim::perfect_campaign(bench.truth, bench.machine), bench.folder / "noise_free");
+      through_files(sim::perfect_campaign(bench.truth, bench.machine), folder / "noise_free");
   progress(0.0, "uncompensated machine");
   result.mode[0] = verify_mode(bench, {});
   std::unique_ptr<host::BuiltTables> closed;
@@ -210,16 +193,13 @@ double XyfzResult::draws_reaching(double wanted) const {
 XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) {
   XyfzResult result;
   result.options = options;
-  result.machine = host::read_machine_file(options.machine);
-  progress(0.0, "tuning the simulated machine");
-  result.tuning = tune_xyfz(result.machine, options.machine_seed);
-
+  const Bench bench(options, progress);
+  result.machine = bench.machine;
+  result.tuning = bench.tuning;
   const host::TemporaryFolder temporary;
-  const Bench bench{options, result.machine,
-                    make_xyfz_truth(result.machine, options.machine_seed, result.tuning),
-                    sim::travel_box(result.machine),
-                    options.campaign.empty() ? temporary.path() : options.campaign};
-  std::unique_ptr<host::BuiltTables> closed = run_noise_free(bench, progress, result);
+  const std::filesystem::path& folder =
+      options.campaign.empty() ? temporary.path() : options.campaign;
+  std::unique_ptr<host::BuiltTables> closed = run_noise_free(bench, folder, progress, result);
   progress(0.2, "line and circle");
   result.dynamics = run_dynamics(bench.truth, bench.machine, *closed, options.make_cell);
   look_closer(bench, *closed, result);
@@ -234,7 +214,7 @@ XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) 
   for (std::size_t d = 0; d < options.draws; ++d) {
     progress(0.25 + 0.75 * static_cast<double>(d) / static_cast<double>(options.draws),
              fmt::format("noisy campaign {} of {}", d + 1, options.draws));
-    result.draws.push_back(run_draw(bench, d, result));
+    result.draws.push_back(run_draw(bench, folder, d, result));
   }
   progress(1.0, "done");
   return result;

@@ -3,72 +3,57 @@
 namespace volcomp::sim {
 namespace {
 
-constexpr double kFeed_mm_s = 10000.0 / 60.0;
 constexpr double kRapid_mm_s = 400.0;
+constexpr double kOverrun_mm = 2.0;
 
-// `pose_of`: of coordinates; `along`: direction in which the tool goes, work frame.
-template <class PoseOf>
-DiagonalPass go_along(MotionCell& cell, const PoseOf& pose_of, const Diagonal& diagonal,
-                      const Vec3& along, std::size_t points,
-                      const std::function<double(double)>& reading_error) {
-  const Vec3 d = diagonal.direction();
-  const auto read = [&](std::size_t j) {
-    const double s = static_cast<double>(j) / static_cast<double>(points - 1);
-    cell.move_to(pose_of(diagonal.at(s)), kFeed_mm_s);
-    return along.dot(cell.deviation_mm()) + reading_error(s * diagonal.length());
-  };
-  DiagonalPass pass{std::vector<double>(points), std::vector<double>(points)};
-  // Overrun: the first point is approached like all others.
-  cell.move_to(pose_of(diagonal.start - 2.0 * d), kRapid_mm_s);
-  for (std::size_t j = 0; j < points; ++j)
-    pass.up[j] = read(j);
-  cell.move_to(pose_of(diagonal.end + 2.0 * d), kRapid_mm_s);
-  for (std::size_t j = points; j > 0; --j)
-    pass.down[j - 1] = read(j - 1);
-  return pass;
-}
-
-template <class PoseOf, class InWork>
-std::vector<host::VolumePoint> visit(MotionCell& cell, const PoseOf& pose_of, const InWork& in_work,
-                                     const DiagonalBox& box, int points, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<host::VolumePoint> visited;
-  for (int i = 0; i < points; ++i) {
-    Vec3 at;
-    for (Eigen::Index k = 0; k < 3; ++k)
-      at(k) = random.uniform(box.lo(k), box.hi(k));
-    cell.move_to(pose_of(at), kRapid_mm_s);
-    host::VolumePoint p;
-    p.at_mm = in_work(at);
-    p.error_mm = cell.deviation_mm();
-    visited.push_back(p);
-  }
-  return visited;
+MeasuredLine straight(const Diagonal& diagonal, const Pose& start, const Pose& end,
+                      const Vec3& along, std::size_t points) {
+  return {diagonal.name, start, end, along, diagonal.length(), points};
 }
 
 }  // namespace
 
-DiagonalPass pass_along(MotionCell& cell, const host::XyzAxes& axes, const Diagonal& diagonal,
-                        std::size_t points, const std::function<double(double)>& reading_error) {
-  const auto pose_of = [&](const Vec3& at) { return axes.pose(at); };
-  const Vec3 along = axes.in_work(diagonal.end - diagonal.start).normalized();
-  return go_along(cell, pose_of, diagonal, along, points, reading_error);
+MeasuredLine line_of(const host::XyzAxes& axes, const Diagonal& diagonal, std::size_t points) {
+  return straight(diagonal, axes.pose(diagonal.start), axes.pose(diagonal.end),
+                  axes.in_work(diagonal.end - diagonal.start).normalized(), points);
 }
 
-MeasuredDiagonal mean_of_directions(const std::string& name, double length_mm,
-                                    const DiagonalPass& pass) {
+DiagonalPass pass_along(MotionCell& cell, const MeasuredLine& line,
+                        const std::function<double(double)>& read) {
+  const auto at = [&](double s) {
+    Pose q = line.start;
+    for (std::size_t a = 0; a < q.size(); ++a)
+      q[a] += s * (line.end[a] - line.start[a]);
+    return q;
+  };
+  const auto read_at = [&](std::size_t j) {
+    const double s = static_cast<double>(j) / static_cast<double>(line.points - 1);
+    cell.move_to(at(s), line.feed_mm_s);
+    return read(s * line.length_mm);
+  };
+  DiagonalPass pass{std::vector<double>(line.points), std::vector<double>(line.points)};
+  cell.move_to(at(-kOverrun_mm / line.length_mm), kRapid_mm_s);
+  for (std::size_t j = 0; j < line.points; ++j)
+    pass.up[j] = read_at(j);
+  cell.move_to(at(1.0 + kOverrun_mm / line.length_mm), kRapid_mm_s);
+  for (std::size_t j = line.points; j > 0; --j)
+    pass.down[j - 1] = read_at(j - 1);
+  return pass;
+}
+
+MeasuredDiagonal mean_of_directions(const MeasuredLine& line, const DiagonalPass& pass) {
   const std::vector<double>& up = pass.up;
   const std::vector<double>& down = pass.down;
-  const std::size_t points = up.size();
+  const auto last = static_cast<double>(line.points - 1);
   const double first = 0.5 * (up.front() + down.front());
   MeasuredDiagonal m;
-  m.name = name;
-  for (std::size_t j = 0; j < points; ++j) {
-    m.distance_mm.push_back(length_mm * static_cast<double>(j) / static_cast<double>(points - 1));
+  m.name = line.name;
+  for (std::size_t j = 0; j < line.points; ++j) {
+    m.distance_mm.push_back(line.length_mm * static_cast<double>(j) / last);
     m.mean_um.push_back(kUmPerMm * (0.5 * (up[j] + down[j]) - first));
     m.reversal_um = std::max(m.reversal_um, kUmPerMm * std::abs(up[j] - down[j]));
   }
-  const DiagonalFigures figures = diagonal_figures({m.mean_um.data(), points});
+  const DiagonalFigures figures = diagonal_figures({m.mean_um.data(), line.points});
   m.max_abs_um = figures.max_abs;
   m.range_um = figures.range;
   return m;
@@ -77,25 +62,30 @@ MeasuredDiagonal mean_of_directions(const std::string& name, double length_mm,
 MeasuredDiagonal measure_diagonal(MotionCell& cell, const Diagonal& diagonal, std::size_t points,
                                   const InterferometerSetup& setup, Random& random) {
   const double sigma = setup.repeatability_mm / std::sqrt(static_cast<double>(setup.runs));
-  const auto reading_error = [&](double length_mm) {
-    return setup.scale * length_mm + random.normal(sigma);
-  };
-  const DiagonalPass pass =
-      go_along(cell, host::pose_of, diagonal, diagonal.direction(), points, reading_error);
-  return mean_of_directions(diagonal.name, diagonal.length(), pass);
+  const MeasuredLine line = straight(diagonal, host::pose_of(diagonal.start),
+                                     host::pose_of(diagonal.end), diagonal.direction(), points);
+  return mean_of_directions(line, pass_along(cell, line, [&](double at_mm) {
+                              return line.along.dot(cell.deviation_mm()) + setup.scale * at_mm +
+                                     random.normal(sigma);
+                            }));
 }
 
 std::vector<host::VolumePoint> visit_volume(MotionCell& cell, const host::XyzAxes& axes, int points,
                                             std::uint64_t seed) {
-  const auto pose_of = [&](const Vec3& at) { return axes.pose(at); };
-  const auto in_work = [&](const Vec3& at) { return axes.in_work(at); };
-  return visit(cell, pose_of, in_work, axes.travel(), points, seed);
-}
-
-host::VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box, int points,
-                                   std::uint64_t seed) {
-  const auto as_it_is = [](const Vec3& at) { return at; };
-  return host::aligned_volume_figures(visit(cell, host::pose_of, as_it_is, box, points, seed));
+  const DiagonalBox box = axes.travel();
+  Random random(seed);
+  std::vector<host::VolumePoint> visited;
+  for (int i = 0; i < points; ++i) {
+    Vec3 at;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      at(k) = random.uniform(box.lo(k), box.hi(k));
+    cell.move_to(axes.pose(at), kRapid_mm_s);
+    host::VolumePoint p;
+    p.at_mm = axes.in_work(at);
+    p.error_mm = cell.deviation_mm();
+    visited.push_back(p);
+  }
+  return visited;
 }
 
 }  // namespace volcomp::sim

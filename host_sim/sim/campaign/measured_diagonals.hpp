@@ -32,18 +32,30 @@ struct InterferometerSetup {
   int runs = 1;
 };
 
-// Readings of one run up and one down, mm, by point. `reading_error` of the instrument, mm, at a
-// distance from the beginning in mm.
+// A straight line of all axes together, measured at evenly spaced points.
+struct MeasuredLine {
+  std::string name;
+  Pose start{};
+  Pose end{};
+  Vec3 along = Vec3::Zero();  // in which the tool goes, work frame
+  double length_mm = 0.0;     // of its way
+  std::size_t points = 0;
+  double feed_mm_s = 10000.0 / 60.0;
+};
+[[nodiscard]] MeasuredLine line_of(const host::XyzAxes& axes, const Diagonal& diagonal,
+                                   std::size_t points);
+
+// Readings of one run up and one down, mm, by point; each run begins beyond the line, so that the
+// first point is approached like all others. `read`: of the instrument, mm, at a distance from the
+// beginning in mm.
 struct DiagonalPass {
   std::vector<double> up;
   std::vector<double> down;
 };
-[[nodiscard]] DiagonalPass pass_along(MotionCell& cell, const host::XyzAxes& axes,
-                                      const Diagonal& diagonal, std::size_t points,
-                                      const std::function<double(double)>& reading_error);
+[[nodiscard]] DiagonalPass pass_along(MotionCell& cell, const MeasuredLine& line,
+                                      const std::function<double(double)>& read);
 
-// Both directions of a line of that length, its points evenly spaced.
-[[nodiscard]] MeasuredDiagonal mean_of_directions(const std::string& name, double length_mm,
+[[nodiscard]] MeasuredDiagonal mean_of_directions(const MeasuredLine& line,
                                                   const DiagonalPass& pass);
 
 // First three axes: X, Y and Z.
@@ -55,8 +67,5 @@ struct DiagonalPass {
 [[nodiscard]] std::vector<host::VolumePoint> visit_volume(MotionCell& cell,
                                                           const host::XyzAxes& axes, int points,
                                                           std::uint64_t seed);
-// Figures of error vectors at random places of the box, aligned. First three axes: X, Y and Z.
-[[nodiscard]] host::VolumeFigures measure_volume(MotionCell& cell, const DiagonalBox& box,
-                                                 int points, std::uint64_t seed);
 
 }  // namespace volcomp::sim

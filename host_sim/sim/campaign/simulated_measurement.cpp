@@ -49,6 +49,7 @@ host::DiagonalsFile simulate_diagonals(MotionCell& cell, const host::MachineFile
   host::DiagonalsFile file;
   const auto all = static_cast<double>(diagonals.size() * plan.runs);
   for (const Diagonal& d : diagonals) {
+    const MeasuredLine line = line_of(axes, d, plan.points);
     host::DiagonalRuns measured{d.name, {}, {}};
     for (std::size_t t = 0; t < plan.points; ++t) {
       const double s = static_cast<double>(t) / static_cast<double>(plan.points - 1);
@@ -57,8 +58,9 @@ host::DiagonalsFile simulate_diagonals(MotionCell& cell, const host::MachineFile
     for (std::size_t run = 0; run < plan.runs; ++run) {
       const auto done = static_cast<double>(file.diagonals.size() * plan.runs + run);
       progress(done / all, fmt::format("diagonal {}, run {} of {}", d.name, run + 1, plan.runs));
-      const DiagonalPass pass = pass_along(cell, axes, d, plan.points, [&](double length_mm) {
-        return scale * length_mm + random.normal(classes.repeatability_mm);
+      const DiagonalPass pass = pass_along(cell, line, [&](double at_mm) {
+        return line.along.dot(cell.deviation_mm()) + scale * at_mm +
+               random.normal(classes.repeatability_mm);
       });
       const auto number = static_cast<long>(run + 1);
       measured.runs.push_back({number, true, 0, pass.up});

@@ -1,0 +1,35 @@
+#include "host_sim/experiments/xyfz/bench.hpp"
+
+namespace volcomp::xyfz {
+namespace {
+
+host::MachineFile read_first(const XyfzOptions& options, const host::Progress& progress) {
+  host::MachineFile machine = host::read_machine_file(options.machine);
+  progress(0.0, "tuning the simulated machine");
+  return machine;
+}
+
+}  // namespace
+
+Bench::Bench(const XyfzOptions& chosen, const host::Progress& progress)
+    : options(chosen),
+      machine(read_first(chosen, progress)),
+      tuning(tune_xyfz(machine, chosen.machine_seed)),
+      truth(make_xyfz_truth(machine, chosen.machine_seed, tuning)),
+      box(sim::travel_box(machine)) {}
+
+std::unique_ptr<sim::MotionCell> Bench::cell(const sim::TrueMachine& of,
+                                             const std::vector<std::uint8_t>& image) const {
+  auto cell = options.make_cell(of, machine.correction, image);
+  cell->place(box.lo);
+  return cell;
+}
+
+sim::MeasuredDiagonal Bench::pnp(const sim::TrueMachine& of, const std::vector<std::uint8_t>& image,
+                                 std::size_t points, const sim::InterferometerSetup& setup,
+                                 sim::Random& random) const {
+  return sim::measure_diagonal(*cell(of, image), body_diagonals(box)[sim::kPnp], points, setup,
+                               random);
+}
+
+}  // namespace volcomp::xyfz

@@ -1,0 +1,28 @@
+#pragma once
+// The paper's machine as it really is, ready to be measured without and with compensation.
+
+#include "host_sim/experiments/xyfz/scenario.hpp"
+
+namespace volcomp::xyfz {
+
+struct Bench {
+  const XyfzOptions& options;
+  host::MachineFile machine;
+  XyfzTuning tuning;
+  sim::TrueMachine truth;
+  DiagonalBox box;
+
+  // Throws UserError.
+  Bench(const XyfzOptions& chosen, const host::Progress& progress);
+
+  // The machine with these tables, at a corner of its travel; `of` must outlive it.
+  [[nodiscard]] std::unique_ptr<sim::MotionCell> cell(const sim::TrueMachine& of,
+                                                      const std::vector<std::uint8_t>& image) const;
+  // Its diagonal PNP.
+  [[nodiscard]] sim::MeasuredDiagonal pnp(const sim::TrueMachine& of,
+                                          const std::vector<std::uint8_t>& image,
+                                          std::size_t points, const sim::InterferometerSetup& setup,
+                                          sim::Random& random) const;
+};
+
+}  // namespace volcomp::xyfz
