@@ -11,11 +11,6 @@
 namespace volcomp::cli {
 namespace {
 
-// What is printed and a result would write over each other by the second name.
-bool is_standard_output(const std::string& name) {
-  return name == host::kStandardStream || name == "/dev/stdout";
-}
-
 // /dev/null may take any number of results, and is no result that an input could suffer from.
 bool is_device(const std::string& name) {
   std::error_code ignored;
@@ -47,10 +42,6 @@ std::vector<std::string>& in_place() {
 
 }  // namespace
 
-std::string shown_output(const std::string& path) {
-  return is_standard_output(path) ? "standard output" : path;
-}
-
 std::string json_text(const nlohmann::json& result) {
   return result.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -66,7 +57,7 @@ Results::Results(const std::vector<std::string>& names, std::vector<std::string>
 }
 
 void Results::announce(const std::string& name) {
-  if (is_standard_output(name)) {
+  if (host::is_standard_output(name)) {
     if (words_ == stderr) throw host::UserError("only one result can go to standard output (-)");
     words_ = stderr;
   } else if (!name.empty() && !is_device(name)) {
@@ -89,12 +80,7 @@ void Results::refuse_others(const std::string& name) const {
 }
 
 void Results::add(const std::string& name, std::string_view content) {
-  if (name.empty()) return;
-  if (is_standard_output(name)) {
-    piped_ = content;
-  } else {
-    files_.add(name, content);
-  }
+  if (!name.empty()) files_.add(name, content);
 }
 
 void Results::add_files(const std::string& folder, const std::vector<host::NamedText>& files) {
@@ -107,11 +93,6 @@ void Results::add_files(const std::string& folder, const std::vector<host::Named
 }
 
 void Results::write() {
-  if (piped_) {
-    if (std::fwrite(piped_->data(), 1, piped_->size(), stdout) != piped_->size())
-      throw host::UserError("standard output: cannot be written");
-    finish_standard_output();
-  }
   files_.put_in_place();
   in_place().insert(in_place().end(), files_announced_.begin(), files_announced_.end());
 }

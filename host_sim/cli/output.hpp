@@ -3,7 +3,6 @@
 // so that a pipe holds only the result.
 
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +14,7 @@
 
 namespace volcomp::cli {
 
-// Names a result in messages: its path, or "standard output".
-[[nodiscard]] std::string shown_output(const std::string& path);
+using host::shown_output;
 
 // A result for programs. The name of a file need not be UTF-8 as JSON is.
 [[nodiscard]] std::string json_text(const nlohmann::json& result);
@@ -50,7 +48,6 @@ class Results {
   std::vector<std::string> inputs_;
   std::vector<std::string> files_announced_;
   std::FILE* words_ = stdout;
-  std::optional<std::string> piped_;
   host::WholeFiles files_;
 };
 

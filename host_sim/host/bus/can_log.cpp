@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <iterator>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "host_sim/host/io/csv_cells.hpp"
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
@@ -19,15 +19,6 @@ namespace {
 constexpr std::uint64_t kMostDisorder_us = 100'000;
 
 using Text = std::string_view;
-
-// The next word of a line; empty at its end.
-Text take_word(Text& rest) {
-  const std::size_t begin = std::min(rest.find_first_not_of(" \t\r"), rest.size());
-  const std::size_t end = std::min(rest.find_first_of(" \t\r", begin), rest.size());
-  const Text word = rest.substr(begin, end - begin);
-  rest.remove_prefix(end);
-  return word;
-}
 
 template <class T>
 bool parse_whole(Text digits, int base, T& value) {
@@ -74,20 +65,19 @@ Content parse_frame(Text word, hal::CanFrame& frame) {
   return Content::frame;
 }
 
-Content parse_line(Text line, LoggedFrame& logged) {
-  const Text time = take_word(line);
-  const Text interface = take_word(line);
-  if (!parse_time(time, logged.time_us) || interface.empty()) return Content::nonsense;
-  return parse_frame(take_word(line), logged.frame);
+Content parse_words(const std::vector<Text>& words, LoggedFrame& logged) {
+  if (words.size() < 3 || !parse_time(words[0], logged.time_us)) return Content::nonsense;
+  return parse_frame(words[2], logged.frame);  // after the interface
 }
 
 }  // namespace
 
 std::optional<LoggedFrame> parse_log_line(Text line, const std::string& name, std::size_t number) {
-  if (line.find_first_not_of(" \t\r") == Text::npos) return std::nullopt;
+  const std::vector<Text> words = words_of(line);
+  if (words.empty()) return std::nullopt;
   LoggedFrame logged;
   logged.line = number;
-  const Content content = parse_line(line, logged);
+  const Content content = parse_words(words, logged);
   if (content == Content::nonsense)
     throw UserError(fmt::format("{}:{}: not a line of candump -L", name, number));
   if (content == Content::of_no_use) return std::nullopt;
@@ -174,10 +164,8 @@ std::string log_line(std::uint64_t time_us, Text interface, const hal::CanFrame&
 }
 
 CanLogWriter::CanLogWriter(const std::filesystem::path& path, std::string interface)
-    : interface_(std::move(interface)) {
-  if (path == kStandardStream) return;
-  draft_.emplace(path);
-  if (draft_->is_beside()) interruption_.emplace();
+    : draft_(path), interface_(std::move(interface)) {
+  if (draft_.is_beside()) interruption_.emplace();
 }
 
 void CanLogWriter::check() const {
@@ -186,22 +174,13 @@ void CanLogWriter::check() const {
 
 void CanLogWriter::write(std::uint64_t time_us, const hal::CanFrame& frame) {
   check();
-  const std::string line = log_line(time_us, interface_, frame) + '\n';
-  if (draft_) {
-    draft_->write(line);
-  } else if (std::fwrite(line.data(), 1, line.size(), stdout) != line.size()) {
-    throw UserError("standard output: cannot be written");
-  }
+  draft_.write(log_line(time_us, interface_, frame) + '\n');
 }
 
 void CanLogWriter::finish() {
   check();
-  if (draft_) {
-    draft_->complete();
-    draft_->put_in_place();
-  } else if (std::fflush(stdout) != 0) {
-    throw UserError("standard output: cannot be written");
-  }
+  draft_.complete();
+  draft_.put_in_place();
   interruption_.reset();
 }
 

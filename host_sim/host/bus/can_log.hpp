@@ -68,7 +68,7 @@ class CanLogWriter {
  private:
   void check() const;
 
-  std::optional<FileDraft> draft_;            // none: standard output
+  FileDraft draft_;
   std::optional<Interruption> interruption_;  // while there is a file to remove
   std::string interface_;
 };

@@ -4,9 +4,9 @@
 #include <charconv>
 
 #include <fmt/format.h>
+#include <utf8.h>
 
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/io/utf8.hpp"
 
 namespace volcomp::host {
 
@@ -54,7 +54,8 @@ bool CsvLines::next(std::string& line) {
   while (any(line)) {
     const std::string_view content = trimmed(line);
     if (content.empty() || content.front() == '#') continue;
-    if (!is_utf8(content)) fail("the line is not UTF-8; save the file as UTF-8 or ASCII");
+    if (!utf8::is_valid(content.begin(), content.end()))
+      fail("the line is not UTF-8; save the file as UTF-8 or ASCII");
     return true;
   }
   return false;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -36,7 +37,7 @@ bool may_be_taken(const fs::path& place, const fs::file_status& there) {
 }
 
 [[noreturn]] void refuse(const fs::path& path) {
-  throw UserError(fmt::format("{}: cannot be written", path.string()));
+  throw UserError(shown_output(path) + ": cannot be written");
 }
 
 constexpr int kMostNames = 100;
@@ -67,6 +68,14 @@ bool is_on_the_disk(int file) {
 
 }  // namespace
 
+bool is_standard_output(const fs::path& path) {
+  return path == kStandardStream || path == "/dev/stdout";
+}
+
+std::string shown_output(const fs::path& path) {
+  return is_standard_output(path) ? "standard output" : path.string();
+}
+
 fs::path file_behind(const fs::path& path) {
   constexpr int kMostLinks = 40;  // as Linux
   fs::path file = path;
@@ -77,6 +86,7 @@ fs::path file_behind(const fs::path& path) {
 }
 
 bool is_written_directly(const fs::path& path) {
+  if (is_standard_output(path)) return true;
   if (is_link(file_behind(path))) return true;  // a descriptor; a circle, which cannot be opened
   std::error_code ignored;
   return fs::is_other(path, ignored);
@@ -92,7 +102,9 @@ void require_place(const fs::path& path) {
 }
 
 FileDraft::FileDraft(const fs::path& path) : path_(path), place_(file_behind(path)) {
-  if (is_written_directly(path)) {
+  if (is_standard_output(path)) {
+    stream_.reset(stdout);
+  } else if (is_written_directly(path)) {
     stream_.reset(std::fopen(path.c_str(), "wbe"));
   } else {
     open_beside();
@@ -132,7 +144,11 @@ void FileDraft::write(std::string_view text) {
 void FileDraft::complete() {
   const bool flushed = std::fflush(stream_.get()) == 0 &&
                        (temporary_.empty() || is_on_the_disk(::fileno(stream_.get())));
-  if (std::fclose(stream_.release()) != 0 || !flushed) refuse(path_);
+  if (!close(stream_.release()) || !flushed) refuse(path_);
+}
+
+bool FileDraft::close(std::FILE* file) {
+  return file == stdout ? std::ferror(file) == 0 : std::fclose(file) == 0;
 }
 
 void FileDraft::put_in_place() {

@@ -4,18 +4,24 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "host_sim/host/io/interruption.hpp"
 
 namespace volcomp::host {
 
+// "-" or "/dev/stdout". Two results there, or a result and text, would write over each other.
+[[nodiscard]] bool is_standard_output(const std::filesystem::path& path);
+
+// Names a result in messages: its path, or "standard output".
+[[nodiscard]] std::string shown_output(const std::filesystem::path& path);
+
 // The file behind a chain of symbolic links, there or not. A descriptor of a process (/dev/fd/3)
 // stays a link: what is open need not have a name.
 [[nodiscard]] std::filesystem::path file_behind(const std::filesystem::path& path);
 
-// Whether no file may take this place: a device, a pipe, a socket, a descriptor. They are written
-// as standard output is.
+// Whether no file may take this place: a device, a pipe, a socket, a descriptor, standard output.
 [[nodiscard]] bool is_written_directly(const std::filesystem::path& path);
 
 // Throws UserError naming the file where a draft of it would, without writing anything: so that
@@ -42,8 +48,10 @@ class FileDraft {
   void put_in_place();
 
  private:
+  // Standard output stays open.
+  static bool close(std::FILE* file);
   struct Close {
-    void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
+    void operator()(std::FILE* file) const { static_cast<void>(close(file)); }
   };
 
   void open_beside();

@@ -1,24 +1,21 @@
 #include "host_sim/host/io/toml_text.hpp"
 
-#include <string_view>
+#include <algorithm>
+
+#include <utf8.h>
 
 #include "host_sim/host/io/input_file.hpp"
-#include "host_sim/host/io/utf8.hpp"
 
 namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kLargestToml = 1U << 20U;
 
-// A newline is never a part of a longer sequence, so the lines are checked one by one.
-void refuse_other_encodings(std::string_view text, const std::string& name) {
-  for (int number = 1; !text.empty(); ++number) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    if (!is_utf8(line))
-      throw UserError(fmt::format("{}:{}: not UTF-8; save the file as UTF-8", name, number));
-    text.remove_prefix(line.size());
-    if (!text.empty()) text.remove_prefix(1);
-  }
+void refuse_other_encodings(const std::string& text, const std::string& name) {
+  const auto wrong = utf8::find_invalid(text.begin(), text.end());
+  if (wrong == text.end()) return;
+  throw UserError(fmt::format("{}:{}: not UTF-8; save the file as UTF-8", name,
+                              1 + std::count(text.begin(), wrong, '\n')));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 // Parts for all scenarios are beside this file: before_after, positioning (ISO 230-2),
 // error_functions, volume, tick_tables, provenance; ../report_parts.hpp has the small ones. Every
 // number comes from the result: a text that names one is made with fmt. The command
-// (cli/run_options.hpp) gives RunContext: a RunView is the MachineWatch of every machine of the
+// (cli/run_experiment.hpp) gives RunContext: a RunView is the MachineWatch of every machine of the
 // run, `watched()` of controller/bus_axes.hpp and `watched_integrated_cells()` show machines to it;
 // write_pages() ends the run. A scenario without control periods leaves `ticks` out, and the report
 // has no statistics.
