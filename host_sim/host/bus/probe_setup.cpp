@@ -11,7 +11,7 @@
 namespace volcomp::host {
 namespace {
 
-namespace object = node::object::probe;
+namespace probing = node::object::probe;
 
 constexpr double kNsPerUs = 1e3;
 
@@ -25,19 +25,19 @@ void plan_frame(SetupPlan& plan, const Frame& frame) {
   std::size_t next = 0;
   for (Eigen::Index r = 0; r < 3; ++r) {
     for (Eigen::Index c = 0; c < 3; ++c)
-      plan_value(plan, object::workpiece[next++], frame.R(r, c));
+      plan_value(plan, probing::workpiece[next++], frame.R(r, c));
   }
   for (Eigen::Index r = 0; r < 3; ++r)
-    plan_nm(plan, object::workpiece[next++], frame.t(r));
+    plan_nm(plan, probing::workpiece[next++], frame.t(r));
 }
 
 void plan_gear(SetupPlan& plan, const NodeProbe& probe) {
   const FaceGear& g = probe.gear;
-  plan_values(plan, object::gear_number,
+  plan_values(plan, probing::gear_number,
               std::array{static_cast<double>(g.shaper_teeth), static_cast<double>(g.teeth),
                          g.module, g.pressure_angle, g.addendum, g.shaper_addendum, g.r_in, g.r_out,
                          g.relief.amount, g.relief.begin, g.relief.length});
-  plan_value(plan, object::gear, probe.gear_id);
+  plan_value(plan, probing::gear, probe.gear_id);
 }
 
 }  // namespace
@@ -54,17 +54,17 @@ NodeProbe node_probe(const MachineFile& machine) {
 
 SetupPlan probe_plan(const NodeProbe& probe) {
   SetupPlan plan;
-  plan_value(plan, object::delay_ns, ns(probe.delay_us));
+  plan_value(plan, probing::delay_ns, ns(probe.delay_us));
   for (std::size_t a = 0; a < node::kNodeAxes; ++a)
-    plan_value(plan, object::latch_delay_ns[a], ns(probe.latch_delay_us[a]));
+    plan_value(plan, probing::latch_delay_ns[a], ns(probe.latch_delay_us[a]));
   for (std::size_t k = 0; k < kLobingTerms; ++k)
-    plan_nm(plan, object::lobing[k], probe.radius.coefficient[k]);
+    plan_nm(plan, probing::lobing[k], probe.radius.coefficient[k]);
   plan_frame(plan, probe.workpiece);
-  plan_nm(plan, object::uncertainty[0], probe.radius_uncertainty);
-  plan_nm(plan, object::uncertainty[1], probe.tool_length_uncertainty);
-  plan_nm(plan, object::uncertainty[3], probe.repeatability);
+  plan_nm(plan, probing::uncertainty[0], probe.radius_uncertainty);
+  plan_nm(plan, probing::uncertainty[1], probe.tool_length_uncertainty);
+  plan_nm(plan, probing::uncertainty[3], probe.repeatability);
   if (probe.gear_id != 0) plan_gear(plan, probe);
-  plan_value(plan, object::command, static_cast<std::uint8_t>(node::ProbeCommand::on));
+  plan_value(plan, probing::command, static_cast<std::uint8_t>(node::ProbeCommand::on));
   return plan;
 }
 

@@ -12,8 +12,6 @@
 namespace volcomp::host {
 namespace {
 
-namespace object = node::object;
-
 // 1016h (CiA 301, 7.5.2.19): node id in bits 16 to 22, time in ms in the lower half.
 std::uint32_t supervision(std::uint8_t node, const BusSettings& b) {
   return std::uint32_t{node} << 16U | b.heartbeat_timeout_ms;
@@ -34,19 +32,20 @@ void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
     plan.back().name += fmt::format(" (axis {})", a.letter);
   };
   // The first is the controller.
-  plan_bits<std::uint32_t>(plan, object::consumer_heartbeat[axis + 1].id(), supervision(a.drive, b),
+  plan_bits<std::uint32_t>(plan, node::object::consumer_heartbeat[axis + 1].id(),
+                           supervision(a.drive, b),
                            heartbeat_name(fmt::format("drive {}", a.letter), a.drive, b));
-  set(object::drive, a.drive);
-  set(object::scale_numerator, a.scale_numerator, position);
-  set(object::scale_denominator, a.scale_denominator);
-  set(object::rotary, static_cast<std::uint8_t>(a.rotary));
-  set(object::homed_mask, kStatusReferenced);
+  set(node::object::drive, a.drive);
+  set(node::object::scale_numerator, a.scale_numerator, position);
+  set(node::object::scale_denominator, a.scale_denominator);
+  set(node::object::rotary, static_cast<std::uint8_t>(a.rotary));
+  set(node::object::homed_mask, kStatusReferenced);
   plan.back().hexadecimal = true;
-  set(object::limit, l.limit, offset);
-  set(object::slew, l.rate, offset);
-  set(object::soft_rate, l.soft_rate, offset);
-  set(object::hysteresis, l.hysteresis, offset);
-  set(object::max_step, l.max_step, position);
+  set(node::object::limit, l.limit, offset);
+  set(node::object::slew, l.rate, offset);
+  set(node::object::soft_rate, l.soft_rate, offset);
+  set(node::object::hysteresis, l.hysteresis, offset);
+  set(node::object::max_step, l.max_step, position);
 }
 
 // CiA 301, 7.5.2.37: the inhibit time may change only while the PDO does not exist.
@@ -74,12 +73,12 @@ SdoChannel::Bytes PlannedValue::bytes() const {
 SetupPlan common_plan(const BusSettings& settings) {
   SetupPlan plan;
   // The counter may change only while there is no period (CiA 301, 7.5.2.22).
-  plan_value(plan, object::cycle_period_us, 0, "us");
+  plan_value(plan, node::object::cycle_period_us, 0, "us");
   plan.back().name += ", for the next value";
-  plan_value(plan, object::sync_counter_overflow, 240);
-  plan_value(plan, object::cycle_period_us, settings.period_us, "us");
-  plan_value(plan, object::producer_heartbeat_ms, settings.heartbeat_ms, "ms");
-  plan_bits<std::uint32_t>(plan, object::consumer_heartbeat.id(),
+  plan_value(plan, node::object::sync_counter_overflow, 240);
+  plan_value(plan, node::object::cycle_period_us, settings.period_us, "us");
+  plan_value(plan, node::object::producer_heartbeat_ms, settings.heartbeat_ms, "ms");
+  plan_bits<std::uint32_t>(plan, node::object::consumer_heartbeat.id(),
                            supervision(settings.controller, settings),
                            heartbeat_name("the controller", settings.controller, settings));
   return plan;
@@ -90,13 +89,14 @@ SetupPlan node_plan(const BusSettings& settings) {
     throw UserError(fmt::format("a compensation node has {} axes, the machine {}", node::kNodeAxes,
                                 settings.axes.size()));
   SetupPlan plan = common_plan(settings);
-  plan_value(plan, object::machine_id, settings.machine_id);
-  plan_value(plan, object::controller, settings.controller);
-  plan_value(plan, object::position_source, static_cast<std::uint8_t>(settings.limits.source));
-  plan_value(plan, object::ramp_cycles, settings.limits.ramp_ticks);
-  plan_value(plan, object::drop_cycles, settings.limits.stale_drop_ticks);
-  plan_value(plan, object::deadline_us, settings.deadline_us);
-  if (!settings.drives_report_offsets) plan_value(plan, object::drives_report, 0);
+  plan_value(plan, node::object::machine_id, settings.machine_id);
+  plan_value(plan, node::object::controller, settings.controller);
+  plan_value(plan, node::object::position_source,
+             static_cast<std::uint8_t>(settings.limits.source));
+  plan_value(plan, node::object::ramp_cycles, settings.limits.ramp_ticks);
+  plan_value(plan, node::object::drop_cycles, settings.limits.stale_drop_ticks);
+  plan_value(plan, node::object::deadline_us, settings.deadline_us);
+  if (!settings.drives_report_offsets) plan_value(plan, node::object::drives_report, 0);
   for (std::size_t i = 0; i < settings.axes.size(); ++i)
     plan_axis(plan, settings, i);
   if (settings.status_every_cycle) plan_status_every_cycle(plan, settings);
@@ -110,10 +110,10 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
   // A node is supervised in one place only (CiA 301, 7.5.2.19): an older set-up with the same
   // drives in another order would refuse the new one.
   for (std::size_t i = 0; i <= node::kNodeAxes; ++i)
-    plan_bits<std::uint32_t>(plan, object::consumer_heartbeat[i].id(), 0,
+    plan_bits<std::uint32_t>(plan, node::object::consumer_heartbeat[i].id(), 0,
                              "no heartbeat is awaited");
   for (std::size_t i = settings.axes.size(); i < node::kNodeAxes; ++i)
-    plan_value(plan, object::drive[i], 0, fmt::format("(no axis {})", i + 1));
+    plan_value(plan, node::object::drive[i], 0, fmt::format("(no axis {})", i + 1));
   append(plan, node_plan(settings));
   if (probe != nullptr)
     append(plan, probe_plan(*probe));

@@ -11,7 +11,7 @@
 namespace volcomp::host {
 namespace {
 
-namespace object = node::object::stroke;
+namespace stroke = node::object::stroke;
 using canopen::ObjectId;
 
 constexpr std::array<const char*, node::kStrokeTables> kTableNames{"forward", "backward", "slots"};
@@ -39,27 +39,27 @@ LearnedTableDiagnosis diagnose_table(NodeClient& client, std::size_t table) {
 
 void read_watched(NodeClient& client, StrokeDiagnosis& d) {
   for (std::size_t use = 0; use < kFrameUses; ++use)
-    d.frames[use] = client.read(object::frames[use]);
-  d.passes_lost = client.read(object::passes_lost);
-  d.discarded = client.read(object::discarded);
+    d.frames[use] = client.read(stroke::frames[use]);
+  d.passes_lost = client.read(stroke::passes_lost);
+  d.discarded = client.read(stroke::discarded);
   for (std::size_t side = 0; side < 2; ++side) {
     const auto figures = static_cast<std::uint16_t>(0x2512U + side);
-    d.passes[side] = client.read(object::passes[side]);
+    d.passes[side] = client.read(stroke::passes[side]);
     d.sync_rms_um[side] = read_real<double>(client, {figures, node::kFigures}, "RMS on the flank");
     d.x_rms_um[side] = read_real<double>(client, {figures, 3 * node::kFigures}, "RMS of X");
   }
 }
 
 void read_learned(NodeClient& client, StrokeDiagnosis& d) {
-  d.learning = client.read<Reason>(object::learn_reason);
+  d.learning = client.read<Reason>(stroke::learn_reason);
   for (std::size_t i = 0; i < 3; ++i)
     d.prediction_um.at(i) =
-        read_real<float>(client, object::prediction_um[i].id(), "predicted effect");
-  d.tables = client.read<node::StrokeTableState>(object::table_state);
-  const std::int32_t feed = client.read(object::table_feed);
+        read_real<float>(client, stroke::prediction_um[i].id(), "predicted effect");
+  d.tables = client.read<node::StrokeTableState>(stroke::table_state);
+  const std::int32_t feed = client.read(stroke::table_feed);
   d.table_feed_mm_per_s = feed / kNmPerMm;
-  d.offset_status = client.read(object::offset_status);
-  const std::int32_t offset = client.read(object::offset);
+  d.offset_status = client.read(stroke::offset_status);
+  const std::int32_t offset = client.read(stroke::offset);
   d.offset_urad = 1e6 * 256.0 / kUnitsPerRad * offset;
   for (std::size_t table = 0; table < d.table.size(); ++table)
     d.table[table] = diagnose_table(client, table);
@@ -111,7 +111,7 @@ std::string offset_words(const StrokeDiagnosis& d) {
 std::optional<StrokeDiagnosis> diagnose_strokes(NodeClient& client) {
   StrokeDiagnosis d;
   try {
-    d.on = client.read(object::command) != 0;
+    d.on = client.read(stroke::command) != 0;
   } catch (const NodeRefused& refused) {
     if (refused.code == canopen::AbortCode::no_object) return std::nullopt;
     throw;

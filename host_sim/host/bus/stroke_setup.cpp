@@ -10,7 +10,7 @@
 namespace volcomp::host {
 namespace {
 
-namespace object = node::object::stroke;
+namespace stroke = node::object::stroke;
 
 std::uint8_t number_of_axis(const BusSettings& b, char letter) {
   for (std::size_t i = 0; i < b.axes.size(); ++i) {
@@ -22,23 +22,23 @@ std::uint8_t number_of_axis(const BusSettings& b, char letter) {
 void plan_stroke_grid(SetupPlan& plan, const BusSettings& b, const WatchedStrokes& w) {
   constexpr std::array<char, 3> kAxes{'X', 'Z', 'C'};
   for (std::size_t i = 0; i < kAxes.size(); ++i)
-    plan_value(plan, object::axis[i], number_of_axis(b, kAxes[i]));
-  plan_value(plan, object::slots, w.slots);
-  plan_value(plan, object::nodes, static_cast<std::uint16_t>(w.monitor.nodes));
-  plan_value(plan, object::pitch_nm, w.monitor.node_pitch_nm);
-  plan_value(plan, object::first_node_nm, w.monitor.z0_nm);
-  plan_value(plan, object::rate, w.offsets.rate, "2^-32 turn");
-  plan_value(plan, object::stale_cycles, static_cast<std::uint16_t>(w.offsets.stale_ticks));
+    plan_value(plan, stroke::axis[i], number_of_axis(b, kAxes[i]));
+  plan_value(plan, stroke::slots, w.slots);
+  plan_value(plan, stroke::nodes, static_cast<std::uint16_t>(w.monitor.nodes));
+  plan_value(plan, stroke::pitch_nm, w.monitor.node_pitch_nm);
+  plan_value(plan, stroke::first_node_nm, w.monitor.z0_nm);
+  plan_value(plan, stroke::rate, w.offsets.rate, "2^-32 turn");
+  plan_value(plan, stroke::stale_cycles, static_cast<std::uint16_t>(w.offsets.stale_ticks));
 }
 
 void plan_learning(SetupPlan& plan, const WatchedStrokes& w) {
-  plan_values(plan, object::rules,
+  plan_values(plan, stroke::rules,
               std::array{w.along.weight, w.along.dead_sigma, w.along.most_step, w.along.most_offset,
                          w.along.most_slope, w.around.most_slope});
-  plan_values(plan, object::least_samples,
+  plan_values(plan, stroke::least_samples,
               std::array{w.along.least_samples, w.around.least_samples});
-  plan_value(plan, object::target, static_cast<std::uint8_t>(w.target));
-  plan_value(plan, object::force, w.target == LearningTarget::synchronisation ? 0 : 1);
+  plan_value(plan, stroke::target, static_cast<std::uint8_t>(w.target));
+  plan_value(plan, stroke::force, w.target == LearningTarget::synchronisation ? 0 : 1);
 }
 
 }  // namespace
@@ -46,14 +46,14 @@ void plan_learning(SetupPlan& plan, const WatchedStrokes& w) {
 SetupPlan stroke_plan(const BusSettings& settings, const WatchedStrokes& strokes) {
   const auto& monitor = strokes.monitor;
   SetupPlan plan;
-  plan_value(plan, object::command, static_cast<std::uint8_t>(node::StrokeCommand::off));
+  plan_value(plan, stroke::command, static_cast<std::uint8_t>(node::StrokeCommand::off));
   plan_stroke_grid(plan, settings, strokes);
-  plan_values(plan, object::gear,
+  plan_values(plan, stroke::gear,
               std::array{monitor.turn_per_mm, monitor.flank_per_rad, monitor.flank_per_x});
-  plan_values(plan, object::wavelength_mm, monitor.order_wavelength_mm);
-  plan_values(plan, object::frequency_hz, monitor.time_line_hz);
+  plan_values(plan, stroke::wavelength_mm, monitor.order_wavelength_mm);
+  plan_values(plan, stroke::frequency_hz, monitor.time_line_hz);
   plan_learning(plan, strokes);
-  plan_value(plan, object::command, static_cast<std::uint8_t>(node::StrokeCommand::on));
+  plan_value(plan, stroke::command, static_cast<std::uint8_t>(node::StrokeCommand::on));
   return plan;
 }
 

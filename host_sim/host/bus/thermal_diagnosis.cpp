@@ -8,14 +8,14 @@
 namespace volcomp::host {
 namespace {
 
-namespace object = node::object::thermal;
+namespace thermal = node::object::thermal;
 
 TemperatureDiagnosis diagnose_input(NodeClient& client, std::size_t input) {
   TemperatureDiagnosis d;
-  const std::int16_t reading = client.read(object::reading[input]);
+  const std::int16_t reading = client.read(thermal::reading[input]);
   d.connected = reading != TemperatureInput::kNone;
   d.latest_C = 0.01 * reading;
-  d.state = client.read<TemperatureState>(object::input[input]);
+  d.state = client.read<TemperatureState>(thermal::input[input]);
   return d;
 }
 
@@ -68,18 +68,18 @@ std::string date_text(std::int64_t unix_s) {
 std::optional<ThermalDiagnosis> diagnose_thermal(NodeClient& client) {
   ThermalDiagnosis d;
   try {
-    d.state = client.read<node::ThermalState>(object::state);
+    d.state = client.read<node::ThermalState>(thermal::state);
   } catch (const NodeRefused& refused) {
     if (refused.code == canopen::AbortCode::no_object) return std::nullopt;
     throw;
   }
-  d.behind_um = 1e-3 * client.read(object::behind_nm);
-  d.followed = client.read(object::followed);
+  d.behind_um = 1e-3 * client.read(thermal::behind_nm);
+  d.followed = client.read(thermal::followed);
   for (std::size_t i = 0; i < d.input.size(); ++i)
     d.input[i] = diagnose_input(client, i);
-  d.unix_s = client.read(object::unix_s);
-  d.expires_unix_s = client.read(object::expires_unix_s);
-  d.expired = client.read(object::expired) != 0;
+  d.unix_s = client.read(thermal::unix_s);
+  d.expires_unix_s = client.read(thermal::expires_unix_s);
+  d.expired = client.read(thermal::expired) != 0;
   return d;
 }
 

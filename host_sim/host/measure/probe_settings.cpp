@@ -10,7 +10,6 @@
 namespace volcomp::host {
 namespace {
 
-namespace object = node::object::probe;
 using nlohmann::json;
 
 constexpr std::size_t kOfRadius = 0;
@@ -51,11 +50,12 @@ std::string uncertainty_method(const ProbeCalibration& c, const ProbeArtefact& a
 std::vector<NodeSetting> probe_settings(const ProbeCalibration& calibration) {
   std::vector<NodeSetting> settings;
   for (std::size_t k = 0; k < kLobingTerms; ++k)
-    settings.push_back(setting_of(object::lobing[k], calibration.radius.coefficient[k]));
-  settings.push_back(
-      setting_of(object::uncertainty[kOfRadius], calibration.u_map, ": effective radius"));
-  settings.push_back(setting_of(object::uncertainty[kOfRepeatability], calibration.repeatability,
-                                ": repeatability"));
+    settings.push_back(
+        setting_of(node::object::probe::lobing[k], calibration.radius.coefficient[k]));
+  settings.push_back(setting_of(node::object::probe::uncertainty[kOfRadius], calibration.u_map,
+                                ": effective radius"));
+  settings.push_back(setting_of(node::object::probe::uncertainty[kOfRepeatability],
+                                calibration.repeatability, ": repeatability"));
   return settings;
 }
 
