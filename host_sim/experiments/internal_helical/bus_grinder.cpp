@@ -33,9 +33,7 @@ std::vector<std::uint8_t> image_without_errors(const host::MachineFile& machine)
   for (const host::AxisFile& file : machine.axes) {
     host::IdentifiedAxis axis;
     axis.letter = file.letter;
-    for (std::size_t t = 0; t < file.targets; ++t)
-      axis.nodes.push_back(file.lo + static_cast<double>(t) * (file.hi - file.lo) /
-                                         static_cast<double>(file.targets - 1));
+    axis.nodes = file.all_targets();
     axis.motion.assign(file.targets, ErrorMotion::Zero());
     nothing.axis.push_back(axis);
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "hal/loopback/frame_bits.hpp"
@@ -19,17 +20,10 @@ constexpr std::size_t kMostEmergencies = 20;
 constexpr double kLate = 2.5;
 constexpr std::uint64_t kFirstPatience_us = 2'000'000;
 
-std::uint64_t little_endian(const hal::CanFrame& frame) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < frame.size; ++i)
-    value |= std::uint64_t{frame.data.at(i)} << 8U * i;
-  return value;
-}
-
 // The number on the wire; nothing when the frame is too short.
 std::optional<std::int64_t> raw_of(const BusSignal& s, const hal::CanFrame& frame) {
   if (s.first_bit + s.bits > std::size_t{frame.size} * 8) return std::nullopt;
-  const std::uint64_t value = little_endian(frame) >> s.first_bit;
+  const std::uint64_t value = canopen::load_le(frame.data.data(), frame.size) >> s.first_bit;
   const std::uint64_t mask = s.bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.bits) - 1;
   const std::uint64_t cut = value & mask;
   const bool negative = s.is_signed && (cut >> (s.bits - 1) & 1U) != 0;

@@ -175,6 +175,22 @@ MachineFile read_machine(const toml::value& root, const std::string& name) {
 
 bool AxisFile::full_turn() const { return rotary && std::abs(hi - lo - 2.0 * kPi) < 1e-9; }
 
+double AxisFile::target(std::size_t t) const {
+  return lo + static_cast<double>(t) * (hi - lo) / static_cast<double>(targets - 1);
+}
+
+std::vector<double> AxisFile::all_targets() const {
+  std::vector<double> all;
+  for (std::size_t t = 0; t < targets; ++t)
+    all.push_back(target(t));
+  return all;
+}
+
+std::size_t AxisFile::reference_target() const {
+  const double part = (reference - lo) / (hi - lo);
+  return static_cast<std::size_t>(std::lround(part * static_cast<double>(targets - 1)));
+}
+
 std::vector<double> SquarenessFile::line(std::size_t axis) const {
   std::vector<double> positions;
   for (std::size_t i = 0; i < points; ++i) {

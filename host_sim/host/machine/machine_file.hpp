@@ -47,6 +47,11 @@ struct AxisFile {
   ErrorMotion at_reference = ErrorMotion::Zero();
 
   [[nodiscard]] bool full_turn() const;  // rotary, from anywhere once round
+  // Where target t of a campaign lies, of the equally spaced ones over the travel; all of them; the
+  // one nearest to the reference.
+  [[nodiscard]] double target(std::size_t t) const;
+  [[nodiscard]] std::vector<double> all_targets() const;
+  [[nodiscard]] std::size_t reference_target() const;
 };
 
 // A touch probe at the tool point.

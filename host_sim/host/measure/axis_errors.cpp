@@ -1,7 +1,6 @@
 #include "host_sim/host/measure/axis_errors.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "comp/metrology/fits/axis_identification.hpp"
@@ -18,16 +17,6 @@ const std::array<Vec3, 6> kTargets{Vec3(kReach_mm, 0.0, 0.0), Vec3(-kReach_mm, 0
                                    Vec3(0.0, kReach_mm, 0.0), Vec3(0.0, -kReach_mm, 0.0),
                                    Vec3(0.0, 0.0, kReach_mm), Vec3(0.0, 0.0, -kReach_mm)};
 
-double node_of(const AxisFile& axis, std::size_t t) {
-  return axis.lo +
-         static_cast<double>(t) * (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
-}
-
-std::size_t node_nearest(const AxisFile& axis) {
-  const double part = (axis.reference - axis.lo) / (axis.hi - axis.lo);
-  return static_cast<std::size_t>(std::lround(part * static_cast<double>(axis.targets - 1)));
-}
-
 class Identifier {
  public:
   Identifier(const MachineFile& file, const MeasureTargets& measure)
@@ -36,8 +25,7 @@ class Identifier {
   IdentifiedAxis identify(std::size_t a) {
     IdentifiedAxis result;
     result.letter = file_.axes[a].letter;
-    for (std::size_t t = 0; t < file_.axes[a].targets; ++t)
-      result.nodes.push_back(node_of(file_.axes[a], t));
+    result.nodes = file_.axes[a].all_targets();
     const Pose at_zero{};
     require(check_order(file_.chain, a, identified_, reference_, at_zero),
             std::string("identification of axis ") + result.letter);
@@ -50,7 +38,7 @@ class Identifier {
     take_away_second_order(parent, a, result, measured);
     fit(parent, a, measured, result);
     identified_ |= 1U << a;
-    at_reference_[a] = result.motion[node_nearest(file_.axes[a])];
+    at_reference_[a] = result.motion[file_.axes[a].reference_target()];
     return result;
   }
 
@@ -144,7 +132,7 @@ Span<const Vec3> carried_targets() { return {kTargets.data(), kTargets.size()}; 
 Pose reference_pose(const MachineFile& file) {
   Pose pose{};
   for (std::size_t a = 0; a < file.axes.size(); ++a)
-    pose[a] = node_of(file.axes[a], node_nearest(file.axes[a]));
+    pose[a] = file.axes[a].target(file.axes[a].reference_target());
   return pose;
 }
 

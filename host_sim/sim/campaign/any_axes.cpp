@@ -1,8 +1,5 @@
 #include "host_sim/sim/campaign/any_axes.hpp"
 
-#include <cmath>
-
-#include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "host_sim/sim/instruments/ball_bar.hpp"
@@ -14,12 +11,6 @@ namespace {
 // What sphere tests with two balls leave of the place of a rotary axis, 1 sigma. Assumed.
 constexpr double kLocation_mm = 1e-3;
 constexpr double kLocation_rad = 3e-6;
-
-double nearest_target(const host::AxisFile& axis) {
-  const double part = (axis.reference - axis.lo) / (axis.hi - axis.lo);
-  return target_of(
-      axis, static_cast<std::size_t>(std::lround(part * static_cast<double>(axis.targets - 1))));
-}
 
 ErrorMotion true_value(const TrueMachine& truth, const host::MachineFile& file, std::size_t a,
                        double q, double approach) {
@@ -35,31 +26,17 @@ host::RunsFile measure_axis(const TrueMachine& truth, const host::MachineFile& f
   const host::AxisFile& axis = file.axes[a];
   const Axis along = file.chain.axis(a).axis;
   const LaserSetup setup = mount_laser(classes, random);
-  host::RunsFile result;
-  result.name = fmt::format("runs_{}.csv", axis.letter);
-  result.letter = axis.letter;
-  for (std::size_t t = 0; t < axis.targets; ++t)
-    result.positions.push_back(target_of(axis, t));
-  const auto run = [&](double approach) {
-    host::RunValues values;
-    for (const double q : result.positions) {
-      const Vec3 lever = axis.sensed.lever(along, q) + setup.arm_error;
-      const ErrorMotion seen = at_lever(true_value(truth, file, a, q, approach), lever);
-      values.push_back(laser_reading(seen, {along, q, axis.lo, axis.hi}, setup, classes, random));
-    }
-    return values;
-  };
-  for (std::size_t r = 0; r < runs; ++r) {
-    result.up.push_back(run(1.0));
-    result.down.push_back(run(-1.0));
-  }
-  return result;
+  return bidirectional_runs(axis, runs, [&](double q, double approach) {
+    const Vec3 lever = axis.sensed.lever(along, q) + setup.arm_error;
+    const ErrorMotion seen = at_lever(true_value(truth, file, a, q, approach), lever);
+    return laser_reading(seen, {along, q, axis.lo, axis.hi}, setup, classes, random);
+  });
 }
 
 void locate_axis(const TrueMachine& truth, const NoiseClasses& classes, std::size_t a,
                  host::MachineFile& file, Random& random) {
   host::AxisFile& axis = file.axes[a];
-  axis.reference = nearest_target(axis);
+  axis.reference = axis.target(axis.reference_target());
   axis.at_reference = true_value(truth, file, a, axis.reference, 0.0);
   if (!axis.rotary || classes.repeatability_mm <= 0.0) return;
   for (Eigen::Index c = 0; c < 6; ++c)
@@ -67,11 +44,6 @@ void locate_axis(const TrueMachine& truth, const NoiseClasses& classes, std::siz
 }
 
 }  // namespace
-
-double target_of(const host::AxisFile& axis, std::size_t t) {
-  return axis.lo +
-         static_cast<double>(t) * (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
-}
 
 ErrorMotion in_file_terms(const ErrorMotion& internal, const host::MachineFile& file, std::size_t a,
                           double q) {

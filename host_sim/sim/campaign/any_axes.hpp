@@ -6,9 +6,6 @@
 
 namespace volcomp::sim {
 
-// Position of target t of the equally spaced ones of an axis, mm or rad.
-[[nodiscard]] double target_of(const host::AxisFile& axis, std::size_t t);
-
 // Value of an axis as its machine file means it: the inverse of to_internal().
 [[nodiscard]] ErrorMotion in_file_terms(const ErrorMotion& internal, const host::MachineFile& file,
                                         std::size_t axis, double q);

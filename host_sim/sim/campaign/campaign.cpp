@@ -12,24 +12,9 @@ host::RunsFile measure_axis(const TrueMachine& truth, const host::AxisFile& axis
                             const SensedPoint& sensed, const NoiseClasses& classes,
                             std::size_t runs, Random& random) {
   const Laser6D laser(truth, a, sensed, mount_laser(classes, random));
-  host::RunsFile result;
-  result.name = fmt::format("runs_{}.csv", axis.letter);
-  result.letter = axis.letter;
-  for (std::size_t t = 0; t < axis.targets; ++t) {
-    const double s = static_cast<double>(t) / static_cast<double>(axis.targets - 1);
-    result.positions.push_back(axis.lo + s * (axis.hi - axis.lo));
-  }
-  const auto run = [&](double approach) {
-    host::RunValues values;
-    for (const double q : result.positions)
-      values.push_back(laser.read(q, approach, classes, random));
-    return values;
-  };
-  for (std::size_t r = 0; r < runs; ++r) {
-    result.up.push_back(run(1.0));
-    result.down.push_back(run(-1.0));
-  }
-  return result;
+  return bidirectional_runs(axis, runs, [&](double q, double approach) {
+    return laser.read(q, approach, classes, random);
+  });
 }
 
 // Mean of all runs of both directions, by target.
@@ -46,6 +31,26 @@ std::vector<ErrorMotion> mean_of(const host::RunsFile& runs) {
 }
 
 }  // namespace
+
+host::RunsFile bidirectional_runs(
+    const host::AxisFile& axis, std::size_t runs,
+    const std::function<ErrorMotion(double q, double approach)>& reading) {
+  host::RunsFile result;
+  result.name = fmt::format("runs_{}.csv", axis.letter);
+  result.letter = axis.letter;
+  result.positions = axis.all_targets();
+  const auto run = [&](double approach) {
+    host::RunValues values;
+    for (const double q : result.positions)
+      values.push_back(reading(q, approach));
+    return values;
+  };
+  for (std::size_t r = 0; r < runs; ++r) {
+    result.up.push_back(run(1.0));
+    result.down.push_back(run(-1.0));
+  }
+  return result;
+}
 
 std::vector<LeverCheck> check_levers(const TrueMachine& truth, const host::MachineFile& file,
                                      const NoiseClasses& classes, std::size_t runs,

@@ -2,6 +2,7 @@
 // Measuring the simulated machine: six-degree-of-freedom laser on every axis, ball bar for
 // squareness.
 
+#include <functional>
 #include <vector>
 
 #include "comp/metrology/tables/diagonals.hpp"
@@ -22,6 +23,12 @@ struct Campaign {
   host::MachineFile machine;
   std::vector<host::RunsFile> runs;
 };
+
+// Runs up and down at the targets of an axis; `reading` at a position (mm or rad), approached from
+// below (+1) or above (−1).
+[[nodiscard]] host::RunsFile bidirectional_runs(
+    const host::AxisFile& axis, std::size_t runs,
+    const std::function<ErrorMotion(double q, double approach)>& reading);
 
 // `runs` bidirectional runs per axis at the equally spaced targets of the machine file.
 [[nodiscard]] Campaign measure_machine(const TrueMachine& truth, const host::MachineFile& file,

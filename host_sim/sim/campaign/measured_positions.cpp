@@ -43,13 +43,11 @@ std::vector<host::Positioning> measure_positioning(MotionCell& cell,
   const DiagonalBox box = travel_box(machine);
   for (std::size_t a = 0; a < 3; ++a) {
     const host::AxisFile& axis = machine.axes[a];
-    std::vector<double> at;
+    const std::vector<double> at = axis.all_targets();
     std::vector<Vec3> target;
-    for (std::size_t t = 0; t < axis.targets; ++t) {
-      const double s = static_cast<double>(t) / static_cast<double>(axis.targets - 1);
-      at.push_back(axis.lo + s * (axis.hi - axis.lo));
+    for (const double q : at) {
       target.emplace_back(0.5 * (box.lo + box.hi));
-      target.back()(static_cast<Eigen::Index>(a)) = at.back();
+      target.back()(static_cast<Eigen::Index>(a)) = q;
     }
     const auto direction = static_cast<Eigen::Index>(a);
     const std::vector<double> up = pass(cell, target, direction, true);

@@ -38,14 +38,13 @@ void have_at_reference(const host::MachineFile& file, std::size_t a, TrueAxis& t
 void take_slopes(const host::MachineFile& file, std::size_t a, TrueMachine& machine) {
   const host::AxisFile& axis = file.axes[a];
   const Joint& joint = file.chain.axis(a);
-  std::vector<double> at;
+  const std::vector<double> at = axis.all_targets();
   std::vector<ErrorMotion> value;
-  for (std::size_t t = 0; t < axis.targets; ++t) {
-    at.push_back(target_of(axis, t));
+  for (const double q : at) {
     Pose pose{};
-    pose[a] = at.back();
-    value.push_back(at_lever(in_file_terms(machine.errors(pose, {})[a], file, a, at.back()),
-                             axis.sensed.lever(joint.axis, at.back())));
+    pose[a] = q;
+    value.push_back(at_lever(in_file_terms(machine.errors(pose, {})[a], file, a, q),
+                             axis.sensed.lever(joint.axis, q)));
   }
   const double sense = file.convention == Convention::relative ? 1.0 : branch_sign(joint.branch);
   for (std::size_t c = 0; c < 3; ++c) {
