@@ -77,12 +77,14 @@ export const TABLES = `[...document.querySelectorAll('table.data')].map((table) 
 
 export function checkTable(failures, shown, section) {
   const name = `table "${section.title ?? section.id}"`;
-  failures.same(shown.head.join('|'), section.columns.map((column) => column.title + (column.unit ?? '')).join('|'), `head of ${name}`);
+  // Hidden columns must not be on the page.
+  const columns = section.columns.map((column, index) => ({ ...column, index })).filter(({ hidden }) => !hidden);
+  failures.same(shown.head.join('|'), columns.map((column) => column.title + (column.unit ?? '')).join('|'), `head of ${name}`);
   if (!failures.same(shown.rows.length, section.rows.length, `rows of ${name}`)) return 0;
   let numbers = 0;
-  section.rows.forEach((row, r) => section.columns.forEach(({ digits }, c) => {
+  section.rows.forEach((row, r) => columns.forEach(({ digits, index }, c) => {
     const text = shown.rows[r][c];
-    const value = row[c] ?? null;
+    const value = row[index] ?? null;
     failures.check(shows(text, value), `${name}, row ${r + 1}, column ${c + 1}: the page says "${text}", the JSON ${JSON.stringify(value)}`);
     if (typeof value !== 'number') return;
     ++numbers;

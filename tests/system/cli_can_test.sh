@@ -33,7 +33,7 @@ expect 2 '--store' "$volcomp" download "$work/image.vct" --can no-such-can0 --st
 expect 2 '--node-id' "$volcomp" diagnose --can no-such-can0 --node-id 128
 
 expect 0 '1200  fits' "$volcomp" bus-load --json "$work/load.json"
-expect 0 '1000      115.1 ' "$volcomp" bus-load --axes 3
+expect 0 '1000        115.1 ' "$volcomp" bus-load --axes 3
 expect 0 'does not fit' "$volcomp" bus-load --axes 3
 grep -q '"computed_worst_load"' "$work/load.json" || { echo 'FAILED: no load in the JSON'; failed=1; }
 

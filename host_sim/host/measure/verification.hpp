@@ -77,6 +77,8 @@ struct VerificationResult {
 // --- verification_text.cpp: for people, for tables, for programs
 [[nodiscard]] std::string verification_text(const VerificationInput& input,
                                             const VerificationResult& result);
+// The table of all figures, a section of a document.
+[[nodiscard]] nlohmann::json verification_figures(const VerificationResult& result);
 [[nodiscard]] std::string verification_csv(const VerificationResult& result);
 [[nodiscard]] nlohmann::json verification_json(const VerificationInput& input,
                                                const VerificationResult& result);

@@ -11,10 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-json number_or_null(const std::optional<double>& value) {
-  return value ? json(*value) : json(nullptr);
-}
-
 json diagonals_group(const VerificationResult& r) {
   json charts = json::array();
   for (const DiagonalCurves& c : r.curves) {
@@ -42,32 +38,12 @@ json diagonals_group(const VerificationResult& r) {
 }
 
 json figures_table(const VerificationResult& r) {
-  json rows = json::array();
-  for (const FigureComparison& f : r.figures) {
-    const char* const change = f.change == Change::better  ? "better"
-                               : f.change == Change::worse ? "worse"
-                                                           : "not significant";
-    rows.push_back({f.where, f.name, f.before.um, number_or_null(f.before.U_um), f.after.um,
-                    number_or_null(f.after.U_um),
-                    f.before.um > 0.0 ? json(f.reduction_percent()) : json(nullptr), change});
-  }
-  return {{"type", "table"},
-          {"id", "figures"},
-          {"title", "Figures"},
-          {"columns",
-           {{{"title", "where"}},
-            {{"title", "figure"}},
-            column("before", "µm", 2),
-            column("U before", "µm", 2),
-            column("after", "µm", 2),
-            column("U after", "µm", 2),
-            column("reduction", "%", 2),
-            {{"title", "difference"}}}},
-          {"rows", rows},
-          {"note",
-           "E: bidirectional systematic deviation, B: reversal, R: repeatability; E_d and B_d: the "
-           "largest of all diagonals of a kind (ISO 230-6, ISO 230-2). U: expanded uncertainty, "
-           "k = 2. Volume: lengths of the error vectors after aligning the workpiece frame."}};
+  json table = verification_figures(r);
+  table["note"] =
+      "E: bidirectional systematic deviation, B: reversal, R: repeatability; E_d and B_d: the "
+      "largest of all diagonals of a kind (ISO 230-6, ISO 230-2). U: expanded uncertainty, "
+      "k = 2. Volume: lengths of the error vectors after aligning the workpiece frame.";
+  return table;
 }
 
 json systematic_bars(const VerificationResult& r) {

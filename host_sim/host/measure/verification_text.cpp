@@ -4,6 +4,8 @@
 
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/measure/verification.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -22,58 +24,36 @@ const char* code(Change change) {
   return "not significant";
 }
 
-std::string plus_minus(const Figure& f) {
-  return f.U_um ? fmt::format("{:9.2f} ± {:<7.2f}", f.um, *f.U_um)
-                : fmt::format("{:9.2f} ± {:<7}", f.um, "?");
-}
+json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(); }
 
-std::string reduction(const FigureComparison& f) {
-  return f.before.um > 0.0 ? fmt::format("{:8.2f} %", f.reduction_percent())
-                           : fmt::format("{:>10}", "-");
-}
-
-std::string figure_lines(const VerificationResult& r) {
-  std::string text = fmt::format("{:<16}{:<9}{:>12} {:<9}{:>10} {:<9}{:>9}\n", "", "figure",
-                                 "before, µm", "", "after, µm", "", "reduction");
-  std::string where;
-  for (const FigureComparison& f : r.figures) {
-    text += fmt::format("{:<16}{:<9}{} {} {}  {}\n", f.where == where ? "" : f.where, f.name,
-                        plus_minus(f.before), plus_minus(f.after), reduction(f), code(f.change));
-    where = f.where;
-  }
-  return text;
-}
-
-std::string uncertainty_lines(const VerificationResult& r) {
-  std::string text;
-  if (!r.largest_contributions.empty()) {
-    text += "uncertainty (k = 2) of E, at most:";
-    for (const Contribution& c : r.largest_contributions)
-      text += fmt::format(" {} {:.2f} µm,", c.name, 2.0 * c.u_um);
-    text.back() = '\n';
-  }
+void add_uncertainty(const VerificationResult& r, std::vector<std::string>& lines) {
+  std::vector<std::string> parts;
+  for (const Contribution& c : r.largest_contributions)
+    parts.push_back(fmt::format("{} {:.2f} µm", c.name, 2.0 * c.u_um));
+  if (!parts.empty())
+    lines.push_back(fmt::format("uncertainty (k = 2) of E, at most: {}", fmt::join(parts, ", ")));
   if (!r.left_out.empty())
-    text += fmt::format("left out of the uncertainty: {}\n", fmt::join(r.left_out, "; "));
-  return text;
+    lines.push_back(fmt::format("left out of the uncertainty: {}", fmt::join(r.left_out, "; ")));
 }
 
-std::string prediction_lines(const VerificationResult& r) {
-  std::string text;
+void add_predictions(const VerificationResult& r, std::vector<std::string>& lines) {
   for (const DiagonalCurves& c : r.curves) {
     if (!c.predicted) continue;
     double predicted = 0.0;
     for (const double um : c.predicted->after_um)
       predicted = std::max(predicted, std::abs(um));
-    text += fmt::format(
+    lines.push_back(fmt::format(
         "{}: the tables predict {:.2f} µm at most; measured after differs by {:.2f} µm at most, "
-        "{:.2f} µm rms\n",
-        c.name, predicted, c.predicted->max_difference_um, c.predicted->rms_difference_um);
+        "{:.2f} µm rms",
+        c.name, predicted, c.predicted->max_difference_um, c.predicted->rms_difference_um));
   }
-  return text;
 }
 
-json figure_json(const Figure& f) {
-  return {{"um", f.um}, {"U_um", f.U_um ? json(*f.U_um) : json()}};
+json uncertainty_column(const char* title, const char* name) {
+  json made = column(title, "µm", 2, name);
+  made["prefix"] = "± ";
+  made["missing"] = "± ?";
+  return made;
 }
 
 json curves_json(const DiagonalCurves& c) {
@@ -91,15 +71,39 @@ json curves_json(const DiagonalCurves& c) {
 
 }  // namespace
 
+json verification_figures(const VerificationResult& r) {
+  json rows = json::array();
+  for (const FigureComparison& f : r.figures)
+    rows.push_back({f.where, f.name, f.before.um, number_or_null(f.before.U_um), f.after.um,
+                    number_or_null(f.after.U_um),
+                    f.before.um > 0.0 ? json(f.reduction_percent()) : json(), code(f.change),
+                    f.decides});
+  json table = table_section(
+      "Figures",
+      {plain_column("where", "where"), plain_column("figure", "figure"),
+       column("before", "µm", 2, "before/um"), uncertainty_column("U before", "before/U_um"),
+       column("after", "µm", 2, "after/um"), uncertainty_column("U after", "after/U_um"),
+       column("reduction", "%", 2, "reduction_percent"), plain_column("difference", "change"),
+       hidden_column("decides")},
+      rows);
+  table["id"] = "figures";
+  table["name"] = "figures";
+  return table;
+}
+
 std::string verification_text(const VerificationInput& input, const VerificationResult& r) {
-  std::string text = fmt::format(
-      "before: {}\nafter:  {}\n{} diagonals, {} targets, {} run{} per direction\n\n",
-      input.before.name, input.after.name, r.curves.size(),
-      input.before.diagonals[0].targets.size(), r.least_runs, r.least_runs == 1 ? "" : "s");
-  text += figure_lines(r) + "\n" + uncertainty_lines(r) + prediction_lines(r);
-  for (const std::string& remark : r.remarks)
-    text += remark + "\n";
-  return text + fmt::format("{} {}\n", r.ok ? "PASS" : "FAIL", r.verdict);
+  std::vector<std::string> remarks;
+  add_uncertainty(r, remarks);
+  add_predictions(r, remarks);
+  remarks.insert(remarks.end(), r.remarks.begin(), r.remarks.end());
+  return text_of(
+      {{"sections",
+        {text_section("", {"before: " + input.before.name, "after:  " + input.after.name,
+                           fmt::format("{} diagonals, {} targets, {} run{} per direction",
+                                       r.curves.size(), input.before.diagonals[0].targets.size(),
+                                       r.least_runs, r.least_runs == 1 ? "" : "s")}),
+         verification_figures(r), text_section("", remarks)}},
+       {"verdict", {{"ok", r.ok}, {"text", r.verdict}}}});
 }
 
 std::string verification_csv(const VerificationResult& r) {
@@ -116,17 +120,6 @@ std::string verification_csv(const VerificationResult& r) {
 }
 
 json verification_json(const VerificationInput& input, const VerificationResult& r) {
-  json figures = json::array();
-  for (const FigureComparison& f : r.figures) {
-    figures.push_back(
-        {{"where", f.where},
-         {"figure", f.name},
-         {"before", figure_json(f.before)},
-         {"after", figure_json(f.after)},
-         {"reduction_percent", f.before.um > 0.0 ? json(f.reduction_percent()) : json()},
-         {"change", code(f.change)},
-         {"decides", f.decides}});
-  }
   json contributions = json::array();
   for (const Contribution& c : r.largest_contributions)
     contributions.push_back({{"name", c.name}, {"U_um", 2.0 * c.u_um}});
@@ -138,8 +131,8 @@ json verification_json(const VerificationInput& input, const VerificationResult&
           {"after", input.after.name},
           {"ok", r.ok},
           {"verdict", r.verdict},
-          {"limit_um", input.limit_um ? json(*input.limit_um) : json()},
-          {"figures", figures},
+          {"limit_um", number_or_null(input.limit_um)},
+          {"figures", figures_of_table(verification_figures(r))},
           {"diagonals", diagonals},
           {"uncertainty_of_E", contributions},
           {"left_out", r.left_out},

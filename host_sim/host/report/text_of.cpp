@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/host/report/report_parts.hpp"
+
 namespace volcomp::host {
 namespace {
 
@@ -22,10 +24,11 @@ std::size_t width_of(const std::string& text) {
   }));
 }
 
-// Never "-0.00".
+// Without digits as short as it can be, as the page shows it; never "-0.00".
 std::string number_text(const json& number, const json& column) {
   if (!std::isfinite(number.get<double>())) return kDash;
-  if (!column.contains("digits")) return number.dump();
+  if (!column.contains("digits"))
+    return number.is_number_float() ? fmt::format("{}", number.get<double>()) : number.dump();
   std::string text = fmt::format("{:.{}f}", number.get<double>(), column["digits"].get<int>());
   if (text.find_first_of("123456789") == std::string::npos && text[0] == '-') text.erase(0, 1);
   return text;
@@ -33,12 +36,22 @@ std::string number_text(const json& number, const json& column) {
 
 std::string cell_text(const json& cell, const json& column) {
   if (cell.is_string()) return cell.get<std::string>();
-  return cell.is_number() ? number_text(cell, column) : kDash;
+  if (cell.is_boolean()) return cell.get<bool>() ? "yes" : "no";
+  if (!cell.is_number()) return column.value("missing", kDash);
+  return column.value("prefix", "") + number_text(cell, column);
 }
 
 std::string head_text(const json& column) {
   const std::string unit = column.value("unit", "");
   return column.value("title", "") + (unit.empty() ? "" : ", " + unit);
+}
+
+bool is_shown(const json& table, std::size_t index) {
+  const json& column = table["columns"][index];
+  if (column.value("hidden", false)) return false;
+  return column.contains("missing") || table["rows"].empty() ||
+         std::any_of(table["rows"].begin(), table["rows"].end(),
+                     [index](const json& row) { return !row[index].is_null(); });
 }
 
 // One column of a table as it is printed, the head first.
@@ -64,7 +77,7 @@ PrintedColumn printed(const json& table, std::size_t index) {
 std::string table_text(const json& table) {
   std::vector<PrintedColumn> columns;
   for (std::size_t i = 0; i < table["columns"].size(); ++i) {
-    if (!table["columns"][i].value("hidden", false)) columns.push_back(printed(table, i));
+    if (is_shown(table, i)) columns.push_back(printed(table, i));
   }
   std::string text;
   for (std::size_t line = 0; !columns.empty() && line < columns.front().cells.size(); ++line) {
@@ -80,7 +93,18 @@ std::string table_text(const json& table) {
   return text;
 }
 
-std::string section_text(const json& section) {
+json members_of(const json& row, const json& columns) {
+  json object = json::object();
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].contains("name"))
+      object[json::json_pointer("/" + columns[i]["name"].get<std::string>())] = row[i];
+  }
+  return object;
+}
+
+}  // namespace
+
+std::string text_of_section(const json& section) {
   std::string text;
   if (section["type"] == "table") {
     text = table_text(section);
@@ -96,13 +120,20 @@ std::string section_text(const json& section) {
   return title.empty() ? text : fmt::format("\n{}\n{}", title, text);
 }
 
-json members_of(const json& row, const json& columns) {
-  json object = json::object();
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].contains("name"))
-      object[json::json_pointer("/" + columns[i]["name"].get<std::string>())] = row[i];
-  }
-  return object;
+std::string text_of_sections(const json& sections) {
+  std::string text;
+  for (const json& section : sections)
+    text += text_of_section(section);
+  // Nothing stands before the first title.
+  return text.substr(0, 1) == "\n" ? text.substr(1) : text;
+}
+
+std::string text_of(const json& document) {
+  std::string text = text_of_sections(document["sections"]);
+  if (!document.contains("verdict")) return text;
+  const json& verdict = document["verdict"];
+  return text + fmt::format("{} {}\n", verdict["ok"].get<bool>() ? "PASS" : "FAIL",
+                            verdict["text"].get<std::string>());
 }
 
 json figures_of_table(const json& table) {
@@ -119,24 +150,6 @@ json figures_of_table(const json& table) {
   return figures;
 }
 
-}  // namespace
-
-std::string text_of_sections(const json& sections) {
-  std::string text;
-  for (const json& section : sections)
-    text += section_text(section);
-  // Nothing stands before the first title.
-  return text.substr(0, 1) == "\n" ? text.substr(1) : text;
-}
-
-std::string text_of(const json& document) {
-  std::string text = text_of_sections(document["sections"]);
-  if (!document.contains("verdict")) return text;
-  const json& verdict = document["verdict"];
-  return text + fmt::format("{} {}\n", verdict["ok"].get<bool>() ? "PASS" : "FAIL",
-                            verdict["text"].get<std::string>());
-}
-
 json figures_of(const json& document) {
   json figures = json::object();
   for (const json& section : document["sections"]) {
@@ -146,7 +159,7 @@ json figures_of(const json& document) {
   return figures;
 }
 
-json rows_from(const json& facts, const json& columns) {
+json fact_table(const std::string& title, const json& facts, json columns) {
   json rows = json::array();
   for (const json& fact : facts) {
     json row = json::array();
@@ -156,7 +169,7 @@ json rows_from(const json& facts, const json& columns) {
     }
     rows.push_back(std::move(row));
   }
-  return rows;
+  return table_section(title, std::move(columns), std::move(rows));
 }
 
 }  // namespace volcomp::host

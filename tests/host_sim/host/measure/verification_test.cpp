@@ -119,7 +119,7 @@ TEST(Verification, TextAndTablesHoldEveryFigure) {
       input(runs("PPP", {{0, 30}}, {{0, 30}}), runs("PPP", {{0, 1}}, {{0, 1}}));
   const VerificationResult r = verify(in);
   const std::string text = verification_text(in, r);
-  EXPECT_THAT(text, HasSubstr("30.00 ± ?"));
+  EXPECT_THAT(text, HasSubstr("30.00  ± ?"));
   EXPECT_THAT(text, HasSubstr("left out of the uncertainty: device"));
   EXPECT_THAT(verification_csv(r), HasSubstr("PPP,E,30.0000,,1.0000,,96.667,better\n"));
   const nlohmann::json j = verification_json(in, r);

@@ -45,12 +45,25 @@ TEST(TextOf, NumbersAreNeverMinusZeroNorInfinite) {
   const json table = table_section("", {column("a", "", 2), column("b", "", 0), plain_column("c")},
                                    {{-0.004, -0.4, std::numeric_limits<double>::infinity()},
                                     {-0.006, -0.6, 7},
-                                    {0.125, 1e6, 0.5}});
+                                    {0.125, 1e6, 0.5},
+                                    {1, 2, 650.0}});
   EXPECT_EQ(text_of(document_of({table})),
             "    a        b    c\n"
             " 0.00        0    -\n"
             "-0.01       -1    7\n"
-            " 0.12  1000000  0.5\n");
+            " 0.12  1000000  0.5\n"
+            " 1.00        2  650\n");
+}
+
+TEST(TextOf, AColumnMayHaveAPrefixAndAWordForWhatIsMissing) {
+  json uncertainty = column("U", "µm", 1);
+  uncertainty["prefix"] = "± ";
+  uncertainty["missing"] = "± ?";
+  EXPECT_EQ(text_of(document_of({table_section("", {column("E", "µm", 2), uncertainty},
+                                               {{1.0, 0.5}, {20.0, nullptr}})})),
+            "E, µm  U, µm\n"
+            " 1.00  ± 0.5\n"
+            "20.00    ± ?\n");
 }
 
 TEST(TextOf, ATitleHasAnEmptyLineBeforeItAndItsTableIndented) {
@@ -112,12 +125,19 @@ TEST(FiguresOf, TablesWithoutNamesHaveNone) {
   EXPECT_EQ(figures_of(document_of({table})), json::object());
 }
 
-TEST(RowsFrom, FactsBecomeTheRowsOfATable) {
-  const json table = diagonals();
-  const json figures = figures_of(document_of({table}));
-  EXPECT_EQ(rows_from(figures["figures"], {plain_column("", "where"), column("", "", 2, "after/um"),
-                                           plain_column("", "unknown")}),
-            json::parse(R"([["PNP", 0.372, null], ["face diagonals", null, null]])"));
+TEST(FactTable, RowsAreFactsAndCellsTheirMembers) {
+  const json facts = figures_of(document_of({diagonals()}))["figures"];
+  const json table =
+      fact_table("both", facts,
+                 {plain_column("diagonal", "where"), column("after", "µm", 2, "after/um"),
+                  plain_column("decides", "decides"), plain_column("unknown", "unknown")});
+  EXPECT_EQ(table["rows"], json::parse(R"([["PNP", 0.372, true, null],
+                                           ["face diagonals", null, false, null]])"));
+  EXPECT_EQ(text_of(document_of({table})),
+            "both\n"
+            "  diagonal        after, µm  decides\n"
+            "  PNP                  0.37  yes\n"
+            "  face diagonals          -  no\n");
 }
 
 }  // namespace
