@@ -1,10 +1,13 @@
 // A set-up for people, as a table, and for programs.
 
 #include <algorithm>
+#include <cstring>
 
 #include <fmt/format.h>
 
 #include "host_sim/host/bus/setup.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -24,53 +27,31 @@ std::string object_name(canopen::ObjectId object) {
   return fmt::format("{:04X}h:{:02X}", object.index, object.sub);
 }
 
-// `bits` as the value of this object.
-std::string value_text(const PlannedValue& v, std::uint64_t bits) {
-  if (v.type == canopen::DataType::real64) return fmt::format("{}", real_of(bits));
-  if (v.hexadecimal) return fmt::format("{:0{}X}h", bits, 2 * canopen::size_of(v.type));
-  if (canopen::is_signed(v.type)) return fmt::format("{}", signed_of(v.type, bits));
-  return fmt::format("{}", bits);
-}
-
 nlohmann::json value_json(const PlannedValue& v, std::uint64_t bits) {
   if (v.type == canopen::DataType::real64) return real_of(bits);
   if (canopen::is_signed(v.type)) return signed_of(v.type, bits);
   return bits;
 }
 
-nlohmann::json planned_json(const PlannedValue& v) {
-  return {{"object", object_name(v.object)},
-          {"name", v.name},
-          {"value", value_json(v, v.bits)},
-          {"unit", v.unit}};
+// For people: as the object is usually written.
+nlohmann::json value_shown(const PlannedValue& v, std::uint64_t bits) {
+  if (v.hexadecimal) return fmt::format("{:0{}X}h", bits, 2 * canopen::size_of(v.type));
+  return value_json(v, bits);
 }
 
-// A line of the table.
-struct Line {
-  std::string object;
-  std::string name;
-  std::string value;
-  std::string unit;
-  std::string remark;
-};
+std::string value_text(const PlannedValue& v, std::uint64_t bits) {
+  const nlohmann::json value = value_shown(v, bits);
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
+}
 
-std::string table_text(const std::vector<Line>& lines) {
-  std::size_t name = 0;
-  std::size_t value = 0;
-  std::size_t unit = 0;
-  for (const Line& line : lines) {
-    name = std::max(name, line.name.size());
-    value = std::max(value, line.value.size());
-    unit = std::max(unit, line.unit.size());
-  }
-  std::string text;
-  for (const Line& l : lines) {
-    std::string row = fmt::format("{:<8}  {:<{}}  {:>{}}  {:<{}}  {}", l.object, l.name, name,
-                                  l.value, value, l.unit, unit, l.remark);
-    row.erase(row.find_last_not_of(' ') + 1);
-    text += row + "\n";
-  }
-  return text;
+nlohmann::json row_of(const PlannedValue& v) {
+  return {object_name(v.object), v.name, value_json(v, v.bits), value_shown(v, v.bits), v.unit};
+}
+
+nlohmann::json columns() {
+  return {plain_column("object", "object"), plain_column("name", "name"), hidden_column("value"),
+          plain_column("value"), plain_column("unit", "unit")};
 }
 
 std::string remark_on(const SetupValue& v) {
@@ -81,54 +62,54 @@ std::string remark_on(const SetupValue& v) {
   return text;
 }
 
-}  // namespace
-
-std::string describe(const SetupPlan& plan) {
-  std::vector<Line> lines{{"object", "name", "value", "unit", ""}};
+nlohmann::json table_of(const SetupPlan& plan) {
+  nlohmann::json rows = nlohmann::json::array();
   for (const PlannedValue& v : plan)
-    lines.push_back({object_name(v.object), v.name, value_text(v, v.bits), v.unit, ""});
-  return table_text(lines);
+    rows.push_back(row_of(v));
+  return table_section("", columns(), std::move(rows));
 }
 
+nlohmann::json table_of(const std::vector<SetupValue>& values) {
+  nlohmann::json all = columns();
+  all.push_back(plain_column("before"));
+  all.push_back(hidden_column("before"));
+  all.push_back(hidden_column("read_back"));
+  nlohmann::json rows = nlohmann::json::array();
+  for (const SetupValue& v : values) {
+    rows.push_back(row_of(v.planned));
+    rows.back().push_back(remark_on(v));
+    rows.back().push_back(value_json(v.planned, v.before));
+    rows.back().push_back(value_json(v.planned, v.after));
+  }
+  return table_section("", std::move(all), std::move(rows));
+}
+
+}  // namespace
+
+std::string describe(const SetupPlan& plan) { return text_of_section(table_of(plan)); }
+
 std::string describe(const SetupResult& result) {
-  std::vector<Line> lines{{"object", "name", "value", "unit", "before"}};
-  for (const SetupValue& v : result.values)
-    lines.push_back({object_name(v.planned.object), v.planned.name,
-                     value_text(v.planned, v.planned.bits), v.planned.unit, remark_on(v)});
   const auto count = [&result](bool (SetupValue::*is)() const) {
     return std::count_if(result.values.begin(), result.values.end(),
                          [is](const SetupValue& v) { return (v.*is)(); });
   };
-  std::string text = table_text(lines);
-  text += fmt::format(
-      "node {} ({}): {} objects written, {} of them differed before, {} read back as written\n",
+  std::vector<std::string> lines{fmt::format(
+      "node {} ({}): {} objects written, {} of them differed before, {} read back as written",
       result.node, result.device, result.values.size(), count(&SetupValue::differed),
-      count(&SetupValue::kept));
+      count(&SetupValue::kept))};
   if (result.tables)
-    text += fmt::format("active: CRC-32 {:08X}, sequence number {}\n", result.tables->crc,
-                        result.tables->sequence);
-  text += result.stored ? "stored\n" : "not stored: lost at the next start of the node\n";
-  return text;
+    lines.push_back(fmt::format("active: CRC-32 {:08X}, sequence number {}", result.tables->crc,
+                                result.tables->sequence));
+  lines.emplace_back(result.stored ? "stored" : "not stored: lost at the next start of the node");
+  return text_of_sections({table_of(result.values), text_section("", lines)});
 }
 
-nlohmann::json to_json(const SetupPlan& plan) {
-  nlohmann::json values = nlohmann::json::array();
-  for (const PlannedValue& v : plan)
-    values.push_back(planned_json(v));
-  return values;
-}
+nlohmann::json to_json(const SetupPlan& plan) { return figures_of_table(table_of(plan)); }
 
 nlohmann::json to_json(const SetupResult& result) {
-  nlohmann::json values = nlohmann::json::array();
-  for (const SetupValue& v : result.values) {
-    nlohmann::json value = planned_json(v.planned);
-    value["before"] = value_json(v.planned, v.before);
-    value["read_back"] = value_json(v.planned, v.after);
-    values.push_back(value);
-  }
   nlohmann::json json{{"node", result.node},
                       {"device", result.device},
-                      {"objects", values},
+                      {"objects", figures_of_table(table_of(result.values))},
                       {"ok", result.ok()},
                       {"stored", result.stored}};
   if (result.tables) json["active_crc"] = fmt::format("{:08X}", result.tables->crc);
