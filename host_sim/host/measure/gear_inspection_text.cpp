@@ -1,8 +1,11 @@
 #include "host_sim/host/measure/gear_inspection_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "comp/core/units.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -30,12 +33,15 @@ std::string shown_tooth(const InspectedTrace& trace) {
   return trace.kind == GearTraceKind::pitch ? "all" : std::to_string(trace.tooth + 1);
 }
 
-std::string figure_line(const InspectedGear& g, const InspectedTrace& trace,
-                        const GearFigure& figure) {
-  return fmt::format("{:<9}{:<7}{:>5}  {:<6}{:>9.2f}{:>6}{:>11.2f}{:>6}\n", name_of(trace.kind),
-                     kFlankNames.at(trace.side), shown_tooth(trace), symbol_of(figure.deviation),
-                     figure.um[0], shown_grade(g, figure.grade[0], 0), figure.um[1],
-                     shown_grade(g, figure.grade[1], 1));
+// A line for each deviation of each trace, with value and grade by edition.
+json figure_rows(const InspectedGear& g) {
+  json rows = json::array();
+  for (const InspectedTrace& trace : g.traces)
+    for (const GearFigure& figure : trace.figures)
+      rows.push_back({name_of(trace.kind), kFlankNames.at(trace.side), shown_tooth(trace),
+                      symbol_of(figure.deviation), figure.um[0], shown_grade(g, figure.grade[0], 0),
+                      figure.um[1], shown_grade(g, figure.grade[1], 1)});
+  return rows;
 }
 
 json grade_json(const InspectedGear& g, const std::optional<int>& grade, std::size_t s) {
@@ -61,37 +67,40 @@ json trace_json(const InspectedGear& g, const InspectedTrace& trace) {
 }  // namespace
 
 std::string inspection_text(const InvoluteGear& gear, const InspectedGear& inspected) {
-  std::string text = fmt::format(
-      "{} teeth, module {:g} mm, pressure angle {:g} deg, helix angle {:g} deg, width {:g} mm\n",
-      gear.teeth, gear.module, kDegreesPerRad * gear.pressure_angle,
-      kDegreesPerRad * gear.helix_angle, gear.width);
-  text += fmt::format("{:<9}{:<7}{:>5}  {:<6}{:>9}{:>7}{:>10}{:>7}\n", "trace", "flank", "tooth",
-                      "", "1995, µm", "grade", "2013, µm", "class");
-  for (const InspectedTrace& trace : inspected.traces)
-    for (const GearFigure& figure : trace.figures)
-      text += figure_line(inspected, trace, figure);
+  const json figures =
+      table_section("",
+                    {plain_column("trace"), plain_column("flank"), plain_column("tooth"),
+                     plain_column(""), column("1995", "µm", 2), plain_column("grade"),
+                     column("2013", "µm", 2), plain_column("class")},
+                    figure_rows(inspected));
+  std::vector<std::string> lines;
   for (const std::string& warning : inspected.warnings)
-    text += fmt::format("warning: {}\n", warning);
-  for (std::size_t s = 0; s < kEditions.size(); ++s) {
-    text += inspected.covered.at(s)
-                ? fmt::format("{}: {}\n", kEditions.at(s),
-                              shown_grade(inspected, inspected.grade.at(s), s))
-                : fmt::format("{}: has no grades for a gear of this size\n", kEditions.at(s));
-  }
-  return text +
-         "The grade is the worst of F_a, F_b, f_pt and F_p as far as they were measured. No filter "
-         "was applied; the formulas were not checked against the printed standards.\n";
+    lines.push_back("warning: " + warning);
+  for (std::size_t s = 0; s < kEditions.size(); ++s)
+    lines.push_back(fmt::format("{}: {}", kEditions.at(s),
+                                inspected.covered.at(s)
+                                    ? shown_grade(inspected, inspected.grade.at(s), s)
+                                    : "has no grades for a gear of this size"));
+  lines.emplace_back(
+      "The grade is the worst of F_a, F_b, f_pt and F_p as far as they were measured. No filter "
+      "was applied; the formulas were not checked against the printed standards.");
+  return text_of_sections(
+      {text_section("", {fmt::format("{} teeth, module {:g} mm, pressure angle {:g} deg, helix "
+                                     "angle {:g} deg, width {:g} mm",
+                                     gear.teeth, gear.module, kDegreesPerRad * gear.pressure_angle,
+                                     kDegreesPerRad * gear.helix_angle, gear.width)}),
+       figures, text_section("", lines)});
 }
 
 std::string inspection_csv(const InspectedGear& inspected) {
   std::string text = "trace,flank,tooth,figure,1995 [um],1995 grade,2013 [um],2013 class\n";
-  for (const InspectedTrace& trace : inspected.traces)
-    for (const GearFigure& figure : trace.figures)
-      text +=
-          fmt::format("{},{},{},{},{:.4f},{},{:.4f},{}\n", name_of(trace.kind),
-                      kFlankNames.at(trace.side), shown_tooth(trace), symbol_of(figure.deviation),
-                      figure.um[0], shown_grade(inspected, figure.grade[0], 0), figure.um[1],
-                      shown_grade(inspected, figure.grade[1], 1));
+  for (const json& row : figure_rows(inspected)) {
+    std::vector<std::string> cells;
+    for (const json& cell : row)
+      cells.push_back(cell.is_string() ? cell.get<std::string>()
+                                       : fmt::format("{:.4f}", cell.get<double>()));
+    text += fmt::format("{}\n", fmt::join(cells, ","));
+  }
   return text;
 }
 
