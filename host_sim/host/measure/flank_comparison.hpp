@@ -82,6 +82,8 @@ struct FlankComparison {
 // Grade 5, or why there is none.
 [[nodiscard]] std::string grade_text(const std::optional<GradedProfile>& profile);
 
+// Rows of cells, µm; null: not measured.
+[[nodiscard]] nlohmann::json cells_json(const ErrorMap& map);
 [[nodiscard]] std::string comparison_text(const FlankComparison& comparison);
 [[nodiscard]] nlohmann::json comparison_json(const FlankComparison& comparison);
 // The document of a report.

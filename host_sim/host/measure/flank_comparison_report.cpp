@@ -23,22 +23,18 @@ json numbered(const std::string& label, std::size_t count) {
 
 json heat_map(const FlankComparison& c, const std::string& id, const std::string& title,
               const ErrorMap& map) {
-  json rows = json::array();
-  for (std::size_t row = 0; row < kGridRows; ++row) {
-    json list = json::array();
-    for (std::size_t column = 0; column < kGridColumns; ++column)
-      list.push_back(map.has(row, column) ? json(map.at(row, column)) : json(nullptr));
-    rows.push_back(list);
-  }
   const CompareOptions& o = c.options;
-  return {
-      {"type", "heatmap"},
-      {"id", id},
-      {"title", title},
-      {"x", numbered(fmt::format("column, 1 = {}", o.column_1_is_inner ? "inner" : "outer"),
-                     kGridColumns)},
-      {"y", numbered(fmt::format("row, 1 = {}", o.row_1_is_tip ? "tip" : "root"), kGridRows)},
-      {"z", {{"label", "deviation, + = excess"}, {"unit", "µm"}, {"digits", 1}, {"values", rows}}}};
+  return {{"type", "heatmap"},
+          {"id", id},
+          {"title", title},
+          {"x", numbered(fmt::format("column, 1 = {}", o.column_1_is_inner ? "inner" : "outer"),
+                         kGridColumns)},
+          {"y", numbered(fmt::format("row, 1 = {}", o.row_1_is_tip ? "tip" : "root"), kGridRows)},
+          {"z",
+           {{"label", "deviation, + = excess"},
+            {"unit", "µm"},
+            {"digits", 1},
+            {"values", cells_json(map)}}}};
 }
 
 void add_maps(const FlankComparison& c, json& sections) {

@@ -6,6 +6,8 @@
 
 #include "comp/metrology/faces/face_gear_grade.hpp"
 #include "host_sim/host/measure/flank_comparison.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -15,47 +17,43 @@ using nlohmann::json;
 // A value that is printed with one decimal: no "-0.0".
 double tenths(double value) { return std::abs(value) < 0.05 ? 0.0 : value; }
 
-std::string cell_text(const ErrorMap& map, std::size_t row, std::size_t column) {
-  if (!map.has(row, column)) return fmt::format("{:>6}", "-");
-  return fmt::format("{:6.1f}", tenths(map.at(row, column)));
-}
-
-std::string margin_text(const CellStatistics& s) {
-  return s.count == 0 ? fmt::format("{:>6}", "-") : fmt::format("{:6.1f}", s.largest);
-}
+json largest_or_null(const CellStatistics& s) { return s.count == 0 ? json() : json(s.largest); }
 
 // The differences with the largest of each row and column in the margins.
-std::string map_text(const MapDifference& d) {
-  std::string text = fmt::format("{:>9}", "");
-  for (std::size_t column = 0; column < kGridColumns; ++column)
-    text += fmt::format("{:6}", column + 1);
-  text += "   largest\n";
-  for (std::size_t row = 0; row < kGridRows; ++row) {
-    text += fmt::format("{:>9}", row + 1);
-    for (std::size_t column = 0; column < kGridColumns; ++column)
-      text += cell_text(d.difference, row, column);
-    text += fmt::format("    {}\n", margin_text(d.row.at(row)));
+json map_table(const MapDifference& d) {
+  json columns = json::array({plain_column("")});
+  json margin = json::array({"largest"});
+  for (std::size_t column_at = 0; column_at < kGridColumns; ++column_at) {
+    columns.push_back(column(std::to_string(column_at + 1), "", 1));
+    margin.push_back(largest_or_null(d.column.at(column_at)));
   }
-  text += fmt::format("{:>9}", "largest");
-  for (const CellStatistics& s : d.column)
-    text += margin_text(s);
-  return text + "\n";
+  columns.push_back(column("largest", "", 1));
+  margin.push_back("");
+  json rows = cells_json(d.difference);
+  for (std::size_t row = 0; row < kGridRows; ++row) {
+    rows[row].insert(rows[row].begin(), row + 1);
+    rows[row].push_back(largest_or_null(d.row.at(row)));
+  }
+  rows.push_back(margin);
+  return table_section("", columns, rows);
 }
 
-std::string flank_text(const FlankComparison& c, const FlankPair& pair) {
-  std::string text = fmt::format("{} flank (side {:+d}): {} - {}\n", pair.name, pair.side,
-                                 c.options.names[0], c.options.names[1]);
+void add_flank(const FlankComparison& c, const FlankPair& pair, json& sections) {
+  std::vector<std::string> files;
   for (std::size_t k = 0; k < 2; ++k) {
     const MeasuredFlank& m = pair.measured.at(k);
-    text += fmt::format("  {}: {}, from {:.1f} to {:.1f}", c.options.names.at(k), m.file,
-                        m.statistics.low, m.statistics.high);
-    if (m.map.missing() > 0) text += fmt::format(", {} cells not measured", m.map.missing());
-    text += "\n";
+    const std::string missing =
+        m.map.missing() > 0 ? fmt::format(", {} cells not measured", m.map.missing()) : "";
+    files.push_back(fmt::format("  {}: {}, from {:.1f} to {:.1f}{}", c.options.names.at(k), m.file,
+                                m.statistics.low, m.statistics.high, missing));
   }
-  text += map_text(pair.difference);
+  sections.push_back(text_section(fmt::format("{} flank (side {:+d}): {} - {}", pair.name,
+                                              pair.side, c.options.names[0], c.options.names[1]),
+                                  files));
+  sections.push_back(map_table(pair.difference));
   const CellStatistics& s = pair.difference.overall;
-  return text + fmt::format("  largest {:.1f} µm at row {}, column {}; rms {:.2f} µm\n\n",
-                            s.largest, s.row + 1, s.column + 1, s.rms);
+  sections.back()["note"] = fmt::format("  largest {:.1f} µm at row {}, column {}; rms {:.2f} µm",
+                                        s.largest, s.row + 1, s.column + 1, s.rms);
 }
 
 std::string profile_text(const FlankComparison& c) {
@@ -90,17 +88,6 @@ std::string frame_text(const FlankComparison& c) {
 }
 
 // --- JSON
-
-json cells_json(const ErrorMap& map) {
-  json rows = json::array();
-  for (std::size_t row = 0; row < kGridRows; ++row) {
-    json list = json::array();
-    for (std::size_t column = 0; column < kGridColumns; ++column)
-      list.push_back(map.has(row, column) ? json(map.at(row, column)) : json(nullptr));
-    rows.push_back(list);
-  }
-  return rows;
-}
 
 json statistics_json(const CellStatistics& s) {
   if (s.count == 0) return nullptr;
@@ -167,11 +154,24 @@ json profile_json(const FlankComparison& c, std::size_t k) {
 
 }  // namespace
 
+json cells_json(const ErrorMap& map) {
+  json rows = json::array();
+  for (std::size_t row = 0; row < kGridRows; ++row) {
+    json list = json::array();
+    for (std::size_t column = 0; column < kGridColumns; ++column)
+      list.push_back(map.has(row, column) ? json(map.at(row, column)) : json(nullptr));
+    rows.push_back(list);
+  }
+  return rows;
+}
+
 std::string comparison_text(const FlankComparison& c) {
-  std::string text = conventions_of(c.options) + "\n\n";
+  json sections = json::array({text_section("", {conventions_of(c.options)})});
   for (const FlankPair& pair : c.flanks)
-    text += flank_text(c, pair);
-  text += fmt::format("all: largest difference {:.1f} µm, rms {:.2f} µm\n", c.largest_um, c.rms_um);
+    add_flank(c, pair, sections);
+  std::string text =
+      text_of_sections(sections) +
+      fmt::format("\nall: largest difference {:.1f} µm, rms {:.2f} µm\n", c.largest_um, c.rms_um);
   if (c.options.limit_um)
     text += fmt::format("{} the limit of {:g} um: {}\n", c.within_limit() ? "within" : "beyond",
                         *c.options.limit_um, c.within_limit() ? "PASS" : "FAIL");
