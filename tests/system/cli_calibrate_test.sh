@@ -38,7 +38,7 @@ PYTHON
 calibrate=("$volcomp" calibrate-probe)
 for change in plain normal approach um; do
   touches points.csv sphere "$change"
-  expect 0 'effective radius   1.500000 mm' "${calibrate[@]}" points.csv --sphere 25 --out probe.toml --json probe.json
+  expect 0 'effective radius  1.500000 mm' "${calibrate[@]}" points.csv --sphere 25 --out probe.toml --json probe.json
   /usr/bin/python3 - sphere "$change" <<'PYTHON' || { echo "FAILED: sphere, $change"; failed=1; }
 import json, sys, tomllib
 found = json.load(open("probe.json", encoding="utf-8"))
@@ -64,7 +64,7 @@ assert found["parameters"] == 7 and abs(found["lobing_range_um"] - 4) < 1e-6, fo
 PYTHON
 # The same ring upright: its axis along Y.
 awk -F, 'NR == 1 || NF == 3 { print $1 "," $3 "," $2 }' points.csv | sed '1s/.*/X [mm],Y [mm],Z [mm]/' >upright.csv
-expect 0 'effective radius   1.500000 mm' "${calibrate[@]}" upright.csv --ring 50 --ring-axis Y
+expect 0 'effective radius  1.500000 mm' "${calibrate[@]}" upright.csv --ring 50 --ring-axis Y
 
 # --- noise comes out as repeatability, and in the uncertainty with the certificate of the sphere: U(diameter)/2
 touches points.csv sphere noisy

@@ -6,6 +6,8 @@
 #include "firmware/node/object_handles.hpp"
 #include "host_sim/host/io/rounded.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -38,11 +40,21 @@ std::string unknown_terms(const ProbeCalibration& c) {
 
 std::string uncertainty_method(const ProbeCalibration& c, const ProbeArtefact& artefact) {
   return fmt::format(
-      "uncertainty: k = 2, from the residuals, {} touches less {} parameters; {}\n", c.touches,
+      "uncertainty: k = 2, from the residuals, {} touches less {} parameters; {}", c.touches,
       c.parameters,
       artefact.expanded_um
           ? fmt::format("diameter of the artefact ± {:g} µm (k = 2)", *artefact.expanded_um)
           : "left out: that of the diameter of the artefact");
+}
+
+json settings_table(const ProbeCalibration& c) {
+  json rows = json::array();
+  for (const NodeSetting& s : probe_settings(c))
+    rows.push_back({object_text(s), s.value, s.unit, s.name});
+  return table_section("",
+                       {plain_column("object", "object"), column("value", "", 3, "value"),
+                        plain_column("unit", "unit"), plain_column("name", "name")},
+                       rows);
 }
 
 }  // namespace
@@ -74,34 +86,29 @@ std::string calibration_title(const ProbeCalibration& calibration, const ProbeAr
 }
 
 std::string calibration_text(const ProbeCalibration& c, const ProbeArtefact& artefact) {
-  std::string text = calibration_title(c, artefact) + "\n";
-  text += fmt::format("effective radius   {:.6f} mm ± {:.3f} µm\n", c.radius.coefficient[0],
-                      kExpanded * kUmPerMm * c.u_effective);
+  std::vector<std::pair<std::string, std::string>> lines{
+      {"effective radius", fmt::format("{:.6f} mm ± {:.3f} µm", c.radius.coefficient[0],
+                                       kExpanded * kUmPerMm * c.u_effective)}};
   if (c.most_radius > c.least_radius)
-    text += fmt::format(
-        "by direction       {:.6f} … {:.6f} mm where touched, lobing {:.3f} µm, ± {:.3f} µm\n",
-        c.least_radius, c.most_radius, kUmPerMm * (c.most_radius - c.least_radius),
-        kExpanded * kUmPerMm * c.u_map);
-  text += fmt::format("repeatability      {:.3f} µm, standard deviation of a touch\n",
-                      kUmPerMm * c.repeatability);
-  text +=
-      fmt::format("largest residual   {:.3f} µm, line {}\n", kUmPerMm * c.largest, c.worst_line);
-  text += fmt::format("artefact           at {:.4f} {:.4f} {:.4f} mm\n", rounded(c.centre(0), 4),
-                      rounded(c.centre(1), 4), rounded(c.centre(2), 4));
-  text += uncertainty_method(c, artefact);
+    lines.emplace_back(
+        "by direction",
+        fmt::format("{:.6f} … {:.6f} mm where touched, lobing {:.3f} µm, ± {:.3f} µm",
+                    c.least_radius, c.most_radius, kUmPerMm * (c.most_radius - c.least_radius),
+                    kExpanded * kUmPerMm * c.u_map));
+  lines.emplace_back("repeatability", fmt::format("{:.3f} µm, standard deviation of a touch",
+                                                  kUmPerMm * c.repeatability));
+  lines.emplace_back("largest residual",
+                     fmt::format("{:.3f} µm, line {}", kUmPerMm * c.largest, c.worst_line));
+  lines.emplace_back("artefact", fmt::format("at {:.4f} {:.4f} {:.4f} mm", rounded(c.centre(0), 4),
+                                             rounded(c.centre(1), 4), rounded(c.centre(2), 4)));
+  std::vector<std::string> remarks{uncertainty_method(c, artefact)};
   if (const std::string unknown = unknown_terms(c); !unknown.empty())
-    text += fmt::format("coefficients that stay 0: {}\n", unknown);
-  for (const NodeSetting& s : probe_settings(c))
-    text +=
-        fmt::format("{}  {:>14.3f} {}  {}\n", object_text(s), rounded(s.value, 3), s.unit, s.name);
-  return text;
+    remarks.push_back("coefficients that stay 0: " + unknown);
+  return text_of_sections({text_section("", {calibration_title(c, artefact)}),
+                           list_section("", lines), text_section("", remarks), settings_table(c)});
 }
 
 json calibration_json(const ProbeCalibration& c, const ProbeArtefact& artefact) {
-  json settings = json::array();
-  for (const NodeSetting& s : probe_settings(c))
-    settings.push_back(
-        {{"object", object_text(s)}, {"name", s.name}, {"value", s.value}, {"unit", s.unit}});
   json known = json::array();
   for (std::size_t k = 0; k < kLobingTerms; ++k)
     known.push_back((c.known >> k & 1U) != 0);
@@ -121,7 +128,7 @@ json calibration_json(const ProbeCalibration& c, const ProbeArtefact& artefact) 
           {"largest_residual_line", c.worst_line},
           {"centre_mm", {c.centre(0), c.centre(1), c.centre(2)}},
           {"coverage_factor", kExpanded},
-          {"settings", settings}};
+          {"settings", figures_of_table(settings_table(c))}};
 }
 
 }  // namespace volcomp::host
