@@ -14,6 +14,8 @@
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
 #include "host_sim/host/machine/machine_summary.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -65,25 +67,35 @@ constexpr std::array<Listed, 5> kScenarios{{
     {"machine", "any machine file, errors at random: diagonals, volume, ball on the table"},
 }};
 
+nlohmann::json table_without_head(const std::string& title, const nlohmann::json& facts,
+                                  const std::vector<const char*>& members) {
+  nlohmann::json columns = nlohmann::json::array();
+  for (const char* member : members)
+    columns.push_back(host::plain_column(member, member));
+  nlohmann::json table = host::fact_table(title, facts, std::move(columns));
+  table["head"] = false;
+  return table;
+}
+
 int list_everything(const std::string& json_file) {
   Results results({json_file});
-  nlohmann::json result{{"scenarios", nlohmann::json::array()},
-                        {"machines", nlohmann::json::array()}};
-  std::string text = "scenarios (volcomp run NAME):\n";
-  for (const Listed& s : kScenarios) {
-    text += fmt::format("  {:17} {}\n", s.name, s.what);
-    result["scenarios"].push_back({{"name", s.name}, {"what", s.what}});
-  }
-  text += "machines (volcomp machine example NAME):\n";
+  nlohmann::json facts{{"scenarios", nlohmann::json::array()},
+                       {"machines", nlohmann::json::array()}};
+  for (const Listed& s : kScenarios)
+    facts["scenarios"].push_back({{"name", s.name}, {"what", s.what}});
   for (const std::string& name : host::bundled_machines()) {
     const host::MachineFile m = host::read_machine_file(host::bundled_machine(name));
-    text += fmt::format("  {:17} {:16} {}\n", name, host::chain_text(m.chain), m.path);
-    result["machines"].push_back(
+    facts["machines"].push_back(
         {{"name", name}, {"chain", host::chain_text(m.chain)}, {"file", m.path}});
   }
-  results.add(json_file, json_text(result));
+  results.add(json_file, json_text(facts));
   results.write();
-  fmt::print(results.text(), "{}", text);
+  fmt::print(results.text(), "{}",
+             host::text_of_sections(
+                 {table_without_head("scenarios (volcomp run NAME):", facts["scenarios"],
+                                     {"name", "what"}),
+                  table_without_head("machines (volcomp machine example NAME):", facts["machines"],
+                                     {"name", "chain", "file"})}));
   return 0;
 }
 

@@ -8,6 +8,8 @@
 #include "comp/tick/compensator.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -144,23 +146,14 @@ std::string place_text(const json& at) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string bodies_text(const json& facts) {
-  std::string text;
-  text += fmt::format("chain {}, lower bodies {}\n", facts["chain"].get<std::string>(),
-                      words(facts["lower_body"]));
-  text += fmt::format("body  on  side       joint    axis  sign  offset [mm]\n");
-  for (const json& b : facts["bodies"]) {
-    const bool moves = b.contains("axis");
-    const std::string axis = moves ? fmt::format("{} {} {}", b["axis"].get<std::string>(),
-                                                 b["joint"] == "rotary" ? "about" : "along",
-                                                 b["direction"].get<std::string>())
-                                   : b["name"].get<std::string>();
-    text += fmt::format(
-        "{:4}  {:2}  {:9}  {:7}  {}{}  {}\n", b["number"].get<int>(), b["on"].get<int>(),
-        b["side"].get<std::string>(), b["joint"].get<std::string>(), axis,
-        moves ? fmt::format("  {:+d}", b["sign"].get<int>()) : "", b["offset_mm"].dump());
-  }
-  return text;
+json body_table(const json& facts) {
+  json columns = json::array({plain_column("body", "number")});
+  for (const char* member : {"on", "side", "joint", "name", "axis", "direction", "sign"})
+    columns.push_back(plain_column(member, member));
+  columns.push_back(plain_column("offset [mm]", "offset_mm/0"));
+  columns.push_back(plain_column("", "offset_mm/1"));
+  columns.push_back(plain_column("", "offset_mm/2"));
+  return fact_table("", facts["bodies"], columns);
 }
 
 std::string axes_text(const json& facts) {
@@ -233,7 +226,9 @@ std::string summary_text(const json& facts) {
   std::string text =
       fmt::format("{}: {} (id {})\n", facts["file"].get<std::string>(),
                   facts["name"].get<std::string>(), facts["id"].get<std::uint32_t>());
-  text += bodies_text(facts);
+  text += fmt::format("chain {}, lower bodies {}\n", facts["chain"].get<std::string>(),
+                      words(facts["lower_body"]));
+  text += text_of_section(body_table(facts));
   text += fmt::format("tool point {} mm in the frame of the last body of the tool\n",
                       facts["tool_point_mm"].dump());
   text += axes_text(facts) + correction_text(facts);
