@@ -5,6 +5,8 @@
 #include "host_sim/host/bus/bus_monitor.hpp"
 #include "host_sim/host/bus/device_files/signal_names.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -23,47 +25,44 @@ std::string state_words(const StationSeen& s) {
   return s.silent ? "SILENT, was " + text : text;
 }
 
-// Millimetres or degrees.
-std::string position(const std::optional<double>& value, const std::string& unit) {
-  if (!value) return fmt::format("{:>13}", "?");
-  return unit == "nm" ? fmt::format("{:10.6f} mm", 1e-6 * *value)
-                      : fmt::format("{:9.6f} deg", *value);
-}
-
 std::string offset_words(const AxisSeen& a) {
   if (!a.offset) return "no offset";
   return a.unit == "nm" ? fmt::format("offset {:+.3f} µm", *a.offset / kNmPerUm)
                         : fmt::format("offset {:+.7f} deg", *a.offset);
 }
 
-std::string axis_line(const AxisSeen& a) {
-  std::string text =
-      fmt::format("  {}  target {}  actual {}  {}", a.letter, position(a.target, a.unit),
-                  position(a.actual, a.unit), offset_words(a));
-  if (a.status_word) text += fmt::format("  {}", describe_drive(*a.status_word));
-  if (a.edges) text += fmt::format("  {} probe edges", *a.edges);
-  if (a.lost != 0) text += fmt::format("  {} cycles incomplete", a.lost);
-  return text + "\n";
-}
-
 // Positions in mm or deg, offsets in um or deg.
-json axis_json(const AxisSeen& a) {
+json axis_row(const AxisSeen& a) {
   const bool linear = a.unit == "nm";
   const auto scaled = [&](const std::optional<double>& value, double factor) {
     return value ? json(linear ? factor * *value : *value) : json();
   };
-  json j{{"axis", std::string(1, a.letter)},
-         {"drive", a.drive},
-         {"unit", linear ? "mm" : "deg"},
-         {"target", scaled(a.target, 1e-6)},
-         {"actual", scaled(a.actual, 1e-6)},
-         {"offset_unit", linear ? "um" : "deg"},
-         {"offset", scaled(a.offset, 1e-3)},
-         {"status_word", a.status_word ? json(*a.status_word) : json()},
-         {"cycles_incomplete", a.lost}};
-  j["status"] = a.status_word ? json(describe_drive(*a.status_word)) : json();
-  j["probe_edges"] = a.edges ? json(*a.edges) : json();
-  return j;
+  return {std::string(1, a.letter),
+          scaled(a.target, 1e-6),
+          scaled(a.actual, 1e-6),
+          linear ? "mm" : "deg",
+          offset_words(a),
+          a.status_word ? json(describe_drive(*a.status_word)) : json(),
+          a.edges ? json(*a.edges) : json(),
+          a.lost,
+          a.drive,
+          linear ? "um" : "deg",
+          scaled(a.offset, 1e-3),
+          a.status_word ? json(*a.status_word) : json()};
+}
+
+json axis_table(const BusSnapshot& s) {
+  json rows = json::array();
+  for (const AxisSeen& axis : s.axes)
+    rows.push_back(axis_row(axis));
+  return table_section(
+      "",
+      {plain_column("axis", "axis"), column("target", "", 6, "target"),
+       column("actual", "", 6, "actual"), plain_column("", "unit"), plain_column(""),
+       plain_column("drive", "status"), plain_column("probe edges", "probe_edges"),
+       plain_column("cycles incomplete", "cycles_incomplete"), hidden_column("drive"),
+       hidden_column("offset_unit"), hidden_column("offset"), hidden_column("status_word")},
+      rows);
 }
 
 }  // namespace
@@ -87,8 +86,7 @@ std::string describe(const BusSnapshot& s) {
                 : fmt::format("  compensation: {}, tables CRC-32 {:08X}; {}\n", s.node->state,
                               s.node->active_crc, describe_status(s.node->status));
   }
-  for (const AxisSeen& axis : s.axes)
-    text += axis_line(axis);
+  text += text_of_section(axis_table(s));
   if (s.emergency_count > s.emergencies.size())
     text += fmt::format("  {} emergencies, the last:\n", s.emergency_count);
   for (const EmergencySeen& e : s.emergencies)
@@ -105,9 +103,6 @@ json to_json(const BusSnapshot& s) {
                         {"silent", station.silent},
                         {"frames", station.frames}});
   }
-  json axes = json::array();
-  for (const AxisSeen& axis : s.axes)
-    axes.push_back(axis_json(axis));
   json emergencies = json::array();
   for (const EmergencySeen& e : s.emergencies)
     emergencies.push_back({{"time_s", e.time_s}, {"who", e.who}, {"text", e.text}});
@@ -131,7 +126,7 @@ json to_json(const BusSnapshot& s) {
             {"most_us", synced ? json(s.sync.most_us) : json()}}},
           {"stations", stations},
           {"node", node},
-          {"axes", axes},
+          {"axes", figures_of_table(axis_table(s))},
           {"emergencies", emergencies},
           {"emergency_count", s.emergency_count}};
 }
