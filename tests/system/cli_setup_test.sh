@@ -80,7 +80,7 @@ start_node second --store second/store
 expect 0 'active: CRC-32' "$volcomp" setup --machine other.toml --can pipe:second --tables other.vct
 stop_node -KILL
 start_node second --store second/store
-expect 0 'active tables:        CRC-32' "$volcomp" diagnose --can pipe:second
+expect 0 'active tables:         CRC-32' "$volcomp" diagnose --can pipe:second
 stop_node -TERM
 
 # --- tables alone tell the machine, too

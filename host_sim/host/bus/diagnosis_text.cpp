@@ -7,6 +7,8 @@
 #include "firmware/node/store/storage.hpp"
 #include "host_sim/host/bus/cia402_status.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -204,10 +206,9 @@ std::string describe_error(std::uint32_t field) {
 }
 
 std::string describe(const Diagnosis& d) {
-  std::string text = fmt::format("node {}: {}, hardware {}, software {}\n", d.node_id, d.name,
-                                 d.hardware_version, d.software_version);
-  const auto line = [&text](const char* what, const std::string& value) {
-    text += fmt::format("{:<22}{}\n", what, value);
+  std::vector<std::pair<std::string, std::string>> lines;
+  const auto line = [&lines](const char* what, const std::string& value) {
+    lines.emplace_back(what, value);
   };
   line("network state:", d.nmt ? words(*d.nmt) : "unknown, no heartbeat within 1 s");
   line("state:", words(d.state));
@@ -223,11 +224,14 @@ std::string describe(const Diagnosis& d) {
   line("SYNC:", fmt::format("{} missed, {} of another producer", d.sync_missed, d.sync_foreign));
   line("frames lost:", std::to_string(d.frames_lost));
   line("tables:", fmt::format("{} times activated, {} times refused", d.activations, d.rejections));
-  if (d.thermal) text += describe(*d.thermal);
+  if (d.thermal) add_lines(*d.thermal, lines);
   line("errors now:", d.error_register == 0
                           ? std::string("none")
                           : fmt::format("error register {:02X}h", d.error_register));
   line("error history:", d.errors.empty() ? "empty" : "newest first");
+  std::string text = fmt::format("node {}: {}, hardware {}, software {}\n", d.node_id, d.name,
+                                 d.hardware_version, d.software_version) +
+                     text_of_section(list_section("", lines));
   for (const std::uint32_t field : d.errors)
     text += fmt::format("  {}\n", describe_error(field));
   if (d.axes.empty()) text += "no axis has a drive\n";

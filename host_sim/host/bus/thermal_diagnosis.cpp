@@ -83,17 +83,16 @@ std::optional<ThermalDiagnosis> diagnose_thermal(NodeClient& client) {
   return d;
 }
 
-std::string describe(const ThermalDiagnosis& d) {
-  std::string text = fmt::format("{:<22}{}\n", "tables expire:", expiry_text(d));
-  text += fmt::format("{:<22}{}", "expansion:", words(d.state));
+void add_lines(const ThermalDiagnosis& d, std::vector<std::pair<std::string, std::string>>& lines) {
+  lines.emplace_back("tables expire:", expiry_text(d));
+  lines.emplace_back("expansion:", words(d.state));
   if (d.state != node::ThermalState::off)
-    text += fmt::format(" ({} times so far, {:.3f} µm behind)", d.followed, d.behind_um);
-  text += '\n';
+    lines.back().second +=
+        fmt::format(" ({} times so far, {:.3f} µm behind)", d.followed, d.behind_um);
   for (std::size_t i = 0; i < d.input.size(); ++i) {
     const bool idle = !d.input[i].connected && d.input[i].state == TemperatureState::unknown;
-    if (!idle) text += fmt::format("  temperature {}: {}\n", i, input_text(d.input[i]));
+    if (!idle) lines.emplace_back(fmt::format("temperature {}:", i), input_text(d.input[i]));
   }
-  return text;
 }
 
 nlohmann::json to_json(const ThermalDiagnosis& d) {

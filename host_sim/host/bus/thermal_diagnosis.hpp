@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -31,7 +33,9 @@ struct ThermalDiagnosis {
 // Nothing for a node that knows no temperatures. Throws as NodeClient::read.
 [[nodiscard]] std::optional<ThermalDiagnosis> diagnose_thermal(NodeClient& client);
 
-[[nodiscard]] std::string describe(const ThermalDiagnosis& diagnosis);
+// Names and values, a line each, for people.
+void add_lines(const ThermalDiagnosis& diagnosis,
+               std::vector<std::pair<std::string, std::string>>& lines);
 [[nodiscard]] nlohmann::json to_json(const ThermalDiagnosis& diagnosis);
 
 // A date as text, UTC: "2030-01-01 00:00:00".
