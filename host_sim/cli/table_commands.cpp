@@ -36,26 +36,25 @@ bool is_rotary(const host::MachineFile& machine, std::size_t a) {
   return machine.chain.axis(a).kind == JointKind::rotary;
 }
 
-std::string closed_text(const std::optional<host::TurnGap>& gap) {
-  if (!gap) return "";
-  return fmt::format("; ends of the turn {:.2f} µm, {:.2f} µrad apart, closed", 1e3 * gap->mm,
-                     1e6 * gap->rad);
+std::string closed_text(const nlohmann::json& axis) {
+  if (!axis.contains("turn_closed")) return "";
+  const nlohmann::json& gap = axis["turn_closed"];
+  return fmt::format("; ends of the turn {:.2f} µm, {:.2f} µrad apart, closed",
+                     gap["um"].get<double>(), gap["urad"].get<double>());
 }
 
-std::string axis_line(const host::MachineFile& machine, const host::BuiltTables& tables,
-                      std::size_t a) {
-  const BuiltTable& b = *tables.built[a];
-  const Iso230Figures& f = b.positioning;
-  const double scale = is_rotary(machine, a) ? 1e6 : 1e3;
-  return fmt::format(
-      "{}  {} targets -> {} knots, {} reversal; ISO 230-2: A {:.2f} R {:.2f} E {:.2f} B {:.2f} M "
-      "{:.2f} {}{}\n",
-      machine.axes[a].letter, b.targets, tables.tables.axis[a].knots,
-      b.reversal_known ? "known" : "unknown", scale * f.A, scale * f.R, scale * f.E, scale * f.B,
-      scale * f.M, is_rotary(machine, a) ? "µrad" : "µm", closed_text(tables.gaps[a]));
+std::string axis_line(const nlohmann::json& axis) {
+  std::string figures;
+  for (const char* name : {"A", "R", "E", "B", "M"})
+    figures += fmt::format("{} {:.2f} ", name, axis["iso230_2"][name].get<double>());
+  return fmt::format("{}  {} targets -> {} knots, {} reversal; ISO 230-2: {}{}{}\n",
+                     axis["axis"].get<std::string>(), axis["targets"].get<int>(),
+                     axis["knots"].get<int>(),
+                     axis["reversal_known"].get<bool>() ? "known" : "unknown", figures,
+                     axis["unit"] == "um" ? "µm" : "µrad", closed_text(axis));
 }
 
-std::string validity_text(const host::MachineFile& machine, const Provenance& provenance) {
+std::string expansion_text(const host::MachineFile& machine, const Provenance& provenance) {
   std::string text;
   for (std::size_t a = 0; a < machine.axes.size(); ++a) {
     const AxisExpansion& e = machine.thermal.expansion.at(a);
@@ -64,25 +63,26 @@ std::string validity_text(const host::MachineFile& machine, const Provenance& pr
                         machine.axes[a].letter, 1e6 * static_cast<double>(e.per_K),
                         provenance.temperature_C, e.input);
   }
-  if (provenance.expires_unix_s != 0)
-    text += fmt::format("expires {} UTC\n", host::date_text(provenance.expires_unix_s));
   return text;
 }
 
-std::string words_of(const host::MachineFile& machine, const host::BuiltTables& tables) {
+std::string words_of(const host::MachineFile& machine, const Provenance& provenance,
+                     const nlohmann::json& facts) {
   std::string text;
-  for (std::size_t a = 0; a < machine.axes.size(); ++a)
-    text += axis_line(machine, tables, a);
-  if (machine.squareness) {
-    const XyfzSquareness& p = tables.parameters;
+  for (const nlohmann::json& axis : facts["axes"])
+    text += axis_line(axis);
+  if (facts.contains("squareness_urad")) {
+    const nlohmann::json& p = facts["squareness_urad"];
     text += fmt::format("squareness in the model: a_xy {:.2f} a_xz {:.2f} a_yz {:.2f} µrad\n",
-                        1e6 * p.a_xy, 1e6 * p.a_xz, 1e6 * p.a_yz);
+                        p["a_xy"].get<double>(), p["a_xz"].get<double>(), p["a_yz"].get<double>());
   }
-  text += validity_text(machine, tables.tables.provenance);
-  for (const std::string& warning : tables.warnings)
-    text += fmt::format("warning: {}\n", warning);
+  text += expansion_text(machine, provenance);
+  if (facts.contains("expires_utc"))
+    text += fmt::format("expires {} UTC\n", facts["expires_utc"].get<std::string>());
+  for (const nlohmann::json& warning : facts["warnings"])
+    text += fmt::format("warning: {}\n", warning.get<std::string>());
   return text + fmt::format("first-order run-time model within {:.1f} nm of the exact chain\n",
-                            tables.model_bound_nm);
+                            facts["model_bound_nm"].get<double>());
 }
 
 // Figures after ISO 230-2 in um or urad.
@@ -158,11 +158,12 @@ int build_tables(const BuildArguments& arguments) {
   arguments.stamp.copy(provenance.stamp.data(), provenance.stamp.size());
   const std::vector<std::uint8_t> image = host::make_image(tables->tables);
   results.add(arguments.out, {reinterpret_cast<const char*>(image.data()), image.size()});
-  results.add(arguments.json_file, json_text(build_json(machine, *tables, image)));
+  const nlohmann::json facts = build_json(machine, *tables, image);
+  results.add(arguments.json_file, json_text(facts));
   results.write();
-  fmt::print(results.text(), "{}{}: {} bytes, machine {}, CRC-32 {:08X}\n",
-             words_of(machine, *tables), shown_output(arguments.out), image.size(), machine.id,
-             image_crc({image.data(), image.size()}));
+  fmt::print(results.text(), "{}{}: {} bytes, machine {}, CRC-32 {}\n",
+             words_of(machine, provenance, facts), shown_output(arguments.out), image.size(),
+             machine.id, facts["crc32"].get<std::string>());
   return 0;
 }
 
