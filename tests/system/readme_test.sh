@@ -17,7 +17,7 @@ while read -r line; do
     [ "$(tr -d '*' <<<"$candidate" | grep -oE '[0-9]+\.[0-9]+' | tr '\n' ' ')" = "$numbers" ] && found=yes
   done < <(grep '^|' "$page")
   [ "$found" = yes ] || { echo "FAILED: $page lacks the row: $line"; failed=1; }
-done < <(grep -E '^(uncompensated|naive model|Abbe model)' <<<"$printed")
+done < <(grep -E '^ *(uncompensated|naive model|Abbe model)' <<<"$printed")
 [ "$rows" -eq 4 ] || { echo "FAILED: $rows rows printed instead of 4"; failed=1; }
 quoted="| ${pnp[0]} → ${pnp[-1]} µm |"
 grep -qF "$quoted" "$readme" || { echo "FAILED: README.md does not quote the diagonal: $quoted"; failed=1; }

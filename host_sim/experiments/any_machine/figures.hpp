@@ -3,14 +3,15 @@
 #include <nlohmann/json.hpp>
 
 #include "host_sim/experiments/any_machine/scenario.hpp"
+#include "host_sim/host/report/before_after.hpp"
 
 namespace volcomp::any_machine {
 
 // The figures of a run under the names docs/machine-file.md documents.
 [[nodiscard]] nlohmann::json machine_figures(const MachineResult& result);
 
-// The same for a terminal.
-[[nodiscard]] std::string machine_summary(const MachineResult& result);
+// Largest deviations that the verdict is about, µm.
+[[nodiscard]] std::vector<host::BeforeAfter> judged_figures(const MachineResult& result);
 
 // Good when what was off by micrometres is off by a tenth or a micrometre; with noise by half or
 // five.

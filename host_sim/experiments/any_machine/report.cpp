@@ -6,8 +6,8 @@
 #include "host_sim/experiments/any_machine/figures.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/report/before_after.hpp"
+#include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/volume_map.hpp"
 
 namespace volcomp::any_machine {
@@ -15,97 +15,97 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kUrad = 1e6;
-
 json line_charts(const MachineResult& r) {
   json charts = json::array();
   for (std::size_t i = 0; i < r.before.line.size(); ++i) {
     const sim::MeasuredDiagonal& before = r.before.line[i];
     const sim::MeasuredDiagonal& after = r.after.line[i];
-    charts.push_back({{"type", "lines"},
-                      {"id", "diagonal-" + before.name},
-                      {"title", before.name},
-                      {"x", host::axis_label("distance", "mm")},
-                      {"y", host::axis_label("deviation along the diagonal", "µm")},
-                      {"series",
-                       {host::series_of("uncompensated", before.distance_mm, before.mean_um),
-                        host::series_of("compensated", after.distance_mm, after.mean_um)}}});
+    charts.push_back(host::lines_chart(
+        "diagonal-" + before.name, before.name, host::axis_label("distance", "mm"),
+        host::axis_label("deviation along the diagonal", "µm"),
+        {host::series_of("uncompensated", before.distance_mm, before.mean_um),
+         host::series_of("compensated", after.distance_mm, after.mean_um)}));
   }
-  return {{"type", "group"},
-          {"id", "diagonals"},
-          {"title", "Diagonals of the linear axes"},
-          {"shared_y", true},
-          {"charts", charts},
-          {"note", "Mean of both directions; rotary axes at their references."}};
+  return host::chart_group("diagonals", "Diagonals of the linear axes", charts,
+                           "Mean of both directions; rotary axes at their references.");
 }
 
 template <class Value>
-json reading_chart(const std::vector<PlaceReading>& before, const std::vector<PlaceReading>& after,
-                   const Value& value) {
-  std::vector<double> number;
-  std::array<std::vector<double>, 2> y;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    number.push_back(static_cast<double>(i + 1));
-    y[0].push_back(value(before[i]));
-    y[1].push_back(value(after[i]));
-  }
-  return {{"type", "lines"},
-          {"x", host::axis_label("position", "")},
-          {"series",
-           {host::series_of("uncompensated", number, y[0]),
-            host::series_of("compensated", number, y[1])}}};
+json reading_series(const std::vector<PlaceReading>& before, const std::vector<PlaceReading>& after,
+                    const Value& value) {
+  const auto curve = [&](const char* name, const std::vector<PlaceReading>& readings) {
+    std::vector<double> y;
+    for (const PlaceReading& reading : readings)
+      y.push_back(value(reading));
+    return host::series_of(name, host::counted(y.size()), y);
+  };
+  return {curve("uncompensated", before), curve("compensated", after)};
 }
 
 json sphere_chart(const MachineResult& r) {
-  json chart = reading_chart(r.before.sphere, r.after.sphere, [](const PlaceReading& p) {
-    return kUmPerMm * p.deviation_mm.norm();
-  });
-  chart["id"] = "sphere";
-  chart["title"] = "Ball on the table, rotary axes turned";
-  chart["y"] = host::axis_label("off the centre of the ball", "µm");
-  chart["note"] = fmt::format(
-      "Ball at {:.1f} {:.1f} {:.1f} mm of the workpiece frame, found at the first position; {} "
-      "positions could not be reached.",
-      r.sphere.ball.x(), r.sphere.ball.y(), r.sphere.ball.z(), r.sphere.left_out);
-  return chart;
+  return host::lines_chart(
+      "sphere", "Ball on the table, rotary axes turned", host::axis_label("position", ""),
+      host::axis_label("off the centre of the ball", "µm"),
+      reading_series(r.before.sphere, r.after.sphere,
+                     [](const PlaceReading& p) { return kUmPerMm * p.deviation_mm.norm(); }),
+      fmt::format("Ball at {:.1f} {:.1f} {:.1f} mm of the workpiece frame, found at the first "
+                  "position; {} positions could not be reached.",
+                  r.sphere.ball.x(), r.sphere.ball.y(), r.sphere.ball.z(), r.sphere.left_out));
 }
 
 json orientation_chart(const MachineResult& r) {
-  json chart = reading_chart(r.before.place, r.after.place,
-                             [](const PlaceReading& p) { return kUrad * p.tilt_rad; });
-  chart["id"] = "orientation";
-  chart["title"] = "Direction of the tool, all over the travel";
-  chart["y"] = host::axis_label("tilt of the tool axis", "µrad");
-  chart["note"] = fmt::format(
-      "What is left of it acts beside the tool point the tables are for: a tool {:g} mm longer is "
-      "off by up to {:.2f} µm before and {:.2f} µm after.",
-      r.options.tool_length_mm, r.effect_um(r.before), r.effect_um(r.after));
-  return chart;
+  return host::lines_chart(
+      "orientation", "Direction of the tool, all over the travel", host::axis_label("position", ""),
+      host::axis_label("tilt of the tool axis", "µrad"),
+      reading_series(r.before.place, r.after.place,
+                     [](const PlaceReading& p) { return host::kUradPerRad * p.tilt_rad; }),
+      fmt::format("What is left of it acts beside the tool point the tables are for: a tool {:g} "
+                  "mm longer is off by up to {:.2f} µm before and {:.2f} µm after.",
+                  r.options.tool_length_mm, r.effect_um(r.before), r.effect_um(r.after)));
 }
 
 json before_after(const MachineResult& r) {
-  std::vector<host::BeforeAfter> lines;
-  for (std::size_t i = 0; i < r.before.line.size(); ++i)
-    lines.push_back({"diagonal " + r.before.line[i].name, r.before.line[i].max_abs_um,
-                     r.after.line[i].max_abs_um});
-  lines.push_back({fmt::format("volume, {} places", r.before.place.size()), r.before.volume.max_um,
-                   r.after.volume.max_um});
+  std::vector<host::BeforeAfter> lines = judged_figures(r);
+  const auto angle = [&lines](const std::string& what, double before_rad, double after_rad) {
+    lines.push_back({what, host::kUradPerRad * before_rad, host::kUradPerRad * after_rad});
+    lines.back().unit = "µrad";
+  };
   lines.push_back({"volume, root mean square", r.before.volume.rms_um, r.after.volume.rms_um});
-  if (!r.before.sphere.empty())
-    lines.push_back({fmt::format("ball on the table, {} positions", r.sphere.poses.size()),
-                     r.before.sphere_um().max_um, r.after.sphere_um().max_um});
-  lines.push_back({fmt::format("orientation, at a tool {:g} mm longer", r.options.tool_length_mm),
+  angle("orientation of the tool", r.before.tilt_max_rad(), r.after.tilt_max_rad());
+  lines.push_back({fmt::format("the same, for a tool {:g} mm longer", r.options.tool_length_mm),
                    r.effect_um(r.before), r.effect_um(r.after)});
   const std::string orienting = orienting_letters(r.machine);
-  if (!orienting.empty())
-    lines.push_back({fmt::format("the same where {} have their grip on the tool", orienting),
-                     r.steerable_um(r.before), r.steerable_um(r.after)});
-  return host::before_after_table(
-      lines, fmt::format("Largest deviations. {} correct the position{}; least authority over the "
-                         "travel {:.3f}.",
-                         correcting_letters(r.machine),
-                         orienting.empty() ? "" : fmt::format(", {} the direction", orienting),
-                         r.authority.value));
+  std::string note = fmt::format(
+      "Largest deviations, of the volume at {} places. {} correct the "
+      "position; least authority over the travel {:.3f}.",
+      r.before.place.size(), correcting_letters(r.machine), r.authority.value);
+  if (!orienting.empty()) {
+    angle(fmt::format("orientation where {} have their grip on it", orienting),
+          r.before.steerable_max_rad(), r.after.steerable_max_rad());
+    note += fmt::format(
+        " {} correct the direction: tool direction is where they have their grip "
+        "on it, at {:g} mm.",
+        orienting, r.options.tool_length_mm);
+  }
+  return host::before_after_table(lines, note);
+}
+
+// What the figures are of, in words.
+json measured_text(const MachineResult& r) {
+  const std::string machine = fmt::format(
+      "{}, {}, seed {}, {}; {} correct{}", r.machine.name, host::chain_text(r.machine.chain),
+      r.options.seed, r.options.noise ? "realistic instruments" : "no noise",
+      correcting_letters(r.machine),
+      r.machine.chain.description().correcting_count == 1 ? "s" : "");
+  std::string sphere = "no sphere test: no rotary axis that three other axes can follow";
+  if (!r.before.sphere.empty()) {
+    const Vec3& b = r.sphere.ball;
+    sphere = fmt::format("ball at {:.1f} {:.1f} {:.1f} mm on the table, {} positions", b.x(), b.y(),
+                         b.z(), r.sphere.poses.size());
+    if (r.sphere.left_out > 0) sphere += fmt::format(", {} out of reach", r.sphere.left_out);
+  }
+  return host::in_summary(
+      host::with_id("measured", host::text_section("What was measured", {machine, sphere})));
 }
 
 json volume_chart(const MachineResult& r) {
@@ -152,9 +152,14 @@ json machine_document(const MachineResult& r, const host::RunContext& run) {
   if (!r.before.line.empty()) parts.plots.push_back(line_charts(r));
   if (!r.before.sphere.empty()) parts.plots.push_back(sphere_chart(r));
   if (!r.before.place.empty()) parts.plots.push_back(orientation_chart(r));
+  parts.details.push_back(measured_text(r));
   parts.ticks = run.ticks;
   parts.provenance = host::provenance(run, origins(r));
   return host::report_document(std::move(parts));
+}
+
+std::string machine_summary(const MachineResult& r) {
+  return host::terminal_text(machine_document(r, {}));
 }
 
 }  // namespace volcomp::any_machine

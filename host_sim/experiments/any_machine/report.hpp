@@ -10,5 +10,7 @@ namespace volcomp::any_machine {
 // A run as a report document (host_sim/host/report/page/README.md).
 [[nodiscard]] nlohmann::json machine_document(const MachineResult& result,
                                               const host::RunContext& run);
+// The same for a terminal.
+[[nodiscard]] std::string machine_summary(const MachineResult& result);
 
 }  // namespace volcomp::any_machine

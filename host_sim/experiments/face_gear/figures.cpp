@@ -20,8 +20,6 @@ using nlohmann::json;
 // What the frame, encoders and tables of linear segments may leave of a map, rms.
 constexpr double kMapAgreement_um = 0.6;
 
-constexpr double kArcSeconds = 180.0 * 3600.0 / kPi;
-
 json or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 std::optional<double> worst_profile(const FaceInspection& inspection) {
@@ -77,25 +75,6 @@ json frame_figures(const FaceGearResult& run) {
           {"touches", run.at(FaceStage::compensated).frame.touches}};
 }
 
-NodeAgreement agreement_of(const FaceGearResult& run) {
-  NodeAgreement all;
-  for (const FaceInspection& inspection : run.inspection) {
-    all.touches += inspection.node.touches;
-    all.verdicts += inspection.node.verdicts;
-    all.largest_nm = std::max(all.largest_nm, inspection.node.largest_nm);
-  }
-  return all;
-}
-
-std::string stage_row(const FaceGearResult& run, std::size_t stage) {
-  const FaceInspection& i = run.inspection.at(stage);
-  return fmt::format("{:14}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}  {}\n",
-                     kFaceStages.at(stage), run.map_error[stage].rms, run.map_error[stage].max,
-                     i.pitch[0].figures.total, i.pitch[0].figures.single, i.pitch[0].over_10,
-                     i.pitch[1].figures.total, i.pitch[1].figures.single, i.pitch[1].over_10,
-                     grade_text(i));
-}
-
 }  // namespace
 
 std::vector<PaperStatement> paper_statements() {
@@ -123,6 +102,16 @@ std::vector<PaperStatement> paper_statements() {
           {"largest", "largest difference of all", 5.0,
            std::max(left.overall.largest, right.overall.largest)},
           {"profile", "profile on the machine, rows 2 to 6", 5.8, profile}};
+}
+
+NodeAgreement agreement_of(const FaceGearResult& run) {
+  NodeAgreement all;
+  for (const FaceInspection& inspection : run.inspection) {
+    all.touches += inspection.node.touches;
+    all.verdicts += inspection.node.verdicts;
+    all.largest_nm = std::max(all.largest_nm, inspection.node.largest_nm);
+  }
+  return all;
 }
 
 std::string grade_text(const FaceInspection& inspection) {
@@ -173,44 +162,6 @@ json face_gear_figures(const FaceGearResult& run) {
   j["seed"] = run.options.seed;
   j["version"] = host::kVersion;
   return j;
-}
-
-std::string face_gear_summary(const FaceGearResult& run) {
-  std::string text = fmt::format(
-      "\ngear: {} teeth, module {:g}, shaper of {} teeth; flanks whole outside {:.3f} mm, pointed "
-      "from {:.3f} mm; moment arm of the normals {:.3f} mm\n",
-      run.gear.teeth, run.gear.module, run.gear.shaper_teeth, run.gear.undercut_radius,
-      run.gear.pointing_radius, run.gear.arm);
-  text += std::isfinite(run.worked_example_deg)
-              ? fmt::format("frame angle of the paper's ball: {:.4f} deg\n", run.worked_example_deg)
-              : "frame angle of the paper's ball: it does not touch this gear\n";
-  const FaceFrame& fit = *run.at(FaceStage::compensated).frame.fit;
-  const Eigen::Matrix<double, 6, 1> sd = frame_deviations(run.gear, fit.observability);
-  text += fmt::format(
-      "frame of {} touches: condition {:.1f}; per µm of noise {:.2f} {:.2f} {:.2f} µm along, "
-      "{:.2f} "
-      "{:.2f} {:.2f} µm about X, Y, Z\n\n",
-      run.at(FaceStage::compensated).frame.touches, fit.observability.condition, sd(0), sd(1),
-      sd(2), sd(3), sd(4), sd(5));
-  text +=
-      fmt::format("{:14}{:^16}  {:^26}{:^26}\n", "µm", "map - gear", "left flanks", "right flanks");
-  text += fmt::format("{:14}{:>8}{:>8}{:>10}{:>8}{:>8}{:>10}{:>8}{:>8}  profile\n", "", "rms",
-                      "max", "F_p", "f_pt", "F_p10", "F_p", "f_pt", "F_p10");
-  for (std::size_t s = 0; s < kFaceStages.size(); ++s)
-    text += stage_row(run, s);
-  const auto& truth = run.true_pitch;
-  text += fmt::format("{:14}{:16}{:10.2f}{:8.2f}{:8.2f}{:10.2f}{:8.2f}{:8.2f}\n", "the gear", "",
-                      truth[0].figures.total, truth[0].figures.single, truth[0].over_10,
-                      truth[1].figures.total, truth[1].figures.single, truth[1].over_10);
-  text += fmt::format("grades: {}\n", kFaceGearLimitsSource);
-  text += fmt::format("scale of the table {:.1f}\", swing arm ±{:.0f} µm; one distance {:.0f} ns\n",
-                      kScaleStep_rad * kArcSeconds, kUmPerMm * kArmRepeatability_mm, run.kernel_ns);
-  const NodeAgreement node = agreement_of(run);
-  text +=
-      fmt::format("{} touches judged by the node: distances as here to {} nm, {} other verdicts\n",
-                  node.touches, node.largest_nm, node.verdicts);
-  const host::Verdict verdict = face_gear_verdict(run);
-  return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
 }  // namespace volcomp::face_gear

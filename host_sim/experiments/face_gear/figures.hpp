@@ -20,11 +20,13 @@ struct PaperStatement {
 };
 [[nodiscard]] std::vector<PaperStatement> paper_statements();
 
+// Of all inspections.
+[[nodiscard]] NodeAgreement agreement_of(const FaceGearResult& run);
+
 // The worst profile of an inspection as a grade, or why there is none.
 [[nodiscard]] std::string grade_text(const FaceInspection& inspection);
 
 [[nodiscard]] host::Verdict face_gear_verdict(const FaceGearResult& run);
 [[nodiscard]] nlohmann::json face_gear_figures(const FaceGearResult& run);
-[[nodiscard]] std::string face_gear_summary(const FaceGearResult& run);
 
 }  // namespace volcomp::face_gear

@@ -1,13 +1,11 @@
 #include "host_sim/experiments/face_gear/flank_charts.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/pitch_charts.hpp"
 
 namespace volcomp::face_gear {
 namespace {
@@ -41,23 +39,17 @@ json topography_of(const FaceGearResult& run, const FlankMap& flank) {
     nominal.push_back(nullptr);
     measured.push_back(nullptr);
   }
-  return {{"type", "lines"},
-          {"id", fmt::format("topography-{}", kFaceSideNames[flank.flank.side > 0 ? 0 : 1])},
-          {"title", flank_title(flank)},
-          {"x", host::axis_label("distance from the gear axis", "mm")},
-          {"y", host::axis_label("height above the tips", "mm")},
-          {"series",
-           {{{"name", "nominal"}, {"style", "dashed"}, {"x", radius}, {"y", nominal}},
-            {{"name", fmt::format("measured, {:g} : 1", kMagnification)},
-             {"x", radius},
-             {"y", measured}}}}};
+  return host::lines_chart(
+      fmt::format("topography-{}", kFaceSideNames[flank.flank.side > 0 ? 0 : 1]),
+      flank_title(flank), host::axis_label("distance from the gear axis", "mm"),
+      host::axis_label("height above the tips", "mm"),
+      {{{"name", "nominal"}, {"style", "dashed"}, {"x", radius}, {"y", nominal}},
+       {{"name", fmt::format("measured, {:g} : 1", kMagnification)},
+        {"x", radius},
+        {"y", measured}}});
 }
 
 json heat_map_of(const FlankMap& flank) {
-  std::vector<int> columns(kGridColumns);
-  std::vector<int> rows(kGridRows);
-  std::iota(columns.begin(), columns.end(), 1);
-  std::iota(rows.begin(), rows.end(), 1);
   json values = json::array();
   for (std::size_t r = 0; r < kGridRows; ++r) {
     json row = json::array();
@@ -69,8 +61,9 @@ json heat_map_of(const FlankMap& flank) {
       {"type", "heatmap"},
       {"id", fmt::format("map-{}", kFaceSideNames[flank.flank.side > 0 ? 0 : 1])},
       {"title", "Error map: " + flank_title(flank)},
-      {"x", {{"label", "column, 1 = inside"}, {"digits", 0}, {"values", columns}}},
-      {"y", {{"label", "row, 1 = tip"}, {"digits", 0}, {"values", rows}}},
+      {"x",
+       {{"label", "column, 1 = inside"}, {"digits", 0}, {"values", host::counted(kGridColumns)}}},
+      {"y", {{"label", "row, 1 = tip"}, {"digits", 0}, {"values", host::counted(kGridRows)}}},
       {"z",
        {{"label", "deviation, + = excess"}, {"unit", "µm"}, {"digits", 1}, {"values", values}}}};
 }
@@ -81,16 +74,12 @@ json topography(const FaceGearResult& run, FaceStage stage) {
   json charts = json::array();
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
     charts.push_back(topography_of(run, run.at(stage).maps.at(side)));
-  return {{"type", "group"},
-          {"id", "topography"},
-          {"title", "Tooth topography"},
-          {"shared_y", true},
-          {"charts", charts},
-          {"note",
-           fmt::format("Dashed: the nominal rows of the grid. Deviations are drawn upwards where "
-                       "there is excess material, {:g} times as large as they are: 10 µm are {:g} "
-                       "mm of the scale. Frame solved, machine compensated.",
-                       kMagnification, kMagnification * 10.0 / kUmPerMm)}};
+  return host::chart_group(
+      "topography", "Tooth topography", charts,
+      fmt::format("Dashed: the nominal rows of the grid. Deviations are drawn upwards where there "
+                  "is excess material, {:g} times as large as they are: 10 µm are {:g} mm of the "
+                  "scale. Frame solved, machine compensated.",
+                  kMagnification, kMagnification * 10.0 / kUmPerMm));
 }
 
 json flank_maps(const FaceGearResult& run, FaceStage stage) {
@@ -101,52 +90,25 @@ json flank_maps(const FaceGearResult& run, FaceStage stage) {
 }
 
 json single_pitch_bars(const FaceGearResult& run, std::size_t side) {
-  const std::vector<double>& position = run.at(FaceStage::compensated).pitch.at(side).position;
-  std::vector<double> single(position.size());
-  host::require(single_pitches({position.data(), position.size()}, {single.data(), single.size()}),
-                "pitch");
-  std::vector<std::string> teeth;
-  for (std::size_t k = 1; k <= position.size(); ++k)
-    teeth.push_back(std::to_string(k));
-  const PitchDeviations& figures = run.at(FaceStage::compensated).pitch.at(side).figures;
-  return {{"type", "bars"},
-          {"id", fmt::format("single-pitch-{}", kFaceSideNames[side])},
-          {"title", fmt::format("Single pitch, {} flanks", kFaceSideNames[side])},
-          {"categories", teeth},
-          {"y", host::axis_label("f_pt", "µm")},
-          {"series", {{{"name", "compensated"}, {"values", single}}}},
-          {"note", fmt::format("Largest {:.1f} µm; F_p {:.1f} µm, F_p over {} pitches {:.1f} µm.",
-                               figures.single, figures.total, kPitchSpan,
-                               run.at(FaceStage::compensated).pitch.at(side).over_10)}};
+  const FacePitch& pitch = run.at(FaceStage::compensated).pitch.at(side);
+  return host::single_pitch_chart(
+      kFaceSideNames[side], {{"compensated", pitch.position}},
+      fmt::format("Largest {:.1f} µm; F_p {:.1f} µm, F_p over {} pitches {:.1f} µm.",
+                  pitch.figures.single, pitch.figures.total, kPitchSpan, pitch.over_10));
 }
 
 json pitch_curves(const FaceGearResult& run) {
   json charts = json::array();
   for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
-    std::vector<double> tooth(run.true_pitch[side].position.size());
-    std::iota(tooth.begin(), tooth.end(), 1.0);
-    json series = json::array();
+    std::vector<host::PitchCurve> curves;
     for (std::size_t s = 0; s < kFaceStages.size(); ++s)
-      series.push_back(
-          host::series_of(kFaceStages.at(s), tooth, run.inspection.at(s).pitch[side].position));
-    json truth = host::series_of("the gear itself", tooth, run.true_pitch[side].position);
-    truth["style"] = "dashed";
-    series.push_back(truth);
-    charts.push_back({{"type", "lines"},
-                      {"id", fmt::format("pitch-{}", kFaceSideNames[side])},
-                      {"title", fmt::format("{} flanks", kFaceSideNames[side])},
-                      {"x", host::axis_label("slot", "")},
-                      {"y", host::axis_label("cumulative pitch deviation", "µm")},
-                      {"series", series}});
+      curves.push_back({kFaceStages.at(s), run.inspection.at(s).pitch[side].position});
+    curves.push_back({"the gear itself", run.true_pitch[side].position, true});
+    charts.push_back(host::cumulative_pitch_chart(kFaceSideNames[side], curves));
   }
-  return {{"type", "group"},
-          {"id", "pitch"},
-          {"title", "Cumulative pitch of all teeth"},
-          {"shared_y", true},
-          {"charts", charts},
-          {"note",
-           "F_p is the height of a curve. A gear out of centre shows as a wave until the frame "
-           "is solved."}};
+  return host::chart_group("pitch", "Cumulative pitch of all teeth", charts,
+                           "F_p is the height of a curve. A gear out of centre shows as a wave "
+                           "until the frame is solved.");
 }
 
 }  // namespace volcomp::face_gear

@@ -13,43 +13,75 @@
 #include "host_sim/experiments/face_gear/published_maps.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/before_after.hpp"
+#include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/report_parts.hpp"
 
 namespace volcomp::face_gear {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kMicro = 1e6;
-constexpr double kDegreesPerRad = 180.0 / kPi;
+constexpr double kArcSeconds = 3600.0 * host::kDegPerRad;  // in a rad
 
 json stage_table(const FaceGearResult& run) {
   json rows = json::array();
+  const auto add = [&](const char* name, const json& map, const std::array<FacePitch, 2>& pitch,
+                       const std::string& grade) {
+    json row = {name, map.value("rms", json()), map.value("max", json())};
+    for (const FacePitch& side : pitch) {
+      for (const double um : {side.figures.total, side.figures.single, side.over_10})
+        row.push_back(um);
+    }
+    row.push_back(grade);
+    rows.push_back(row);
+  };
   for (std::size_t s = 0; s < kFaceStages.size(); ++s) {
     const FaceInspection& i = run.inspection.at(s);
-    rows.push_back({kFaceStages.at(s), run.map_error.at(s).rms, run.map_error.at(s).max,
-                    i.pitch[0].figures.total, i.pitch[0].figures.single, i.pitch[1].figures.total,
-                    i.pitch[1].figures.single, grade_text(i)});
+    const MapError& map = run.map_error.at(s);
+    add(kFaceStages.at(s), {{"rms", map.rms}, {"max", map.max}}, i.pitch, grade_text(i));
   }
-  rows.push_back({"the gear itself", nullptr, nullptr, run.true_pitch[0].figures.total,
-                  run.true_pitch[0].figures.single, run.true_pitch[1].figures.total,
-                  run.true_pitch[1].figures.single, ""});
-  return {{"type", "table"},
-          {"id", "stages"},
-          {"title", "Before and after: frame and volumetric compensation"},
-          {"columns",
-           {{{"title", "measured with"}},
-            host::column("map − gear, rms", "µm", 2),
-            host::column("largest", "µm", 2),
-            host::column("F_p left", "µm", 1),
-            host::column("f_pt left", "µm", 1),
-            host::column("F_p right", "µm", 1),
-            host::column("f_pt right", "µm", 1),
-            {{"title", fmt::format("profile, rows {} to {}", kProfileRows.first + 1,
-                                   kProfileRows.last + 1)}}}},
-          {"rows", rows},
-          {"note", fmt::format("Grades: {}.", kFaceGearLimitsSource)}};
+  add("the gear itself", json::object(), run.true_pitch, "");
+  json columns =
+      json::array({host::plain_column("measured with"), host::column("map − gear, rms", "µm", 2),
+                   host::column("largest", "µm", 2)});
+  for (const char* side : kFaceSideNames) {
+    for (const char* figure : {"F_p", "f_pt", "F_p10"})
+      columns.push_back(host::column(fmt::format("{} {}", figure, side), "µm", 2));
+  }
+  columns.push_back(host::plain_column(
+      fmt::format("profile, rows {} to {}", kProfileRows.first + 1, kProfileRows.last + 1)));
+  return host::in_summary(host::with_id(
+      "stages",
+      host::table_section("Before and after: frame and volumetric compensation", columns, rows),
+      fmt::format("Grades: {}.", kFaceGearLimitsSource)));
+}
+
+// What was found besides maps and pitch, in words.
+json found_text(const FaceGearResult& run) {
+  const KnownFrame& frame = run.at(FaceStage::compensated).frame;
+  const Eigen::Matrix<double, 6, 1> sd = frame_deviations(run.gear, frame.fit->observability);
+  const NodeAgreement node = agreement_of(run);
+  return host::in_summary(host::with_id(
+      "found",
+      host::text_section(
+          "Gear, frame and touches",
+          {fmt::format("gear: {} teeth, module {:g}, shaper of {} teeth; flanks whole outside "
+                       "{:.3f} mm, pointed from {:.3f} mm; moment arm of the normals {:.3f} mm",
+                       run.gear.teeth, run.gear.module, run.gear.shaper_teeth,
+                       run.gear.undercut_radius, run.gear.pointing_radius, run.gear.arm),
+           std::isfinite(run.worked_example_deg)
+               ? fmt::format("frame angle of the paper's ball: {:.4f} deg", run.worked_example_deg)
+               : "frame angle of the paper's ball: it does not touch this gear",
+           fmt::format("frame of {} touches: condition {:.1f}; per µm of noise {:.2f} {:.2f} "
+                       "{:.2f} µm along, {:.2f} {:.2f} {:.2f} µm about X, Y, Z",
+                       frame.touches, frame.fit->observability.condition, sd(0), sd(1), sd(2),
+                       sd(3), sd(4), sd(5)),
+           fmt::format("scale of the table {:.1f}\", swing arm ±{:.0f} µm; one distance {:.0f} ns",
+                       kScaleStep_rad * kArcSeconds, kUmPerMm * kArmRepeatability_mm,
+                       run.kernel_ns),
+           fmt::format("{} touches judged by the node: distances as here to {} nm, {} other "
+                       "verdicts",
+                       node.touches, node.largest_nm, node.verdicts)})));
 }
 
 double largest_over_all_rows() {
@@ -68,51 +100,46 @@ json statement_table() {
   json rows = json::array();
   for (const PaperStatement& s : paper_statements())
     rows.push_back({s.what, s.stated, s.found});
-  return {{"type", "table"},
-          {"id", "paper"},
-          {"title", "What the paper says of its Tables 5 to 8"},
-          {"columns",
-           {{{"title", "largest difference between machine and measuring centre"}},
-            host::column("stated", "µm", 1),
-            host::column("in the tables", "µm", 1)}},
-          {"rows", rows},
-          {"note", fmt::format("The profile is the largest range of a column over rows {} to {}; "
-                               "over all {} rows the largest is {:.1f} µm.",
-                               kProfileRows.first + 1, kProfileRows.last + 1, kGridRows,
-                               largest_over_all_rows())}};
+  return host::with_id(
+      "paper",
+      host::table_section(
+          "What the paper says of its Tables 5 to 8",
+          {host::plain_column("largest difference between machine and measuring centre"),
+           host::column("stated", "µm", 1), host::column("in the tables", "µm", 1)},
+          rows),
+      fmt::format("The profile is the largest range of a column over rows {} to {}; over all {} "
+                  "rows the largest is {:.1f} µm.",
+                  kProfileRows.first + 1, kProfileRows.last + 1, kGridRows,
+                  largest_over_all_rows()));
 }
 
 // The paper gives nothing of it.
 json machine_table(const FaceGearResult& run) {
   json rows = json::array();
   for (const host::AxisFile& axis : run.machine.axes) {
-    const double scale = axis.rotary ? kDegreesPerRad : 1.0;
+    const double scale = axis.rotary ? host::kDegPerRad : 1.0;
     rows.push_back({std::string(1, axis.letter), scale * axis.lo, scale * axis.hi,
                     axis.rotary ? "deg" : "mm",
                     fmt::format("{:g} µm, {:g} µrad {}", kUmPerMm * kFaceLengthError_mm,
-                                kMicro * kFaceAngleError_rad,
+                                host::kUradPerRad * kFaceAngleError_rad,
                                 axis.rotary ? "once per turn" : "along the travel")});
   }
   const Vec3 off = kUmPerMm * (true_mounting().t - nominal_mounting().t);
   const Mat3 rotation = nominal_mounting().R.transpose() * true_mounting().R;
-  return {{"type", "table"},
-          {"id", "machine"},
-          {"title", "The machine, as chosen here"},
-          {"columns",
-           {{{"title", "axis"}},
-            {{"title", "from"}, {"digits", 0}},
-            {{"title", "to"}, {"digits", 0}},
-            {{"title", "unit"}},
-            {{"title", "size of its six errors"}}}},
-          {"rows", rows},
-          {"note",
-           fmt::format("Neither chain nor strokes of the YK7280 are published, and of its errors "
-                       "only limits: all of it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm "
-                       "out of place and {:.1f}' "
-                       "turned; steps of the table's scale {:.1f}\", swing arm within {:g} µm.",
-                       off.x(), off.y(), off.z(),
-                       60.0 * kDegreesPerRad * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
-                       3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)}};
+  return host::with_id(
+      "machine",
+      host::table_section(
+          "The machine, as chosen here",
+          {host::plain_column("axis"), host::column("from", "", 0), host::column("to", "", 0),
+           host::plain_column("unit"), host::plain_column("size of its six errors")},
+          rows),
+      fmt::format("Neither chain nor strokes of the YK7280 are published, and of its errors only "
+                  "limits: all of it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm out of place "
+                  "and {:.1f}' turned; steps of the table's scale {:.1f}\", swing arm within {:g} "
+                  "µm.",
+                  off.x(), off.y(), off.z(),
+                  kArcSeconds / 60.0 * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
+                  kArcSeconds * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm));
 }
 
 json before_after(const FaceGearResult& run) {
@@ -149,7 +176,7 @@ host::Origins origins(const FaceGearResult& run) {
   origins.instruments = {
       "touch probe of the machine: delays and radius of the machine file, corrected by the node",
       fmt::format("table: steps of its scale {:.1f}\"; swing arm repeats within {:g} µm",
-                  3600.0 * kDegreesPerRad * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)};
+                  kArcSeconds * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)};
   origins.chosen = {
       "chain, strokes and errors of the machine: of these only limits of the errors are published"};
   origins.untouched = {"maps, pitch and frame as measured"};
@@ -172,10 +199,15 @@ json face_gear_document(const FaceGearResult& result, const host::RunContext& ru
   parts.plots.push_back(pitch_curves(result));
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
     parts.plots.push_back(single_pitch_bars(result, side));
-  parts.details = {stage_table(result), statement_table(), machine_table(result)};
+  parts.details = {stage_table(result), found_text(result), statement_table(),
+                   machine_table(result)};
   parts.ticks = run.ticks;
   parts.provenance = host::provenance(run, origins(result));
   return host::report_document(std::move(parts));
+}
+
+std::string face_gear_summary(const FaceGearResult& result) {
+  return host::terminal_text(face_gear_document(result, {}));
 }
 
 }  // namespace volcomp::face_gear

@@ -11,5 +11,7 @@ namespace volcomp::face_gear {
 // The document of a report.
 [[nodiscard]] nlohmann::json face_gear_document(const FaceGearResult& result,
                                                 const host::RunContext& run);
+// The same for a terminal.
+[[nodiscard]] std::string face_gear_summary(const FaceGearResult& result);
 
 }  // namespace volcomp::face_gear

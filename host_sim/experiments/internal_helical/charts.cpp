@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/experiments/internal_helical/figures.hpp"
-#include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/pitch_charts.hpp"
 
 namespace volcomp::internal_helical {
 namespace {
@@ -16,19 +15,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array<const char*, 2> kWays{"upwards", "downwards"};
-constexpr double kUradPerRad = 1e6;
-
-std::vector<double> counted(std::size_t n, double first = 1.0) {
-  std::vector<double> v(n);
-  std::iota(v.begin(), v.end(), first);
-  return v;
-}
-
-std::vector<double> scaled(std::vector<double> v, double factor) {
-  for (double& value : v)
-    value *= factor;
-  return v;
-}
 
 std::vector<double> nodes_of(const LearnedTables& tables) {
   std::vector<double> z;
@@ -37,37 +23,13 @@ std::vector<double> nodes_of(const LearnedTables& tables) {
   return z;
 }
 
-json lines(const std::string& id, const std::string& title, json x, json y, json series) {
-  return {{"type", "lines"},   {"id", id},          {"title", title},
-          {"x", std::move(x)}, {"y", std::move(y)}, {"series", std::move(series)}};
+json before_and_after(const std::vector<double>& x, const std::vector<double>& before,
+                      const std::vector<double>& after) {
+  return {host::series_of("before", x, before), host::series_of("after", x, after)};
 }
 
-json group(const char* id, const char* title, json charts, const std::string& note) {
-  return {{"type", "group"},
-          {"id", id},
-          {"title", title},
-          {"shared_y", true},
-          {"charts", std::move(charts)},
-          {"note", note}};
-}
-
-std::vector<std::string> names_of(const std::vector<double>& numbers) {
-  std::vector<std::string> names;
-  names.reserve(numbers.size());
-  for (const double number : numbers)
-    names.push_back(fmt::format("{:g}", number));
-  return names;
-}
-
-json bars(const std::string& id, const std::string& title, const std::vector<double>& categories,
-          json y, const std::vector<double>& before, const std::vector<double>& after) {
-  return {{"type", "bars"},
-          {"id", id},
-          {"title", title},
-          {"categories", names_of(categories)},
-          {"y", std::move(y)},
-          {"series",
-           {{{"name", "before"}, {"values", before}}, {{"name", "after"}, {"values", after}}}}};
+json bars_before_and_after(const std::vector<double>& before, const std::vector<double>& after) {
+  return {host::bars_of("before", before), host::bars_of("after", after)};
 }
 
 // As profiles are drawn: the flank has no place of its own.
@@ -98,11 +60,11 @@ json lag_chart(const InternalHelicalResult& run, const StrokeTrace& pass, const 
     both.push_back(flank(e.e_z, e.e_c));
   }
   const auto way = static_cast<std::size_t>(pass.direction);
-  return lines(fmt::format("lag-{}-{}", kWays.at(way), when),
-               fmt::format("{}, {}", kWays.at(way), when), host::axis_label("Z", "mm"),
-               host::axis_label("on the flank", "µm"),
-               {host::series_of("Z alone", place, z), host::series_of("C alone", place, c),
-                host::series_of("both", place, both)});
+  return host::lines_chart(
+      fmt::format("lag-{}-{}", kWays.at(way), when), fmt::format("{}, {}", kWays.at(way), when),
+      host::axis_label("Z", "mm"), host::axis_label("on the flank", "µm"),
+      {host::series_of("Z alone", place, z), host::series_of("C alone", place, c),
+       host::series_of("both", place, both)});
 }
 
 }  // namespace
@@ -113,9 +75,10 @@ json lag_charts(const InternalHelicalResult& run) {
     charts.push_back(lag_chart(run, pass, "before"));
   for (const StrokeTrace& pass : run.detail.pass_after)
     charts.push_back(lag_chart(run, pass, "after"));
-  return group("lags", "Tracking errors of one pass each way", std::move(charts),
-               "Both axes lag their commands along the helix; the flank shows what is left of "
-               "both.");
+  return host::chart_group(
+      "lags", "Tracking errors of one pass each way", std::move(charts),
+      "Both axes lag their commands along the helix; the flank shows what is left of "
+      "both.");
 }
 
 json tracking_charts(const InternalHelicalResult& run) {
@@ -123,38 +86,38 @@ json tracking_charts(const InternalHelicalResult& run) {
   const std::vector<double> z = nodes_of(d.tables);
   json charts = json::array();
   for (std::size_t way = 0; way < kWays.size(); ++way)
-    charts.push_back(lines(fmt::format("tracking-{}", kWays[way]), kWays[way],
-                           host::axis_label("Z", "mm"), host::axis_label("on the flank", "µm"),
-                           {host::series_of("before", z, d.before.stroke[way]),
-                            host::series_of("after", z, d.after.stroke[way])}));
-  return group("tracking", "Synchronisation error over the stroke", std::move(charts),
-               "Mean of all slots by node, as monitored; opposite on right flanks.");
+    charts.push_back(
+        host::lines_chart(fmt::format("tracking-{}", kWays[way]), kWays[way],
+                          host::axis_label("Z", "mm"), host::axis_label("on the flank", "µm"),
+                          before_and_after(z, d.before.stroke[way], d.after.stroke[way])));
+  return host::chart_group("tracking", "Synchronisation error over the stroke", std::move(charts),
+                           "Mean of all slots by node, as monitored; opposite on right flanks.");
 }
 
 json slot_chart(const InternalHelicalResult& run) {
   const HelicalDetail& d = run.detail;
-  const std::vector<double> slot = counted(d.before.slot.size());
-  return lines("slots", "Synchronisation error by slot", host::axis_label("slot", ""),
-               host::axis_label("on the flank", "µm"),
-               {host::series_of("before", slot, d.before.slot),
-                host::series_of("after", slot, d.after.slot)});
+  const std::vector<double> slot = host::counted(d.before.slot.size());
+  return host::lines_chart("slots", "Synchronisation error by slot", host::axis_label("slot", ""),
+                           host::axis_label("on the flank", "µm"),
+                           before_and_after(slot, d.before.slot, d.after.slot));
 }
 
 json spectrum_along_z(const InternalHelicalResult& run) {
-  const std::vector<double> wavelength(kWavelengths_mm.begin(), kWavelengths_mm.end());
-  return bars("along-z", "Spectrum along Z, by wavelength in mm", wavelength,
-              host::axis_label("amplitude on the flank", "µm"), run.detail.before.along,
-              run.detail.after.along);
+  const HelicalDetail& d = run.detail;
+  return host::bar_chart("along-z", "Spectrum along Z, by wavelength in mm",
+                         {kWavelengths_mm.begin(), kWavelengths_mm.end()},
+                         host::axis_label("amplitude on the flank", "µm"),
+                         bars_before_and_after(d.before.along, d.after.along));
 }
 
 json spectrum_around_c(const InternalHelicalResult& run) {
-  json chart =
-      bars("around-c", "Spectrum around C, by order", counted(run.detail.before.around.size()),
-           host::axis_label("amplitude on the flank", "µm"), run.detail.before.around,
-           run.detail.after.around);
-  chart["note"] = fmt::format("From the means of the slots: an order q of C shows at |q − {} m|.",
-                              run.gear.teeth);
-  return chart;
+  const HelicalDetail& d = run.detail;
+  return host::bar_chart(
+      "around-c", "Spectrum around C, by order", host::counted(d.before.around.size()),
+      host::axis_label("amplitude on the flank", "µm"),
+      bars_before_and_after(d.before.around, d.after.around),
+      fmt::format("From the means of the slots: an order q of C shows at |q − {} m|.",
+                  run.gear.teeth));
 }
 
 json learning_chart(const InternalHelicalResult& run) {
@@ -167,75 +130,55 @@ json learning_chart(const InternalHelicalResult& run) {
       high[i] = std::max(high[i], seed.learning_um[i]);
     }
   }
-  json series = host::series_of("median of the seeds", counted(median.size()), median);
+  json series = host::series_of("median of the seeds", host::counted(median.size()), median);
   series["band"] = {{"lo", low}, {"hi", high}};
-  json chart =
-      lines("learning", "Learning: synchronisation error, rms on the flank",
-            host::axis_label("round", ""), host::axis_label("rms", "µm"), json::array({series}));
-  chart["note"] = fmt::format(
-      "One update after every {} rounds. What stays is new in every pass; w = 0.5 halves the rest.",
-      kRoundsPerUpdate);
-  return chart;
+  return host::lines_chart("learning", "Learning: synchronisation error, rms on the flank",
+                           host::axis_label("round", ""), host::axis_label("rms", "µm"),
+                           json::array({series}),
+                           fmt::format("One update after every {} rounds. What stays is new in "
+                                       "every pass; w = 0.5 halves the rest.",
+                                       kRoundsPerUpdate));
 }
 
 json stroke_table_chart(const InternalHelicalResult& run) {
   const LearnedTables& t = run.detail.tables;
-  const std::vector<double> z = nodes_of(t);
-  json chart = lines("table-stroke", "Learned table T1: offset of C over Z",
-                     host::axis_label("Z", "mm"), host::axis_label("offset of C", "µrad"),
-                     {host::series_of(kWays[0], z, scaled(t.stroke[0], kUradPerRad)),
-                      host::series_of(kWays[1], z, scaled(t.stroke[1], kUradPerRad))});
-  chart["note"] = fmt::format("For {:g} mm/s only.", run.job.feed_mm_per_s);
-  return chart;
+  const auto offsets = [&t, z = nodes_of(t)](std::size_t way) {
+    return host::series_of(kWays.at(way), z, host::scaled(t.stroke.at(way), host::kUradPerRad));
+  };
+  return host::lines_chart("table-stroke", "Learned table T1: offset of C over Z",
+                           host::axis_label("Z", "mm"), host::axis_label("offset of C", "µrad"),
+                           {offsets(0), offsets(1)},
+                           fmt::format("For {:g} mm/s only.", run.job.feed_mm_per_s));
 }
 
 json slot_table_chart(const InternalHelicalResult& run) {
   const std::vector<double>& slot = run.detail.tables.slot;
-  return lines(
-      "table-slot", "Learned table T2: offset of C by slot", host::axis_label("slot", ""),
-      host::axis_label("offset of C", "µrad"),
-      json::array({host::series_of("T2", counted(slot.size()), scaled(slot, kUradPerRad))}));
+  return host::lines_chart("table-slot", "Learned table T2: offset of C by slot",
+                           host::axis_label("slot", ""), host::axis_label("offset of C", "µrad"),
+                           json::array({host::series_of("T2", host::counted(slot.size()),
+                                                        host::scaled(slot, host::kUradPerRad))}));
 }
 
 json single_pitch_chart(const InternalHelicalResult& run, std::size_t side) {
-  const auto pitches = [side](const GroundGear& gear) {
-    const HelicalPitch& pitch = gear.inspection.pitch.at(side);
-    std::vector<double> single(pitch.position.size());
-    host::require(single_pitches({pitch.position.data(), pitch.position.size()},
-                                 {single.data(), single.size()}),
-                  "pitch");
-    return single;
-  };
-  const SeedResult& first = run.seed.front();
-  const std::vector<double> before = pitches(first.before);
-  json chart =
-      bars(fmt::format("single-pitch-{}", kHelicalSideNames.at(side)),
-           fmt::format("Single pitch, {} flanks", kHelicalSideNames.at(side)),
-           counted(before.size()), host::axis_label("f_pt", "µm"), before, pitches(first.after));
-  chart["note"] = fmt::format("Largest {:.1f} µm before, {:.1f} µm after.",
-                              first.before.inspection.pitch.at(side).figures.single,
-                              first.after.inspection.pitch.at(side).figures.single);
-  return chart;
+  const HelicalPitch& before = run.seed.front().before.inspection.pitch.at(side);
+  const HelicalPitch& after = run.seed.front().after.inspection.pitch.at(side);
+  return host::single_pitch_chart(kHelicalSideNames.at(side),
+                                  {{"before", before.position}, {"after", after.position}},
+                                  fmt::format("Largest {:.1f} µm before, {:.1f} µm after.",
+                                              before.figures.single, after.figures.single));
 }
 
 json cumulative_pitch_charts(const InternalHelicalResult& run) {
   const SeedResult& first = run.seed.front();
   json charts = json::array();
-  for (std::size_t side = 0; side < kHelicalSides.size(); ++side) {
-    const auto position = [side](const GroundGear& gear) {
-      return gear.inspection.pitch.at(side).position;
-    };
-    const std::vector<double> slot = counted(position(first.before).size());
-    charts.push_back(lines(fmt::format("pitch-{}", kHelicalSideNames[side]),
-                           fmt::format("{} flanks", kHelicalSideNames[side]),
-                           host::axis_label("slot", ""),
-                           host::axis_label("cumulative pitch deviation", "µm"),
-                           {host::series_of("before", slot, position(first.before)),
-                            host::series_of("after", slot, position(first.after))}));
-  }
-  return group("pitch", "Cumulative pitch of all slots", std::move(charts),
-               "F_p is the height of a curve. What stays is run-out and the error of C that its "
-               "encoder does not see.");
+  for (std::size_t side = 0; side < kHelicalSides.size(); ++side)
+    charts.push_back(host::cumulative_pitch_chart(
+        kHelicalSideNames.at(side), {{"before", first.before.inspection.pitch.at(side).position},
+                                     {"after", first.after.inspection.pitch.at(side).position}}));
+  return host::chart_group(
+      "pitch", "Cumulative pitch of all slots", std::move(charts),
+      "F_p is the height of a curve. What stays is run-out and the error of C that its "
+      "encoder does not see.");
 }
 
 json profile_charts(const InternalHelicalResult& run) {
@@ -244,17 +187,18 @@ json profile_charts(const InternalHelicalResult& run) {
   for (std::size_t i = 0; i < first.before.inspection.profile.size(); ++i) {
     const HelicalProfile& before = first.before.inspection.profile[i];
     const HelicalProfile& after = first.after.inspection.profile[i];
-    charts.push_back(lines(
+    charts.push_back(host::lines_chart(
         fmt::format("profile-{}-{}", before.slot + 1, kHelicalSideNames.at(before.side)),
         fmt::format("slot {}, {}: F_α {:.1f} → {:.1f} µm", before.slot + 1,
                     kHelicalSideNames.at(before.side), before.figures.total, after.figures.total),
         host::axis_label("roll length, tip first", "mm"), host::axis_label("deviation", "µm"),
-        {host::series_of("before", run.roll_length, about_its_mean(before.deviation)),
-         host::series_of("after", run.roll_length, about_its_mean(after.deviation))}));
+        before_and_after(run.roll_length, about_its_mean(before.deviation),
+                         about_its_mean(after.deviation))));
   }
-  return group("profile", "Profile at mid face", std::move(charts),
-               "Transverse, + = excess material. The slope of the wheel stays; the ripple of Z, "
-               "half a wave within the line of contact, goes.");
+  return host::chart_group(
+      "profile", "Profile at mid face", std::move(charts),
+      "Transverse, + = excess material. The slope of the wheel stays; the ripple of Z, "
+      "half a wave within the line of contact, goes.");
 }
 
 }  // namespace volcomp::internal_helical

@@ -37,10 +37,6 @@ const GroundGear& gear_of(const SeedResult& seed, bool after) {
   return after ? seed.after : seed.before;
 }
 
-Spread z_peak(const InternalHelicalResult& run, bool after) {
-  return over_seeds(run, [after](const SeedResult& s) { return gear_of(s, after).z_peak_mm; });
-}
-
 json spread_figures(const Spread& s) {
   return {{"median", s.median}, {"min", s.min}, {"max", s.max}};
 }
@@ -63,24 +59,8 @@ json grade_figures(const GearGrade& g, const HelicalMeasure& m) {
   return j;
 }
 
-std::string grade_text(const GearGrade& g) {
-  return g.grade ? std::to_string(*g.grade) : fmt::format(">{}", last_grade(g.standard));
-}
-
 bool geometry_ok(const GeometryCheck& g) {
   return g.regenerated_nm < kRegenerated_nm && g.single_nm <= kSingle_nm && g.all_nm <= kAll_nm;
-}
-
-std::string measure_row(const InternalHelicalResult& run, const HelicalMeasure& m) {
-  const EvaluationRange allowed = m.allowed();
-  const std::string range = m.same_gear ? fmt::format("{:.1f} ..{:5.1f}  {:3}", allowed.low,
-                                                      allowed.high, m.ok() ? "yes" : "NO")
-                                        : "-     ";
-  const std::string paper = m.same_gear ? fmt::format("{:.1f}", m.paper) : "-";
-  return fmt::format("{:3}{:6}{:7}{:8.1f}{:8.1f}{:7.1f}{:>21}{:>8}{:>8}{:>8}\n", m.name, m.side,
-                     m.after ? "after" : "before", m.found.median, m.found.min, m.found.max, range,
-                     grade_text(helical_grade(run.job, m, GearStandard::iso1328_1995)),
-                     grade_text(helical_grade(run.job, m, GearStandard::iso1328_2013)), paper);
 }
 
 }  // namespace
@@ -132,6 +112,10 @@ std::vector<HelicalMeasure> helical_measures(const InternalHelicalResult& run) {
 
 Spread sync_spread(const InternalHelicalResult& run, bool after) {
   return over_seeds(run, [after](const SeedResult& s) { return gear_of(s, after).sync_rms_um; });
+}
+
+Spread z_peak_spread(const InternalHelicalResult& run, bool after) {
+  return over_seeds(run, [after](const SeedResult& s) { return gear_of(s, after).z_peak_mm; });
 }
 
 std::vector<double> learning_curve(const InternalHelicalResult& run) {
@@ -216,8 +200,8 @@ json internal_helical_figures(const InternalHelicalResult& run,
   j["signals"] = {{"before", signal_figures(run, run.detail.before)},
                   {"after", signal_figures(run, run.detail.after)}};
   j["learning_um"] = learning_curve(run);
-  j["z_peak_mm"] = {{"before", spread_figures(z_peak(run, false))},
-                    {"after", spread_figures(z_peak(run, true))}};
+  j["z_peak_mm"] = {{"before", spread_figures(z_peak_spread(run, false))},
+                    {"after", spread_figures(z_peak_spread(run, true))}};
   j["regenerated_flank_nm"] = run.geometry.regenerated_nm;
   j["first_order_vs_exact_nm"] = {{"single", run.geometry.single_nm}, {"all", run.geometry.all_nm}};
   j["lags_um"] = {{"z", run.lags.z_um}, {"c", run.lags.c_um}, {"together", run.lags.together_um}};
@@ -230,35 +214,6 @@ json internal_helical_figures(const InternalHelicalResult& run,
   j["seeds"] = run.options.seeds;
   j["version"] = host::kVersion;
   return j;
-}
-
-std::string internal_helical_summary(const InternalHelicalResult& run) {
-  std::string text = fmt::format(
-      "\ngear: {} teeth, module {:g}, helix {:g} deg, width {:g} mm; {} seeds, learned {}\n",
-      run.gear.teeth, run.gear.module, run.gear.helix_angle / kRadPerDegree, run.job.width_mm,
-      run.options.seeds, kLearningWays.at(static_cast<std::size_t>(run.options.way)));
-  text += fmt::format(
-      "wheel of 17 knots: flank within {:.3f} nm; first order against the exact envelope: {:.1f} "
-      "nm "
-      "for one error, {:.1f} nm for all at once (95 of 100)\n",
-      run.geometry.regenerated_nm, run.geometry.single_nm, run.geometry.all_nm);
-  text +=
-      fmt::format("lags on the flank: Z alone {:.1f} µm, C alone {:.1f} µm, together {:.2f} µm\n",
-                  run.lags.z_um, run.lags.c_um, run.lags.together_um);
-  text += signal_lines(run);
-  text += fmt::format(
-      "largest error of Z: {:.3f} mm before, {:.3f} mm after: the helix goes on "
-      "lagging, in step\n\n",
-      z_peak(run, false).median, z_peak(run, true).median);
-  text += fmt::format("{:16}{:>8}{:>8}{:>7}{:>18}{:>13}{:>8}{:>8}\n", "µm", "median", "min", "max",
-                      "median allowed", "grade 1995", "2013", "paper");
-  for (const HelicalMeasure& m : helical_measures(run))
-    text += measure_row(run, m);
-  text += "\nsynchronisation, µm rms on the flank, round by round:";
-  for (const double um : learning_curve(run))
-    text += fmt::format(" {:.2f}", um);
-  const host::Verdict verdict = internal_helical_verdict(run);
-  return text + fmt::format("\n{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
 }  // namespace volcomp::internal_helical

@@ -33,7 +33,9 @@ struct HelicalMeasure {
 };
 [[nodiscard]] std::vector<HelicalMeasure> helical_measures(const InternalHelicalResult& run);
 
+// Z and C out of step on the flank, rms, µm; largest error of Z, mm.
 [[nodiscard]] Spread sync_spread(const InternalHelicalResult& run, bool after);
+[[nodiscard]] Spread z_peak_spread(const InternalHelicalResult& run, bool after);
 // Median over the seeds, round by round.
 [[nodiscard]] std::vector<double> learning_curve(const InternalHelicalResult& run);
 
@@ -53,6 +55,5 @@ struct WrongWay {
 // `tables`: names of the files that were written.
 [[nodiscard]] nlohmann::json internal_helical_figures(const InternalHelicalResult& run,
                                                       const std::vector<std::string>& tables);
-[[nodiscard]] std::string internal_helical_summary(const InternalHelicalResult& run);
 
 }  // namespace volcomp::internal_helical

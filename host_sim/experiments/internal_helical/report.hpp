@@ -10,5 +10,7 @@ namespace volcomp::internal_helical {
 
 [[nodiscard]] nlohmann::json internal_helical_document(const InternalHelicalResult& result,
                                                        const host::RunContext& run);
+// The same for a terminal.
+[[nodiscard]] std::string internal_helical_summary(const InternalHelicalResult& result);
 
 }  // namespace volcomp::internal_helical

@@ -54,16 +54,16 @@ json signal_figures(const InternalHelicalResult& run, const MonitorView& view) {
   return j;
 }
 
-std::string signal_lines(const InternalHelicalResult& run) {
-  std::string text;
+std::vector<std::string> signal_lines(const InternalHelicalResult& run) {
+  std::vector<std::string> lines;
   const std::vector<SignalReport> before = signal_reports(run, run.detail.before);
   const std::vector<SignalReport> after = signal_reports(run, run.detail.after);
   for (std::size_t i = 0; i < before.size(); ++i) {
-    text += fmt::format("C out of step over the {}: ±{:.1f} µm{}; at last ±{:.1f} µm{}\n",
-                        before[i].name, before[i].amplitude_um, verdict_of(before[i], true),
-                        after[i].amplitude_um, verdict_of(after[i], false));
+    lines.push_back(fmt::format("C out of step over the {}: ±{:.1f} µm{}; at last ±{:.1f} µm{}",
+                                before[i].name, before[i].amplitude_um, verdict_of(before[i], true),
+                                after[i].amplitude_um, verdict_of(after[i], false)));
   }
-  return text;
+  return lines;
 }
 
 }  // namespace volcomp::internal_helical

@@ -26,6 +26,6 @@ struct SignalReport {
 [[nodiscard]] nlohmann::json signal_figures(const InternalHelicalResult& run,
                                             const MonitorView& view);
 // One line each.
-[[nodiscard]] std::string signal_lines(const InternalHelicalResult& run);
+[[nodiscard]] std::vector<std::string> signal_lines(const InternalHelicalResult& run);
 
 }  // namespace volcomp::internal_helical

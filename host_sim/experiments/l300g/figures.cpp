@@ -7,6 +7,7 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/version.hpp"
+#include "host_sim/host/report/charts.hpp"
 
 namespace volcomp::l300g {
 namespace {
@@ -42,32 +43,6 @@ json gear_figures(const L300gResult& r) {
     }
   }
   return j;
-}
-
-// F (grade) f_f f_H of both flanks.
-std::string row(const std::array<host::FlankTrace, 2>& trace) {
-  std::string text;
-  for (const host::FlankTrace& t : trace)
-    text += fmt::format("{:9.2f} ({:>3}){:7.2f}{:7.2f}", t.figures.total,
-                        grade_text(t.grade_1995, GearStandard::iso1328_1995), t.figures.form,
-                        t.figures.slope);
-  return text + "\n";
-}
-
-// F_p (grade) f_pt.
-std::string row(const std::array<host::PitchRound, 2>& round) {
-  std::string text;
-  for (const host::PitchRound& p : round)
-    text += fmt::format("{:9.2f} ({:>3}){:7.2f}{:7}", p.figures.total,
-                        grade_text(p.grade_1995, GearStandard::iso1328_1995), p.figures.single, "");
-  return text + "\n";
-}
-
-template <class Member>
-std::string rows(const char* what, const L300gResult& r, const Member member) {
-  return fmt::format("{:8}{:12}{}", what, "before", row(r.before.*member)) +
-         fmt::format("{:8}{:12}{}", "", "after", row(r.after.*member)) +
-         fmt::format("{:8}{:12}{}", "", "the gear", row(r.truth.*member));
 }
 
 // Largest difference of the total deviations from those of the gear.
@@ -154,7 +129,7 @@ json l300g_figures(const L300gResult& r) {
                 {"Y0", c.fit.geometric.y},
                 {"Z0", c.fit.geometric.z}};
   j["identify"]["max_error"] = r.identification.max_error();
-  const Vec3 orientation = kUradPerRad * r.orientation;
+  const Vec3 orientation = host::kUradPerRad * r.orientation;
   j["orientation_urad"] = {orientation.x(), orientation.y(), orientation.z()};
   j["feed_spread_nm"] = {{"raw", r.feeds.raw_spread_nm()},
                          {"corrected", r.feeds.corrected_spread_nm()}};
@@ -163,43 +138,6 @@ json l300g_figures(const L300gResult& r) {
   j["seed"] = r.options.seed;
   j["version"] = host::kVersion;
   return j;
-}
-
-std::string l300g_summary(const L300gResult& r) {
-  const MandrelCalibration& c = r.calibration;
-  std::string text = fmt::format(
-      "\nprobe: {} touches of the mandrel, R_c {:.4f} mm, r_c {:.4f} mm ± {:.2f} µm, Y0 {:.4f} mm, "
-      "Z0 {:.4f} mm, rms {:.2f} µm\n",
-      c.y.size(), c.fit.geometric.radius, c.rc, kUmPerMm * c.u_rc, c.fit.geometric.y,
-      c.fit.geometric.z, kUmPerMm * c.fit.rms);
-  text += fmt::format(
-      "identification: 24 functions, largest error {:.1e} mm or rad; the paper's eq. 18 has rank "
-      "{} of 6\n",
-      r.identification.max_error(), r.printed.x.rank);
-  const Vec3 orientation = kUradPerRad * r.orientation;
-  text += fmt::format(
-      "orientation of the probe against the gear at the pitch point: {:.1f}, {:.1f}, {:.1f} µrad; "
-      "X, "
-      "Y and B correct what it does to the ball, not itself\n\n",
-      orientation.x(), orientation.y(), orientation.z());
-  text += fmt::format("{:20}{:^29} {:^29}\n", "deviations, µm", "left flank", "right flank");
-  text += fmt::format("{:20}{:>9} {:5}{:>7}{:>7}{:>9} {:5}{:>7}{:>7}\n", "", "F", "grade", "f_f",
-                      "f_H", "F", "grade", "f_f", "f_H");
-  text += rows("profile", r, &GearInspection::profile) + rows("lead", r, &GearInspection::lead);
-  text += fmt::format("{:20}{:>9} {:5}{:>7}{:7}{:>9} {:5}{:>7}\n", "", "F_p", "grade", "f_pt", "",
-                      "F_p", "grade", "f_pt");
-  text += rows("pitch", r, &GearInspection::pitch);
-  text += fmt::format(
-      "\none place at 10 to 1000 mm/min: {:.1f} nm apart as latched, {:.1f} nm as corrected\n"
-      "a probe with lobing in 36 directions: up to {:.2f} µm wrong with a constant radius, {:.2f} "
-      "µm "
-      "with a map\n"
-      "grades: ISO 1328-1:1995 (GB/T 10095.1-2008) of F, of the worse of F_p and f_pt; the "
-      "formulas were not checked against the printed standard\n",
-      r.feeds.raw_spread_nm(), r.feeds.corrected_spread_nm(), r.lobing.raw_um,
-      r.lobing.corrected_um);
-  const host::Verdict verdict = l300g_verdict(r);
-  return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
 }
 
 }  // namespace volcomp::l300g

@@ -9,9 +9,6 @@ namespace volcomp::l300g {
 // The figures of a run under the names the README documents: probe in mm, deviations in µm.
 [[nodiscard]] nlohmann::json l300g_figures(const L300gResult& result);
 
-// The same for a terminal.
-[[nodiscard]] std::string l300g_summary(const L300gResult& result);
-
 // Passes when the compensated machine finds the gear as it is, whatever it found before.
 [[nodiscard]] host::Verdict l300g_verdict(const L300gResult& result);
 

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "host_sim/experiments/l300g/figures.hpp"
-#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/charts.hpp"
+#include "host_sim/host/report/document.hpp"
 
 namespace volcomp::l300g {
 namespace {
@@ -85,52 +86,39 @@ std::string values(const char* when, const host::FlankTrace& t, const char* symb
 json trace_chart(const L300gResult& r, const TraceKind& kind, std::size_t side) {
   const host::FlankTrace& before = (r.before.*kind.traces)[side];
   const host::FlankTrace& after = (r.after.*kind.traces)[side];
-  return {{"type", "lines"},
-          {"id", fmt::format("{}-{}", kind.id, kSideNames[side])},
-          {"title", fmt::format("{} flank", kSideNames[side])},
-          {"x", host::axis_label("deviation, + = excess", "µm")},
-          {"y", kind.place},
-          {"series",
-           {band_series(r, kind, side), trace_series("uncompensated", before),
-            trace_series("compensated", after)}},
-          {"note", values("Before", before, kind.symbol) + values("After", after, kind.symbol)}};
+  return host::lines_chart(
+      fmt::format("{}-{}", kind.id, kSideNames[side]), fmt::format("{} flank", kSideNames[side]),
+      host::axis_label("deviation, + = excess", "µm"), kind.place,
+      {band_series(r, kind, side), trace_series("uncompensated", before),
+       trace_series("compensated", after)},
+      values("Before", before, kind.symbol) + values("After", after, kind.symbol));
 }
 
 json trace_group(const L300gResult& r, const TraceKind& kind) {
   json charts = json::array();
   for (std::size_t side = 0; side < kSides.size(); ++side)
     charts.push_back(trace_chart(r, kind, side));
-  return {{"type", "group"},
-          {"id", kind.id},
-          {"title", fmt::format("{} of tooth 1", kind.title)},
-          {"shared_y", true},
-          {"charts", charts},
-          {"note",
-           "Each trace stands halfway between its extremes in the evaluation range. The band is as "
-           "wide as the tolerance of the total deviation in the grade of the gear itself: a trace "
-           "fits into it or has a worse grade."}};
+  return host::chart_group(
+      kind.id, fmt::format("{} of tooth 1", kind.title), charts,
+      "Each trace stands halfway between its extremes in the evaluation range. The band is as wide "
+      "as the tolerance of the total deviation in the grade of the gear itself: a trace fits into "
+      "it or has a worse grade.");
 }
 
 json pitch_chart(const L300gResult& r, std::size_t side) {
-  json series = json::array();
-  std::vector<double> tooth;
-  for (int k = 1; k <= r.gear.teeth; ++k)
-    tooth.push_back(k);
+  const std::vector<double> tooth = host::counted(static_cast<std::size_t>(r.gear.teeth));
   const host::PitchRound& before = r.before.pitch[side];
   const host::PitchRound& after = r.after.pitch[side];
-  series.push_back(host::series_of("uncompensated", tooth, before.position));
-  series.push_back(host::series_of("compensated", tooth, after.position));
   const auto values = [](const char* when, const host::PitchRound& p) {
     return fmt::format("{}: Fp {:.1f} µm, fpt {:.1f} µm (grade {}). ", when, p.figures.total,
                        p.figures.single, grade_text(p.grade_1995, kOld));
   };
-  return {{"type", "lines"},
-          {"id", fmt::format("pitch-{}", kSideNames[side])},
-          {"title", fmt::format("{} flank", kSideNames[side])},
-          {"x", host::axis_label("tooth", "")},
-          {"y", host::axis_label("position deviation", "µm")},
-          {"series", series},
-          {"note", values("Before", before) + values("After", after)}};
+  return host::lines_chart(fmt::format("pitch-{}", kSideNames[side]),
+                           fmt::format("{} flank", kSideNames[side]), host::axis_label("tooth", ""),
+                           host::axis_label("position deviation", "µm"),
+                           {host::series_of("uncompensated", tooth, before.position),
+                            host::series_of("compensated", tooth, after.position)},
+                           values("Before", before) + values("After", after));
 }
 
 json trace_row(const std::string& name, const host::FlankTrace& t) {
@@ -148,12 +136,8 @@ json profile_charts(const L300gResult& r) { return trace_group(r, profile_kind()
 json lead_charts(const L300gResult& r) { return trace_group(r, lead_kind()); }
 
 json pitch_charts(const L300gResult& r) {
-  return {{"type", "group"},
-          {"id", "pitch"},
-          {"title", "Pitch of all teeth"},
-          {"shared_y", true},
-          {"charts", {pitch_chart(r, 0), pitch_chart(r, 1)}},
-          {"note", "The simulated gear has no pitch deviations of its own."}};
+  return host::chart_group("pitch", "Pitch of all teeth", {pitch_chart(r, 0), pitch_chart(r, 1)},
+                           "The simulated gear has no pitch deviations of its own.");
 }
 
 json gear_table(const L300gResult& r) {
@@ -170,22 +154,17 @@ json gear_table(const L300gResult& r) {
       add("the gear itself", r.truth);
     }
   }
-  return {{"type", "table"},
-          {"id", "gear"},
-          {"title", "Deviations and grades"},
-          {"columns",
-           {{{"title", "trace"}},
-            host::column("F", "µm", 2),
-            host::column("f_f", "µm", 2),
-            host::column("f_H", "µm", 2),
-            {{"title", "grade 1995"}},
-            {{"title", "class 2013"}}}},
-          {"rows", rows},
-          {"note",
-           "Grades of the total deviation F. ISO 1328-1:1995 (= GB/T 10095.1-2008): rows d 50 to "
-           "125, m 3.5 to 6, b 20 to 40 mm, geometric means, limits rounded as the standard does; "
-           "profile over 92 % of the active flank. ISO 1328-1:2013: from the sizes themselves, "
-           "profile over 95 %. The formulas were not checked against the printed standards."}};
+  return host::in_summary(host::with_id(
+      "gear",
+      host::table_section("Deviations and grades",
+                          {host::plain_column("trace"), host::column("F", "µm", 2),
+                           host::column("f_f", "µm", 2), host::column("f_H", "µm", 2),
+                           host::plain_column("grade 1995"), host::plain_column("class 2013")},
+                          rows),
+      "Grades of the total deviation F. ISO 1328-1:1995 (= GB/T 10095.1-2008): rows d 50 to 125, m "
+      "3.5 to 6, b 20 to 40 mm, geometric means, limits rounded as the standard does; profile over "
+      "92 % of the active flank. ISO 1328-1:2013: from the sizes themselves, profile over 95 %. "
+      "The formulas were not checked against the printed standards."));
 }
 
 }  // namespace volcomp::l300g

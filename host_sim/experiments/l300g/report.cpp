@@ -9,9 +9,9 @@
 #include "host_sim/experiments/l300g/figures.hpp"
 #include "host_sim/experiments/l300g/gear_charts.hpp"
 #include "host_sim/host/report/before_after.hpp"
+#include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/error_functions.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/report_parts.hpp"
 
 namespace volcomp::l300g {
 namespace {
@@ -30,23 +30,15 @@ json residual_chart(const MandrelCalibration& c) {
     y[below].push_back(c.y[i]);
     residual[below].push_back(kUmPerMm * c.residual(i));
   }
-  const auto points = [&](const char* name, std::size_t below) {
-    json series = host::series_of(name, y[below], residual[below]);
-    series["style"] = "points";
-    return series;
-  };
-  return {
-      {"type", "lines"},
-      {"id", "residuals"},
-      {"title", "Probe calibration: residuals on the mandrel"},
-      {"x", host::axis_label("Y", "mm")},
-      {"y", host::axis_label("distance from the circle", "µm")},
-      {"series", {points("above the mandrel", 0), points("below the mandrel", 1)}},
-      {"note",
-       fmt::format("{} touches in one half plane, nothing compensated. R_c {:.4f} mm, r_c = R_c "
-                   "- R = {:.4f} mm, Y0 {:.4f} mm, Z0 {:.4f} mm, rms {:.2f} µm.",
-                   c.y.size(), c.fit.geometric.radius, c.rc, c.fit.geometric.y, c.fit.geometric.z,
-                   kUmPerMm * c.fit.rms)}};
+  return host::lines_chart(
+      "residuals", "Probe calibration: residuals on the mandrel", host::axis_label("Y", "mm"),
+      host::axis_label("distance from the circle", "µm"),
+      {host::points_of("above the mandrel", y[0], residual[0]),
+       host::points_of("below the mandrel", y[1], residual[1])},
+      fmt::format("{} touches in one half plane, nothing compensated. R_c {:.4f} mm, r_c = R_c - R "
+                  "= {:.4f} mm, Y0 {:.4f} mm, Z0 {:.4f} mm, rms {:.2f} µm.",
+                  c.y.size(), c.fit.geometric.radius, c.rc, c.fit.geometric.y, c.fit.geometric.z,
+                  kUmPerMm * c.fit.rms));
 }
 
 json effect_row(const std::string& what, const MandrelEffect& e) {
@@ -61,20 +53,16 @@ json sensitivities(const L300gResult& r) {
     rows.push_back(
         effect_row(fmt::format("pivot {:g} mm above the axis of A, ignored", kHigherPivots_mm[i]),
                    r.higher_pivot[i]));
-  return {
-      {"type", "table"},
-      {"id", "sensitivities"},
-      {"title", "What the calibration cannot tell from the radius"},
-      {"columns",
-       {{{"title", "machine"}},
-        host::column("R_c", "µm", 3),
-        host::column("Y0", "µm", 3),
-        host::column("Z0", "µm", 3),
-        host::column("rms", "µm", 4)}},
-      {"rows", rows},
-      {"note", fmt::format("The residuals hardly show them. Standard uncertainty of r_c with the "
-                           "assumed inputs: {:.2f} µm.",
-                           kUmPerMm * r.calibration.u_rc)}};
+  return host::with_id(
+      "sensitivities",
+      host::table_section(
+          "What the calibration cannot tell from the radius",
+          {host::plain_column("machine"), host::column("R_c", "µm", 3), host::column("Y0", "µm", 3),
+           host::column("Z0", "µm", 3), host::column("rms", "µm", 4)},
+          rows),
+      fmt::format("The residuals hardly show them. Standard uncertainty of r_c with the assumed "
+                  "inputs: {:.2f} µm.",
+                  kUmPerMm * r.calibration.u_rc));
 }
 
 // --- identification
@@ -105,51 +93,68 @@ json printed_table(const L300gResult& r) {
   for (std::size_t a = 0; a < r.identification.found.axis.size(); ++a) {
     const host::IdentifiedAxis& axis = r.identification.found.axis[a];
     const bool rotary = r.machine.axes[a].rotary;
-    const double scale = rotary ? kUradPerRad : kUmPerMm;
+    const double scale = rotary ? host::kUradPerRad : kUmPerMm;
     const ReadingFigures& own = r.printed.own.at(a);
     rows.push_back({std::string(1, axis.letter), scale * own.mean, scale * own.deviation,
                     scale * own.range, rotary ? "µrad" : "µm"});
   }
-  return {{"type", "table"},
-          {"id", "printed"},
-          {"title", "What the procedure as printed can give"},
-          {"columns",
-           {{{"title", "axis"}},
-            {{"title", "mean reading"}, {"digits", 3}},
-            {{"title", "standard deviation"}, {"digits", 3}},
-            {{"title", "range"}, {"digits", 3}},
-            {{"title", "unit"}}}},
-          {"rows", rows},
-          {"note",
-           fmt::format("Eq. 18 of the paper repeats the same three rows for every station: rank {} "
-                       "of 6. Its shortest solution for X is EX {:.4f} µm, EB {:.2e} rad, EC "
-                       "{:.2e} rad: the mean reading, and nothing else.",
-                       r.printed.x.rank, kUmPerMm * r.printed.x.least(0), r.printed.x.least(4),
-                       r.printed.x.least(5))}};
+  return host::with_id(
+      "printed",
+      host::table_section("What the procedure as printed can give",
+                          {host::plain_column("axis"), host::column("mean reading", "", 3),
+                           host::column("standard deviation", "", 3), host::column("range", "", 3),
+                           host::plain_column("unit")},
+                          rows),
+      fmt::format("Eq. 18 of the paper repeats the same three rows for every station: rank {} of "
+                  "6. Its shortest solution for X is EX {:.4f} µm, EB {:.2e} rad, EC {:.2e} rad: "
+                  "the mean reading, and nothing else.",
+                  r.printed.x.rank, kUmPerMm * r.printed.x.least(0), r.printed.x.least(4),
+                  r.printed.x.least(5)));
 }
 
 // --- points
 
 json feed_chart(const L300gResult& r) {
-  const auto points = [&](const char* name, const std::vector<double>& nm) {
-    json series = host::series_of(name, r.feeds.feed_mm_min, nm);
-    series["style"] = "points";
-    return series;
-  };
-  return {{"type", "lines"},
-          {"id", "feeds"},
-          {"title", fmt::format("The same place at {} feeds", r.feeds.feed_mm_min.size())},
-          {"x", host::axis_label("feed", "mm/min")},
-          {"y", host::axis_label("normal to the flank, from the mean", "nm")},
-          {"series",
-           {points("as latched", r.feeds.raw_nm),
-            points("corrected by the node", r.feeds.corrected_nm)}},
-          {"note", fmt::format("Spread {:.1f} nm as latched, {:.1f} nm corrected for the delays of "
-                               "probe and axes.",
-                               r.feeds.raw_spread_nm(), r.feeds.corrected_spread_nm())}};
+  const FeedCheck& feeds = r.feeds;
+  return host::lines_chart(
+      "feeds", fmt::format("The same place at {} feeds", feeds.feed_mm_min.size()),
+      host::axis_label("feed", "mm/min"),
+      host::axis_label("normal to the flank, from the mean", "nm"),
+      {host::points_of("as latched", feeds.feed_mm_min, feeds.raw_nm),
+       host::points_of("corrected by the node", feeds.feed_mm_min, feeds.corrected_nm)},
+      fmt::format("Spread {:.1f} nm as latched, {:.1f} nm corrected for the delays of probe and "
+                  "axes.",
+                  feeds.raw_spread_nm(), feeds.corrected_spread_nm()));
 }
 
 // --- the document
+
+// What was found besides the gear, in words.
+json found_text(const L300gResult& r) {
+  const MandrelCalibration& c = r.calibration;
+  const Vec3 orientation = host::kUradPerRad * r.orientation;
+  return host::in_summary(host::with_id(
+      "found",
+      host::text_section(
+          "Probe, machine and touches",
+          {fmt::format("probe: {} touches of the mandrel, R_c {:.4f} mm, r_c {:.4f} mm ± {:.2f} "
+                       "µm, Y0 {:.4f} mm, Z0 {:.4f} mm, rms {:.2f} µm",
+                       c.y.size(), c.fit.geometric.radius, c.rc, kUmPerMm * c.u_rc,
+                       c.fit.geometric.y, c.fit.geometric.z, kUmPerMm * c.fit.rms),
+           fmt::format("identification: 24 functions, largest error {:.1e} mm or rad; the paper's "
+                       "eq. 18 has rank {} of 6",
+                       r.identification.max_error(), r.printed.x.rank),
+           fmt::format("orientation of the probe against the gear at the pitch point: {:.1f}, "
+                       "{:.1f}, {:.1f} µrad; X, Y and B correct what it does to the ball, not "
+                       "itself",
+                       orientation.x(), orientation.y(), orientation.z()),
+           fmt::format("one place at 10 to 1000 mm/min: {:.1f} nm apart as latched, {:.1f} nm as "
+                       "corrected",
+                       r.feeds.raw_spread_nm(), r.feeds.corrected_spread_nm()),
+           fmt::format("a probe with lobing in 36 directions: up to {:.2f} µm wrong with a "
+                       "constant radius, {:.2f} µm with a map",
+                       r.lobing.raw_um, r.lobing.corrected_um)})));
+}
 
 json before_after(const L300gResult& r) {
   std::vector<host::BeforeAfter> lines;
@@ -214,11 +219,15 @@ json l300g_document(const L300gResult& r, const host::RunContext& run) {
   parts.verdict = l300g_verdict(r);
   parts.before_after = before_after(r);
   parts.plots = {profile_charts(r), lead_charts(r), pitch_charts(r), error_functions(r)};
-  parts.details = {gear_table(r), residual_chart(r.calibration), sensitivities(r), printed_table(r),
-                   feed_chart(r)};
+  parts.details = {gear_table(r),    found_text(r),    residual_chart(r.calibration),
+                   sensitivities(r), printed_table(r), feed_chart(r)};
   parts.ticks = run.ticks;
   parts.provenance = host::provenance(run, origins(r));
   return host::report_document(std::move(parts));
+}
+
+std::string l300g_summary(const L300gResult& r) {
+  return host::terminal_text(l300g_document(r, {}));
 }
 
 }  // namespace volcomp::l300g

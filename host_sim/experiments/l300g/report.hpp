@@ -9,5 +9,7 @@ namespace volcomp::l300g {
 
 // A run as a report document (host_sim/host/report/page/README.md).
 [[nodiscard]] nlohmann::json l300g_document(const L300gResult& result, const host::RunContext& run);
+// The same for a terminal.
+[[nodiscard]] std::string l300g_summary(const L300gResult& result);
 
 }  // namespace volcomp::l300g

@@ -51,7 +51,6 @@ struct L300gResult {
   LobingCheck lobing;
 };
 
-inline constexpr double kUradPerRad = 1e6;
 inline constexpr double kLongerArm_mm = 1e-3;
 inline constexpr std::array<double, 3> kHigherPivots_mm{1.0, 5.0, 10.0};
 

@@ -4,8 +4,8 @@
 
 #include "host_sim/experiments/xyfz/dynamics.hpp"
 #include "host_sim/host/measure/volume_csv.hpp"
+#include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/error_functions.hpp"
-#include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/volume_map.hpp"
 
 namespace volcomp::xyfz {
@@ -41,22 +41,14 @@ json diagonal_charts(const XyfzResult& r, bool faces) {
       const sim::MeasuredDiagonal& diagonal = faces ? r.mode[m].face[d] : r.mode[m].body[d];
       series.push_back(host::series_of(kModeNames[m], diagonal.distance_mm, diagonal.mean_um));
     }
-    charts.push_back({{"type", "lines"},
-                      {"id", fmt::format("{}-{}", faces ? "face" : "body", names[d].name)},
-                      {"title", names[d].name},
-                      {"x", host::axis_label("distance", "mm")},
-                      {"y", host::axis_label("deviation", "µm")},
-                      {"series", series}});
+    charts.push_back(host::lines_chart(fmt::format("{}-{}", faces ? "face" : "body", names[d].name),
+                                       names[d].name, host::axis_label("distance", "mm"),
+                                       host::axis_label("deviation", "µm"), series));
   }
-  return {{"type", "group"},
-          {"id", faces ? "faces" : "diagonals"},
-          {"title", faces ? "Face diagonals" : "Body diagonals, all modes"},
-          {"shared_y", true},
-          {"charts", charts},
-          {"note",
-           "Mean of both directions, noise-free, relative to the first point (ISO 230-6). The "
-           "machine moved with "
-           "the offsets applied; nothing was subtracted afterwards."}};
+  return host::chart_group(
+      faces ? "faces" : "diagonals", faces ? "Face diagonals" : "Body diagonals, all modes", charts,
+      "Mean of both directions, noise-free, relative to the first point (ISO 230-6). The machine "
+      "moved with the offsets applied; nothing was subtracted afterwards.");
 }
 
 json draws_sections(const XyfzResult& r) {
@@ -70,7 +62,7 @@ json draws_sections(const XyfzResult& r) {
       rates.push_back(d.rate(m));
     rows.push_back({kModeTitles[m + 1], r.draw_quantile(m, 0.5), r.draw_quantile(m, 0.05),
                     r.draw_quantile(m, 0.0)});
-    series.push_back({{"name", kModeNames[m + 1]}, {"values", rates}});
+    series.push_back(host::bars_of(kModeNames[m + 1], rates));
   }
   sections.push_back(
       {{"type", "histogram"},
@@ -84,56 +76,41 @@ json draws_sections(const XyfzResult& r) {
             "Every campaign draws its own instrument errors, arms, temperature and readings. "
             "Line: the paper's {} %. Reached by the closed model in {:.0f} % of them.",
             kPaperRate, 100.0 * r.draws_reaching(kPaperRate))}});
-  sections.push_back({{"type", "table"},
-                      {"id", "draw-quantiles"},
-                      {"title", "Rate over the noisy campaigns"},
-                      {"columns",
-                       {{{"title", "model"}},
-                        {{"title", "median"}, {"unit", "%"}, {"digits", 1}},
-                        {{"title", "5 % quantile"}, {"unit", "%"}, {"digits", 1}},
-                        {{"title", "worst"}, {"unit", "%"}, {"digits", 1}}}},
-                      {"rows", rows}});
+  sections.push_back(host::with_id(
+      "draw-quantiles",
+      host::table_section("Rate over the noisy campaigns",
+                          {host::plain_column("model"), host::column("median", "%", 1),
+                           host::column("5 % quantile", "%", 1), host::column("worst", "%", 1)},
+                          rows)));
   return sections;
 }
 
 json dynamics_sections(const XyfzResult& r) {
   const Dynamics& d = r.dynamics;
-  json sections = json::array();
-  sections.push_back(
-      {{"type", "lines"},
-       {"id", "line"},
-       {"title", fmt::format("Straight line at {:g} m/min along PNP", kLineFeed_m_min)},
-       {"x", host::axis_label("path", "mm")},
-       {"y", host::axis_label("distance from the chord", "µm")},
-       {"series",
-        {host::series_of("uncompensated", d.line_deviation_raw_um.x, d.line_deviation_raw_um.y),
-         host::series_of("abbe_closed", d.line_deviation_um.x, d.line_deviation_um.y)}}});
-  sections.push_back(
-      {{"type", "lines"},
-       {"id", "line-offset"},
-       {"title", "Applied minus wanted offset on that line"},
-       {"x", host::axis_label("path", "mm")},
-       {"y", host::axis_label("largest of the three axes", "nm")},
-       {"series",
-        {host::series_of("abbe_closed", d.line_offset_error_nm.x, d.line_offset_error_nm.y)}},
-       {"note",
-        fmt::format("Worst {:.2f} nm over every tick. 1 nm is the bound of the arithmetic, not of "
-                    "the machine.",
-                    d.line_worst_nm)}});
-  sections.push_back(
-      {{"type", "lines"},
-       {"id", "circle"},
-       {"title", fmt::format("Circle in XY, radius {:g} mm, {:g} m/min", kCircleRadius_mm,
-                             kCircleFeed_m_min)},
-       {"x", host::axis_label("angle", "deg")},
-       {"y", host::axis_label("radial deviation", "µm")},
-       {"series",
-        {host::series_of("uncompensated", d.circle_raw_um.x, d.circle_raw_um.y),
-         host::series_of("abbe_closed", d.circle_um.x, d.circle_um.y)}},
-       {"note",
-        "Best-fit circle removed. Spikes at the quadrants: reversal, which the direction-dependent "
-        "tables correct after the hysteresis of the direction."}});
-  return sections;
+  const auto curve = [](const char* name, const Trace& trace) {
+    return host::series_of(name, trace.x, trace.y);
+  };
+  return json::array(
+      {host::lines_chart(
+           "line", fmt::format("Straight line at {:g} m/min along PNP", kLineFeed_m_min),
+           host::axis_label("path", "mm"), host::axis_label("distance from the chord", "µm"),
+           {curve("uncompensated", d.line_deviation_raw_um),
+            curve("abbe_closed", d.line_deviation_um)}),
+       host::lines_chart(
+           "line-offset", "Applied minus wanted offset on that line",
+           host::axis_label("path", "mm"), host::axis_label("largest of the three axes", "nm"),
+           json::array({curve("abbe_closed", d.line_offset_error_nm)}),
+           fmt::format("Worst {:.2f} nm over every tick. 1 nm is the bound of the arithmetic, not "
+                       "of the machine.",
+                       d.line_worst_nm)),
+       host::lines_chart(
+           "circle",
+           fmt::format("Circle in XY, radius {:g} mm, {:g} m/min", kCircleRadius_mm,
+                       kCircleFeed_m_min),
+           host::axis_label("angle", "deg"), host::axis_label("radial deviation", "µm"),
+           {curve("uncompensated", d.circle_raw_um), curve("abbe_closed", d.circle_um)},
+           "Best-fit circle removed. Spikes at the quadrants: reversal, which the "
+           "direction-dependent tables correct after the hysteresis of the direction.")});
 }
 
 json positioning_charts(const XyfzResult& r) {

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include "host_sim/experiments/xyfz/bench.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::xyfz {
 namespace {
+
+using nlohmann::json;
 
 constexpr double kLeastRate = 98.0;
 
@@ -52,14 +56,20 @@ nlohmann::json one_diagonal_figures(const OneDiagonal& result) {
 }
 
 std::string one_diagonal_summary(const OneDiagonal& result) {
-  std::string text = fmt::format("diagonal {}\n     mm  uncompensated um  compensated um\n",
-                                 result.compensated.name);
-  for (std::size_t i = 0; i < result.compensated.mean_um.size(); ++i) {
-    text += fmt::format("{:7.2f}  {:16.3f}  {:14.3f}\n", result.compensated.distance_mm[i],
-                        result.uncompensated.mean_um[i], result.compensated.mean_um[i]);
-  }
-  return text + fmt::format("{} {:.2f} % of the largest deviation removed\n",
-                            result.ok() ? "PASS" : "FAIL", result.rate());
+  const sim::MeasuredDiagonal& after = result.compensated;
+  json rows = json::array();
+  for (std::size_t i = 0; i < after.mean_um.size(); ++i)
+    rows.push_back({after.distance_mm[i], result.uncompensated.mean_um[i], after.mean_um[i]});
+  const json table = host::table_section(
+      fmt::format("diagonal {}", after.name),
+      {host::column("distance", "mm", 2), host::column("uncompensated", "µm", 3),
+       host::column("compensated", "µm", 3)},
+      rows);
+  return host::text_of(
+      {{"sections", json::array({table})},
+       {"verdict",
+        {{"ok", result.ok()},
+         {"text", fmt::format("{:.2f} % of the largest deviation removed", result.rate())}}}});
 }
 
 }  // namespace volcomp::xyfz

@@ -7,8 +7,8 @@
 #include "host_sim/experiments/xyfz/truth.hpp"
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/report/before_after.hpp"
+#include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/report_parts.hpp"
 
 namespace volcomp::xyfz {
 namespace {
@@ -58,27 +58,20 @@ json models_table(const XyfzResult& r) {
     row.push_back(m == 0 ? json(nullptr) : json(r.rate_on_knots(m)));
     rows.push_back(row);
   }
-  json columns = json::array();
-  columns.push_back({{"title", "mode"}});
-  for (const char* name : {"PPP", "NPP", "PNP", "PPN", "faces", "volume"}) {
-    columns.push_back({{"title", name}, {"unit", "µm"}, {"digits", 2}});
-  }
-  columns.push_back({{"title", "rate PNP"}, {"unit", "%"}, {"digits", 2}});
-  columns.push_back({{"title", "on knots"}, {"unit", "%"}, {"digits", 2}});
-  return {
-      {"type", "table"},
-      {"id", "models"},
-      {"title", "The models beside each other"},
-      {"columns", columns},
-      {"rows", rows},
-      {"highlight_row", 3},
-      {"note",
-       fmt::format(
-           "Largest deviation of each diagonal at {} points, of the six face diagonals, and in the "
-           "volume at {} random points after aligning the workpiece frame. Rate: reduction of the "
-           "PNP "
-           "maximum; a single diagonal certifies nothing, look at all of them.",
-           sim::kDiagonalPoints, r.options.volume_points)}};
+  json columns = json::array({host::plain_column("largest deviation")});
+  for (const char* name : {"PPP", "NPP", "PNP", "PPN", "faces", "volume"})
+    columns.push_back(host::column(name, "µm", 2));
+  columns.push_back(host::column("rate PNP", "%", 2));
+  columns.push_back(host::column("on knots", "%", 2));
+  json table = host::table_section("The models beside each other", columns, rows);
+  table["highlight_row"] = 3;
+  return host::in_summary(host::with_id(
+      "models", table,
+      fmt::format("Largest deviation of each diagonal at {} points, of the six face diagonals, and "
+                  "in the volume at {} random points after aligning the workpiece frame. Rate: "
+                  "reduction of the PNP maximum; a single diagonal certifies nothing, look at all "
+                  "of them.",
+                  sim::kDiagonalPoints, r.options.volume_points)));
 }
 
 json lever_table(const XyfzResult& r) {
@@ -90,49 +83,43 @@ json lever_table(const XyfzResult& r) {
                       c.status.ok() ? "good" : code(c.status.reason)});
     }
   }
-  return {{"type", "table"},
-          {"id", "levers"},
-          {"title", "Lever self-test"},
-          {"columns",
-           {{{"title", "axis"}},
-            {{"title", "lever difference"}, {"unit", "mm"}, {"digits", 1}},
-            {{"title", "found"}, {"unit", "mm"}, {"digits", 1}},
-            {{"title", "allowed"}, {"unit", "mm"}, {"digits", 1}},
-            {{"title", "result"}}}},
-          {"rows", rows},
-          {"note",
-           "Positioning measured at two places: the difference regressed on the angles must return "
-           "the lever "
-           "difference. A wrong sign, unit or order of axes cannot pass."}};
+  return host::with_id(
+      "levers",
+      host::table_section("Lever self-test",
+                          {host::plain_column("axis"), host::column("lever difference", "mm", 1),
+                           host::column("found", "mm", 1), host::column("allowed", "mm", 1),
+                           host::plain_column("result")},
+                          rows),
+      "Positioning measured at two places: the difference regressed on the angles must return the "
+      "lever difference. A wrong sign, unit or order of axes cannot pass.");
 }
 
 json limits_table(const XyfzResult& r) {
-  return {{"type", "table"},
-          {"id", "limits"},
-          {"title", "What the arithmetic and the models leave"},
-          {"columns",
-           {{{"title", "quantity"}}, {{"title", "value"}, {"digits", 3}}, {{"title", "unit"}}}},
-          {"rows",
-           {{"tick against the same model in double, after rounding", r.tick_max_error_nm, "nm"},
-            {fmt::format("applied against wanted offset at {:g} m/min", kLineFeed_m_min),
-             r.dynamics.line_worst_nm, "nm"},
-            {"first-order run-time model against the exact chain", r.mode[3].model_bound_nm, "nm"},
-            {"not representable by one-dimensional tables, X", r.per_axis.max_um.x(), "µm"},
-            {"not representable by one-dimensional tables, Y", r.per_axis.max_um.y(), "µm"},
-            {"not representable by one-dimensional tables, Z", r.per_axis.max_um.z(), "µm"}}}};
+  json rows = json::array(
+      {{"tick against the same model in double, after rounding", r.tick_max_error_nm, "nm"},
+       {fmt::format("applied against wanted offset at {:g} m/min", kLineFeed_m_min),
+        r.dynamics.line_worst_nm, "nm"},
+       {"first-order run-time model against the exact chain", r.mode[3].model_bound_nm, "nm"}});
+  for (Eigen::Index a = 0; a < 3; ++a)
+    rows.push_back({fmt::format("not representable by one-dimensional tables, {}", "XYZ"[a]),
+                    r.per_axis.max_um(a), "µm"});
+  return host::in_summary(host::with_id(
+      "limits", host::table_section("What the arithmetic and the models leave",
+                                    {host::plain_column("quantity"), host::column("value", "", 3),
+                                     host::plain_column("unit")},
+                                    rows)));
 }
 
 std::vector<std::string> instruments(const sim::NoiseClasses& n, std::size_t runs) {
-  constexpr double kMicro = 1e6;
   return {
       fmt::format("laser of six degrees of freedom, {} bidirectional runs: repeatability {:g} µm "
                   "and {:g} µrad, scale {:g} µm/m, roll {:g} µrad, levers known to {:g} mm",
-                  runs, kUmPerMm * n.repeatability_mm, kMicro * n.repeatability_rad,
-                  kMicro * n.scale, kMicro * n.roll_rad, n.arm_mm),
-      fmt::format("ball bar for squareness: {:g} µrad", kMicro * n.ball_bar_rad),
+                  runs, kUmPerMm * n.repeatability_mm, host::kUradPerRad * n.repeatability_rad,
+                  host::kUradPerRad * n.scale, host::kUradPerRad * n.roll_rad, n.arm_mm),
+      fmt::format("ball bar for squareness: {:g} µrad", host::kUradPerRad * n.ball_bar_rad),
       fmt::format("interferometer along diagonals: scale {:g} µm/m; {:g} K between measuring "
                   "and checking",
-                  kMicro * n.interferometer, n.temperature_K)};
+                  host::kUradPerRad * n.interferometer, n.temperature_K)};
 }
 
 host::Origins origins(const XyfzResult& r) {
@@ -214,7 +201,7 @@ json xyfz_document(const XyfzResult& r, const host::RunContext& run) {
   parts.before_after = before_after(r);
   parts.plots = {diagonal_charts(r, false), volume_chart(r), positioning_charts(r),
                  error_function_charts(r)};
-  parts.details = {models_table(r), diagonal_charts(r, true)};
+  parts.details = {models_table(r), limits_table(r), diagonal_charts(r, true)};
   for (const json& s : draws_sections(r))
     parts.details.push_back(s);
   for (const json& s : dynamics_sections(r))
@@ -222,29 +209,11 @@ json xyfz_document(const XyfzResult& r, const host::RunContext& run) {
   parts.details.push_back(host::positioning_table(
       r.positioning_check, "At mid travel of the other axes, by interferometer."));
   parts.details.push_back(lever_table(r));
-  parts.details.push_back(limits_table(r));
   parts.ticks = run.ticks;
   parts.provenance = host::provenance(run, origins(r));
   return host::report_document(std::move(parts));
 }
 
-std::string xyfz_summary(const XyfzResult& r) {
-  std::string text =
-      fmt::format("\n{:32}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>10}\n", "largest deviation, µm", "PPP",
-                  "NPP", "PNP", "PPN", "faces", "volume", "rate PNP");
-  for (std::size_t m = 0; m < r.mode.size(); ++m) {
-    text += fmt::format("{:32}", kModeTitles[m]);
-    for (const sim::MeasuredDiagonal& d : r.mode[m].body)
-      text += fmt::format("{:9.2f}", d.max_abs_um);
-    text += fmt::format("{:9.2f}{:9.2f}", r.mode[m].faces_max_um(), r.mode[m].volume.max_um);
-    text += m == 0 ? fmt::format("{:>10}\n", "-") : fmt::format("{:8.2f} %\n", r.rate(m));
-  }
-  text += fmt::format(
-      "\ntick against double {:.2f} nm, line at {:g} m/min {:.2f} nm, first-order model {:.1f} "
-      "nm\n",
-      r.tick_max_error_nm, kLineFeed_m_min, r.dynamics.line_worst_nm, r.mode[3].model_bound_nm);
-  const host::Verdict verdict = xyfz_verdict(r);
-  return text + fmt::format("{} {}\n", verdict.ok ? "PASS" : "FAIL", verdict.text);
-}
+std::string xyfz_summary(const XyfzResult& r) { return host::terminal_text(xyfz_document(r, {})); }
 
 }  // namespace volcomp::xyfz

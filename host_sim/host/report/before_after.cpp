@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/charts.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -47,8 +47,7 @@ json before_after_table(const std::vector<BeforeAfter>& lines, const std::string
     }
     rows.push_back(row);
   }
-  json table = {{"type", "table"},    {"id", "before-after"}, {"title", "Before and after"},
-                {"columns", columns}, {"rows", rows},         {"note", note}};
+  json table = with_id("before-after", table_section("Before and after", columns, rows), note);
   if (highlight) table["highlight_row"] = *highlight;
   return table;
 }

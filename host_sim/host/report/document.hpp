@@ -8,19 +8,19 @@
 //   parts.title = "…";
 //   parts.verdict = my_verdict(result);
 //   parts.before_after = before_after_table({{"largest deviation", 41.2, 0.4}}, "…");
-//   parts.plots = {volume_map(…), positioning_group(…), error_functions_group(…)};
-//   parts.details = {my_table(result)};
+//   parts.plots = {volume_map(…), positioning_group(…), lines_chart(…)};
+//   parts.details = {in_summary(my_table(result))};
 //   parts.ticks = run.ticks;
 //   parts.provenance = provenance(run, my_origins(result));
 //   return report_document(std::move(parts));
 //
 // Parts for all scenarios are beside this file: before_after, positioning (ISO 230-2),
-// error_functions, volume, tick_tables, provenance; ../report_parts.hpp has the small ones. Every
-// number comes from the result: a text that names one is made with fmt. The command
-// (cli/run_experiment.hpp) gives RunContext: a RunView is the MachineWatch of every machine of the
-// run, `watched()` of controller/bus_axes.hpp and `watched_integrated_cells()` show machines to it;
-// write_pages() ends the run. A scenario without control periods leaves `ticks` out, and the report
-// has no statistics.
+// error_functions, pitch_charts, volume, tick_tables, provenance; charts.hpp and report_parts.hpp
+// have the small ones. Every number comes from the result: a text that names one is made with fmt.
+// The command (cli/run_experiment.hpp) gives RunContext: a RunView is the MachineWatch of every
+// machine of the run, `watched()` of controller/bus_axes.hpp and `watched_integrated_cells()` show
+// machines to it; write_pages() ends the run. A scenario without control periods leaves `ticks`
+// out, and the report has no statistics.
 
 #include <functional>
 #include <optional>
@@ -55,5 +55,10 @@ struct ReportParts {
 
 // Before and after, plots, details, tick statistics, provenance.
 [[nodiscard]] nlohmann::json report_document(ReportParts parts);
+
+// A table or text that the terminal shows as well as the page.
+[[nodiscard]] nlohmann::json in_summary(nlohmann::json section);
+// The document for a terminal: the result, what is in_summary(), and the verdict.
+[[nodiscard]] std::string terminal_text(const nlohmann::json& document);
 
 }  // namespace volcomp::host

@@ -3,18 +3,17 @@
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/charts.hpp"
 
 namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kMicroPerUnit = 1e6;  // µrad in a rad
-constexpr Eigen::Index kLengths = 3;   // before the angles
+constexpr Eigen::Index kLengths = 3;  // before the angles
 
 json curve(const ErrorCurves& axis, const std::vector<double>& x, Eigen::Index channel) {
-  const double scale = channel < kLengths ? kUmPerMm : kMicroPerUnit;
+  const double scale = channel < kLengths ? kUmPerMm : kUradPerRad;
   std::vector<double> y;
   for (const ErrorMotion& e : axis.value)
     y.push_back(scale * e(channel));
@@ -32,20 +31,14 @@ json curve(const ErrorCurves& axis, const std::vector<double>& x, Eigen::Index c
 }
 
 json chart(const ErrorCurves& axis, bool angles) {
-  std::vector<double> x = axis.at;
-  if (axis.rotary) {
-    for (double& place : x)
-      place *= 180.0 / kPi;
-  }
+  const std::vector<double> x = scaled(axis.at, axis.rotary ? kDegPerRad : 1.0);
   json series = json::array();
   for (Eigen::Index c = angles ? kLengths : 0; c < (angles ? 2 * kLengths : kLengths); ++c)
     series.push_back(curve(axis, x, c));
-  return {{"type", "lines"},
-          {"id", fmt::format("function-{}-{}", axis.letter, angles ? "angles" : "lengths")},
-          {"title", fmt::format("{}: {}", axis.letter, angles ? "angles" : "displacements")},
-          {"x", axis_label("position", axis.rotary ? "deg" : "mm")},
-          {"y", axis_label("error", angles ? "µrad" : "µm")},
-          {"series", series}};
+  return lines_chart(fmt::format("function-{}-{}", axis.letter, angles ? "angles" : "lengths"),
+                     fmt::format("{}: {}", axis.letter, angles ? "angles" : "displacements"),
+                     axis_label("position", axis.rotary ? "deg" : "mm"),
+                     axis_label("error", angles ? "µrad" : "µm"), series);
 }
 
 }  // namespace
@@ -57,8 +50,7 @@ json error_functions_group(const std::string& title, const std::vector<ErrorCurv
     charts.push_back(chart(axis, false));
     charts.push_back(chart(axis, true));
   }
-  return {
-      {"type", "group"}, {"id", "functions"}, {"title", title}, {"charts", charts}, {"note", note}};
+  return chart_group("functions", title, charts, note, false);
 }
 
 }  // namespace volcomp::host

@@ -9,16 +9,14 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/charts.hpp"
 
 namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kUradPerRadian = 1e6;
-
-double scale_of(const Positioning& axis) { return axis.rotary ? kUradPerRadian : kUmPerMm; }
+double scale_of(const Positioning& axis) { return axis.rotary ? kUradPerRad : kUmPerMm; }
 
 DirectionRuns direction(const std::vector<std::vector<double>>& runs, std::size_t targets) {
   DirectionRuns d;
@@ -35,12 +33,6 @@ DirectionRuns direction(const std::vector<std::vector<double>>& runs, std::size_
     d.deviation.push_back(runs.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0);
   }
   return d;
-}
-
-std::vector<double> scaled(std::vector<double> values, double factor) {
-  for (double& v : values)
-    v *= factor;
-  return values;
 }
 
 json direction_json(const DirectionRuns& d, double scale) {
@@ -77,7 +69,7 @@ json plot(const Positioning& axis) {
           {"title", fmt::format("{}, {}", axis.letter, axis.when)},
           {"x", axis_label("position", axis.rotary ? "deg" : "mm")},
           {"y", axis_label("deviation", axis.rotary ? "µrad" : "µm")},
-          {"positions", axis.rotary ? scaled(axis.at, 180.0 / kPi) : axis.at},
+          {"positions", axis.rotary ? scaled(axis.at, kDegPerRad) : axis.at},
           {"up", direction_json(axis.up, scale)},
           {"down", direction_json(axis.down, scale)},
           {"figures", figures_json(axis.figures, scale)}};
@@ -111,8 +103,7 @@ json positioning_group(const std::vector<Positioning>& axes, const std::string& 
   const bool one_kind = std::all_of(axes.begin(), axes.end(), [&axes](const Positioning& axis) {
     return axis.rotary == axes.front().rotary;
   });
-  return {{"type", "group"},      {"id", "positioning"}, {"title", "Positioning after ISO 230-2"},
-          {"shared_y", one_kind}, {"charts", charts},    {"note", note}};
+  return chart_group("positioning", "Positioning after ISO 230-2", charts, note, one_kind);
 }
 
 json positioning_table(const std::vector<Positioning>& axes, const std::string& note) {
@@ -129,12 +120,8 @@ json positioning_table(const std::vector<Positioning>& axes, const std::string& 
   for (const char* name : {"A", "A ↑", "A ↓", "R", "R ↑", "R ↓", "E", "B", "M"})
     columns.push_back(column(name, "", 2));
   columns.push_back({{"title", "unit"}});
-  return {{"type", "table"},
-          {"id", "positioning-figures"},
-          {"title", "Positioning figures after ISO 230-2"},
-          {"columns", columns},
-          {"rows", rows},
-          {"note", note}};
+  return with_id("positioning-figures",
+                 table_section("Positioning figures after ISO 230-2", columns, rows), note);
 }
 
 }  // namespace volcomp::host

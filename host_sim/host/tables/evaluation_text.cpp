@@ -8,14 +8,12 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/rounded.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/report/charts.hpp"
 
 namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kUradPerRad = 1e6;
-constexpr double kDegPerRad = 180.0 / kPi;
 
 const char* travel_name(Travel travel) {
   switch (travel) {

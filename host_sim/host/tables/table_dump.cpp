@@ -9,13 +9,13 @@
 #include "host_sim/host/bus/thermal_diagnosis.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/report/charts.hpp"
 
 namespace volcomp::host {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kUradPerRad = 1e6;
 constexpr double kUmPerNm = 1e-3;
 constexpr std::array<const char*, 2> kTravelNames{"up", "down"};
 
