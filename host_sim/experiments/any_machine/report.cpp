@@ -1,5 +1,7 @@
 #include "host_sim/experiments/any_machine/report.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
@@ -34,9 +36,8 @@ template <class Value>
 json reading_series(const std::vector<PlaceReading>& before, const std::vector<PlaceReading>& after,
                     const Value& value) {
   const auto curve = [&](const char* name, const std::vector<PlaceReading>& readings) {
-    std::vector<double> y;
-    for (const PlaceReading& reading : readings)
-      y.push_back(value(reading));
+    std::vector<double> y(readings.size());
+    std::transform(readings.begin(), readings.end(), y.begin(), value);
     return host::series_of(name, host::counted(y.size()), y);
   };
   return {curve("uncompensated", before), curve("compensated", after)};

@@ -14,8 +14,8 @@
 
 namespace volcomp::host {
 
-// Which model of the paper the tables are for (docs/papers/xyfz.md, "How to reproduce"). All but the
-// last are there for the comparison of the paper only.
+// Which model of the paper the tables are for (docs/papers/xyfz.md, "How to reproduce"). All but
+// the last are there for the comparison of the paper only.
 enum class ModelKind : std::uint8_t {
   naive,        // no Abbe offsets, measured values as they are, squareness as rotations
   abbe,         // reading heads and sensed points, squareness as measured
