@@ -26,7 +26,7 @@ host::RunsFile measure_axis(const TrueMachine& truth, const host::MachineFile& f
   const host::AxisFile& axis = file.axes[a];
   const Axis along = file.chain.axis(a).axis;
   const LaserSetup setup = mount_laser(classes, random);
-  return bidirectional_runs(axis, runs, [&](double q, double approach) {
+  return bidirectional_runs(axis.letter, axis.all_targets(), runs, [&](double q, double approach) {
     const Vec3 lever = axis.sensed.lever(along, q) + setup.arm_error;
     const ErrorMotion seen = at_lever(true_value(truth, file, a, q, approach), lever);
     return laser_reading(seen, {along, q, axis.lo, axis.hi}, setup, classes, random);

@@ -12,7 +12,13 @@ host::RunsFile measure_axis(const TrueMachine& truth, const host::AxisFile& axis
                             const SensedPoint& sensed, const NoiseClasses& classes,
                             std::size_t runs, Random& random) {
   const Laser6D laser(truth, a, sensed, mount_laser(classes, random));
-  return bidirectional_runs(axis, runs, [&](double q, double approach) {
+  // Not AxisFile::target(), whose last digit may differ: published figures rest on these positions.
+  std::vector<double> positions;
+  for (std::size_t t = 0; t < axis.targets; ++t) {
+    const double s = static_cast<double>(t) / static_cast<double>(axis.targets - 1);
+    positions.push_back(axis.lo + s * (axis.hi - axis.lo));
+  }
+  return bidirectional_runs(axis.letter, positions, runs, [&](double q, double approach) {
     return laser.read(q, approach, classes, random);
   });
 }
@@ -33,12 +39,12 @@ std::vector<ErrorMotion> mean_of(const host::RunsFile& runs) {
 }  // namespace
 
 host::RunsFile bidirectional_runs(
-    const host::AxisFile& axis, std::size_t runs,
+    char letter, const std::vector<double>& positions, std::size_t runs,
     const std::function<ErrorMotion(double q, double approach)>& reading) {
   host::RunsFile result;
-  result.name = fmt::format("runs_{}.csv", axis.letter);
-  result.letter = axis.letter;
-  result.positions = axis.all_targets();
+  result.name = fmt::format("runs_{}.csv", letter);
+  result.letter = letter;
+  result.positions = positions;
   const auto run = [&](double approach) {
     host::RunValues values;
     for (const double q : result.positions)

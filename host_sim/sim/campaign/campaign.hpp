@@ -24,10 +24,10 @@ struct Campaign {
   std::vector<host::RunsFile> runs;
 };
 
-// Runs up and down at the targets of an axis; `reading` at a position (mm or rad), approached from
-// below (+1) or above (−1).
+// Runs up and down at these positions of an axis, mm or rad; `reading` at a position approached
+// from below (+1) or above (−1).
 [[nodiscard]] host::RunsFile bidirectional_runs(
-    const host::AxisFile& axis, std::size_t runs,
+    char letter, const std::vector<double>& positions, std::size_t runs,
     const std::function<ErrorMotion(double q, double approach)>& reading);
 
 // `runs` bidirectional runs per axis at the equally spaced targets of the machine file.
