@@ -127,7 +127,7 @@ TEST(InternalHelical, FiguresAndReportAreComplete) {
   EXPECT_EQ(j["grades"].size(), 20U);
   EXPECT_EQ(j["signals"]["before"]["slots"]["verdict"], "compensate");
   EXPECT_EQ(j["tables_written"].size(), 1U);
-  EXPECT_EQ(internal_helical::internal_helical_document(right_way(), {})["sections"].size(), 15U);
+  EXPECT_EQ(internal_helical::internal_helical_document(right_way(), {})["sections"].size(), 16U);
 }
 
 }  // namespace

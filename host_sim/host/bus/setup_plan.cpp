@@ -112,8 +112,10 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
   for (std::size_t i = 0; i <= node::kNodeAxes; ++i)
     plan_bits<std::uint32_t>(plan, node::object::consumer_heartbeat[i].id(), 0,
                              "no heartbeat is awaited");
-  for (std::size_t i = settings.axes.size(); i < node::kNodeAxes; ++i)
-    plan_value(plan, node::object::drive[i], 0, fmt::format("(no axis {})", i + 1));
+  for (std::size_t i = settings.axes.size(); i < node::kNodeAxes; ++i) {
+    plan_value(plan, node::object::drive[i], 0);
+    plan.back().name += fmt::format(" (no axis {})", i + 1);
+  }
   append(plan, node_plan(settings));
   if (probe != nullptr)
     append(plan, probe_plan(*probe));

@@ -72,7 +72,7 @@ MeasuredDiagonal measure_diagonal(MotionCell& cell, const Diagonal& diagonal, st
 
 std::vector<host::VolumePoint> visit_volume(MotionCell& cell, const host::XyzAxes& axes, int points,
                                             std::uint64_t seed) {
-  const DiagonalBox box = axes.travel();
+  const DiagonalBox& box = axes.travel();
   Random random(seed);
   std::vector<host::VolumePoint> visited;
   for (int i = 0; i < points; ++i) {

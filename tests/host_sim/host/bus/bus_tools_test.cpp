@@ -142,8 +142,8 @@ TEST(TableTransfer, NodeWithoutStoreSaysSo) {
 }
 
 TEST(TableTransfer, AStoreThatFailsIsReportedWithItsReason) {
-  const auto blocks = std::make_unique<test::MemoryBlocks<16384, 2>>();
-  node::RecordStorage<test::MemoryBlocks<16384, 2>> storage(*blocks);
+  const auto blocks = std::make_unique<volcomp::test::MemoryBlocks<16384, 2>>();
+  node::RecordStorage<volcomp::test::MemoryBlocks<16384, 2>> storage(*blocks);
   ServiceBench bench(&storage);
   blocks->refuse_erases(true);
   EXPECT_THAT(text_of<NodeRefused>([&] { store_all(bench.client); }),

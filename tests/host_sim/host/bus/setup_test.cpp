@@ -32,9 +32,9 @@ using Object = std::pair<std::uint16_t, std::uint8_t>;
 using Values = std::map<Object, SdoChannel::Bytes>;
 
 struct Blocks {
-  std::unique_ptr<test::MemoryBlocks<16384, 2>> memory =
-      std::make_unique<test::MemoryBlocks<16384, 2>>();
-  node::RecordStorage<test::MemoryBlocks<16384, 2>> storage{*memory};
+  std::unique_ptr<volcomp::test::MemoryBlocks<16384, 2>> memory =
+      std::make_unique<volcomp::test::MemoryBlocks<16384, 2>>();
+  node::RecordStorage<volcomp::test::MemoryBlocks<16384, 2>> storage{*memory};
 };
 
 MachineFile machine_of(const std::string& name) { return read_machine_file(bundled_machine(name)); }
@@ -150,7 +150,7 @@ TEST(Setup, TellsWhatDifferedBefore) {
   const MachineFile machine = machine_of("xyfz");
   const SetupResult first = set_up_by_file(bench, machine);
   EXPECT_THAT(describe(first),
-              AllOf(HasSubstr("2000h:01"), HasSubstr("machine id"), HasSubstr("1001"),
+              AllOf(HasSubstr("2000h:01"), HasSubstr("Machine id"), HasSubstr("1001"),
                     HasSubstr("was 0"), HasSubstr("not stored")));
   const nlohmann::json json = to_json(first);
   EXPECT_EQ(json.at("stored"), false);
