@@ -11,15 +11,16 @@ constexpr std::array kNumbers{
 };
 static_assert(counts_up(kNumbers), "codes.def: the bits count up from 0");
 
-constexpr std::array<const char*, kStatusBits> kNames{
+constexpr std::array kNames{
 #define STATUS_BIT(bit, enumerator, name, NAME, words) #name,
 #include "comp/tick/codes.def"
 };
 
-constexpr std::array<const char*, kStatusBits> kWords{
+constexpr std::array kWords{
 #define STATUS_BIT(bit, enumerator, name, NAME, words) words,
 #include "comp/tick/codes.def"
 };
+static_assert(kNames.size() == kStatusBits);
 
 }  // namespace
 

@@ -11,15 +11,16 @@ constexpr std::array kNumbers{
 };
 static_assert(counts_up(kNumbers), "codes.def: the numbers of verdicts count up from 0");
 
-constexpr std::array<const char*, kTouchVerdicts> kNames{
+constexpr std::array kNames{
 #define VERDICT(number, name, sentence) #name,
 #include "comp/tick/codes.def"
 };
 
-constexpr std::array<const char*, kTouchVerdicts> kSentences{
+constexpr std::array kSentences{
 #define VERDICT(number, name, sentence) sentence,
 #include "comp/tick/codes.def"
 };
+static_assert(kNames.size() == kTouchVerdicts);
 
 }  // namespace
 

@@ -29,9 +29,8 @@ static_assert(static_cast<int>(Direction::backward) == VOLCOMP_BACKWARD);
 static_assert(static_cast<int>(Direction::unknown) == VOLCOMP_UNKNOWN);
 
 const char* name_of(volcomp::ProbeSetting setting) {
-  constexpr std::array<const char*, 8> names{"",       "uncertainty", "correlation",
-                                             "radius", "rotation",    "translation",
-                                             "delay",  "latch delay"};
+  constexpr std::array names{"",         "uncertainty", "correlation", "radius",
+                             "rotation", "translation", "delay",       "latch delay"};
   return names[static_cast<std::size_t>(setting)];
 }
 
