@@ -10,7 +10,7 @@ namespace volcomp {
 // From contact to edge and from edge to latch, each from 0 to this: radio probes take 10 ms and
 // more.
 inline constexpr std::uint32_t kMaxProbeDelay_ns = 50'000'000;
-inline constexpr double kMaxProbeDelay_s = 0.05;
+inline constexpr double kMaxProbeDelay_s = kMaxProbeDelay_ns / 1e9;
 
 enum class ProbeSetting : std::uint8_t {
   none,

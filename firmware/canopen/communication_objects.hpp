@@ -12,8 +12,8 @@ namespace volcomp::canopen {
 inline constexpr std::size_t kErrorHistory = 8;
 inline constexpr std::size_t kHeartbeatConsumers = 8;
 
-inline constexpr std::array<std::uint32_t, 2> kSdoCobIds{0x600,
-                                                         0x580};  // node id added at power-on
+// The node id is added at power-on.
+inline constexpr std::array<std::uint32_t, 2> kSdoCobIds{0x600, 0x580};
 
 struct CommunicationObjects {
 #define COMMON OBJECT_MEMBER

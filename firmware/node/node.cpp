@@ -14,6 +14,11 @@ namespace {
 constexpr canopen::ObjectId kController = object::controller.id();
 constexpr canopen::ObjectId kDrivesReport = object::drives_report.id();
 
+bool is_fixed(const canopen::ObjectDictionary& objects, canopen::ObjectId object) {
+  const canopen::Entry* const entry = objects.find(object).entry;  // there is none for a PDO
+  return entry != nullptr && entry->has(canopen::kFixed);
+}
+
 static_assert(kReceivePdos <= NodeDevice::kMostReceive &&
               kTransmitPdos <= NodeDevice::kMostTransmit);
 
@@ -140,8 +145,7 @@ bool Node::heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint
 // --- objects
 
 AbortCode Node::before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
-  const canopen::Entry* entry = core_.device.objects().find(object).entry;
-  if (entry != nullptr && entry->has(canopen::kFixed) && core_.operational())
+  if (core_.operational() && is_fixed(core_.device.objects(), object))
     return AbortCode::device_state;
   AbortCode why = AbortCode::none;
   each_part([&](auto& part) {

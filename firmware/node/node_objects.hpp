@@ -67,7 +67,8 @@ struct NodeObjects {
   std::conditional_t<kFollowsTemperature, ThermalObjects, NoThermalObjects> thermal{};
 };
 
-// Written out once in flash; `NodeObjects{}` in every place that needs them.
+// With the defaults of objects.def. A function, because the code for NodeObjects{} would otherwise
+// be in flash once for every place where it stands.
 [[nodiscard]] NodeObjects default_objects();
 
 [[nodiscard]] canopen::Dictionary node_dictionary();

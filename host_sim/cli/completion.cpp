@@ -49,7 +49,7 @@ complete -c volcomp -n '__volcomp_complete >/dev/null' -f -a '(__volcomp_complet
 
 int print_files() { return number(ExitCode::negative); }
 
-// `begin`: what the word has before its value, "--model=".
+// `begin`: what the word has before its value, "--slope=".
 int print_values(const OptionValue& value, const std::string& begin) {
   if (value.kind == ValueKind::text) return print_files();
   for (const std::string& choice : value.choices)

@@ -28,7 +28,7 @@ std::string troff(const std::string& text) {
 std::string bold(const std::string& text) { return "\\fB" + troff(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + troff(text) + "\\fR"; }
 
-// "--json TEXT", "--model naive|abbe"; "FILE ..." where there may be several.
+// "--json TEXT", "--slope lsq|end"; "FILE ..." where there may be several.
 std::string heading(const CLI::Option& o) {
   const OptionValue value = value_of(o);
   std::string text = italic(o.get_name(true));

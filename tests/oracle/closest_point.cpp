@@ -68,14 +68,6 @@ Place newton_step(const Place& at, const Slope& s) {
           kept_inside(at.v - (s.uu * s.gv - s.uv * s.gu) / determinant)};
 }
 
-Status bad_setting(const char* field, double value) {
-  Where where;
-  where.field = field;
-  where.value = value;
-  where.has_value = true;
-  return refuse(Reason::bad_setting, where);
-}
-
 // A side of the window of the subdivision.
 struct Interval {
   double low = 0.0;
@@ -137,8 +129,9 @@ Status closest_point(const SplinePatch& patch, const Vec3& q, const Vec3& outwar
 Status closest_point_by_subdivision(const SplinePatch& patch, const Vec3& q, int cells,
                                     double accuracy, SubdivisionSearch& out) {
   if (!q.allFinite()) return refuse(Reason::not_finite);
-  if (cells < 4 || cells > 100) return bad_setting("cells", cells);
-  if (!(accuracy >= 1e-12 && accuracy <= 1.0)) return bad_setting("accuracy", accuracy);
+  if (cells < 4 || cells > 100) return refuse_value(Reason::bad_setting, "cells", cells);
+  if (!(accuracy >= 1e-12 && accuracy <= 1.0))
+    return refuse_value(Reason::bad_setting, "accuracy", accuracy);
   constexpr int kMostLevels = 64;  // each halves the window at least: 1e-12 needs 40
   SubdivisionSearch search;
   Interval u;

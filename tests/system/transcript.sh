@@ -46,12 +46,23 @@ number=$(($(cat "$TRANSCRIPT.count") + 1))
 printf '%s\n' "$number" > "$TRANSCRIPT.count"
 record=$TRANSCRIPT/$(printf '%04d' "$number")
 printf '%s ' "$@" > "$record"
-"$PROGRAM" "$@" > >(tee "$record.out") 2> >(tee "$record.err" >&2)
-status=$?
+# In the background, so that a signal to this script reaches the program; with job control, so that the program heeds it.
+set -m
+"$PROGRAM" "$@" <&0 > >(tee "$record.out") 2> >(tee "$record.err" >&2) &
+child=$!
+for signal in TERM INT HUP; do
+  # shellcheck disable=SC2064 # of this signal
+  trap "interrupted=yes; kill -$signal $child" "$signal"
+done
+while :; do
+  interrupted=
+  wait "$child" && status=0 || status=$?
+  [ -n "$interrupted" ] || break
+done
 wait
 printf '\nexit code %s\n' "$status" >> "$record"
 while [ $# -gt 0 ]; do
-  case $1 in --json | --csv | --out) [ ! -f "${2:-}" ] || cp "$2" "$record.${1#--}" ;; esac
+  case $1 in --json | --csv | --out) [ ! -f "${2:-}" ] || cp "$2" "$record.file.${1#--}" ;; esac
   shift
 done
 exit "$status"

@@ -18,11 +18,8 @@ double tooth_angle(const InvoluteGear& gear, const Flank& flank, double x) {
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 
 Status refuse_field(const char* field, double value) {
-  Where where;
-  where.field = field;
-  where.value = value;
-  where.has_value = true;
-  return refuse(std::isfinite(value) ? Reason::bad_setting : Reason::not_finite, where);
+  return refuse_value(std::isfinite(value) ? Reason::bad_setting : Reason::not_finite, field,
+                      value);
 }
 
 // Involute of a base circle, `shift` further out along the roll, as the locus of a ball centre is.

@@ -3,17 +3,6 @@
 #include <cmath>
 
 namespace volcomp {
-namespace {
-
-Status refuse_value(Reason reason, double value) {
-  Where where;
-  where.value = value;
-  where.has_value = true;
-  return refuse(reason, where);
-}
-
-}  // namespace
-
 double arm_foreshortening(const SwingArm& arm, double B) {
   const double s = std::sin(0.5 * (B - arm.zero));
   return 2.0 * arm.length * s * s;
@@ -22,8 +11,8 @@ double arm_foreshortening(const SwingArm& arm, double B) {
 double arm_lift(const SwingArm& arm, double B) { return arm.length * std::cos(B - arm.zero); }
 
 Status arm_angle(const SwingArm& arm, double height, double& B) {
-  if (!std::isfinite(height)) return refuse_value(Reason::not_finite, height);
-  if (std::abs(height) > arm.length) return refuse_value(Reason::out_of_reach, height);
+  if (!std::isfinite(height)) return refuse_value(Reason::not_finite, nullptr, height);
+  if (std::abs(height) > arm.length) return refuse_value(Reason::out_of_reach, nullptr, height);
   B = arm.zero + std::asin(height / arm.length);
   return {};
 }

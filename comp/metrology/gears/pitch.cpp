@@ -13,14 +13,6 @@ Status too_few(std::size_t count) {
   return refuse(Reason::too_few_points, where);
 }
 
-Status bad_setting(const char* field, double value) {
-  Where where;
-  where.field = field;
-  where.value = value;
-  where.has_value = true;
-  return refuse(Reason::bad_setting, where);
-}
-
 std::size_t missing_of(Span<const double> position) {
   std::size_t missing = 0;
   for (const double p : position)
@@ -57,17 +49,19 @@ double before(Span<const double> position, std::size_t k) {
 }  // namespace
 
 Status ToothAngles::of(int teeth, ToothAngles& out) {
-  if (teeth < 2 || teeth > static_cast<int>(kMaxPitchTeeth)) return bad_setting("teeth", teeth);
+  if (teeth < 2 || teeth > static_cast<int>(kMaxPitchTeeth))
+    return refuse_value(Reason::bad_setting, "teeth", teeth);
   out.teeth_ = static_cast<std::size_t>(teeth);
   out.angle_.fill(std::numeric_limits<double>::quiet_NaN());
   return {};
 }
 
 Status ToothAngles::record(int tooth, int side, double deviation, double moment_arm) {
-  if (tooth < 0 || tooth >= static_cast<int>(teeth_)) return bad_setting("tooth", tooth);
-  if (side != 1 && side != -1) return bad_setting("side", side);
+  if (tooth < 0 || tooth >= static_cast<int>(teeth_))
+    return refuse_value(Reason::bad_setting, "tooth", tooth);
+  if (side != 1 && side != -1) return refuse_value(Reason::bad_setting, "side", side);
   if (!(moment_arm > 0.0 && std::isfinite(moment_arm)))
-    return bad_setting("moment_arm", moment_arm);
+    return refuse_value(Reason::bad_setting, "moment_arm", moment_arm);
   if (!std::isfinite(deviation)) return refuse(Reason::not_finite);
   angle_[static_cast<std::size_t>(tooth)] = -side * deviation / moment_arm;
   return {};
@@ -102,7 +96,8 @@ Status single_pitches(Span<const double> position, Span<double> out, double scal
 
 Status cumulative_pitch(Span<const double> position, std::size_t k, double& out, double scale) {
   if (const Status s = check_round(position); !s.ok()) return s;
-  if (k < 1 || k >= position.size()) return bad_setting("k", static_cast<double>(k));
+  if (k < 1 || k >= position.size())
+    return refuse_value(Reason::bad_setting, "k", static_cast<double>(k));
   double largest = 0.0;
   for (std::size_t start = 0; start < position.size(); ++start) {
     const std::size_t end = (start + k) % position.size();

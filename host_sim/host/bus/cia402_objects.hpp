@@ -37,8 +37,8 @@ inline constexpr std::uint32_t kNoFollowingWindow = UINT32_MAX;  // 6065h: not s
 inline constexpr std::uint32_t kNanometre = 0xF701'0000;  // 10⁻⁹, metre
 inline constexpr std::uint32_t kIncrement = 0x00B5'0000;  // 10⁰, increment; 6092h: 2³¹ in a turn
 
-inline constexpr std::array<std::int16_t, 2> kProbeInputs{
-    1, 2};  // 60D0h: the input each probe is wired to
+// 60D0h: the input each probe is wired to.
+inline constexpr std::array<std::int16_t, 2> kProbeInputs{1, 2};
 
 // What one edge of one probe leaves behind.
 struct TouchProbeLatch {
