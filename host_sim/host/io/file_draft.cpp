@@ -125,6 +125,7 @@ void FileDraft::open_beside() {
   std::error_code failed;
   const fs::file_status there = fs::status(place_, failed);
   if (!may_be_taken(place_, there)) refuse(path_);
+  const SignalsHeld until_registered;
   fs::path name;
   const int file = create_beside(place_, fs::exists(there) ? 0600 : 0666, name);
   if (file < 0) return;

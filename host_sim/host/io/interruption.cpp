@@ -84,6 +84,18 @@ void Interruption::check() const {
 }
 // NOLINTEND(readability-convert-member-functions-to-static)
 
+SignalsHeld::SignalsHeld() {
+  sigset_t held{};
+  static_cast<void>(::sigemptyset(&held));
+  for (const Noted& each : noted_signals)
+    static_cast<void>(::sigaddset(&held, each.signal));
+  static_cast<void>(::pthread_sigmask(SIG_BLOCK, &held, &before_));
+}
+
+SignalsHeld::~SignalsHeld() {
+  static_cast<void>(::pthread_sigmask(SIG_SETMASK, &before_, nullptr));
+}
+
 RemovedBySignal::RemovedBySignal(const std::filesystem::path& path)
     : path_(std::filesystem::absolute(path).string()), slot_(take_slot(path_.c_str())) {
   end_program_by_signals();

@@ -32,9 +32,22 @@ class Interruption {
   void check() const;
 };
 
+// While one exists, this thread receives SIGINT, SIGTERM and SIGHUP only afterwards, and threads
+// that it starts never do: nothing is left between the creation of a file and its registration.
+class SignalsHeld {
+ public:
+  SignalsHeld();
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+  ~SignalsHeld();
+
+ private:
+  sigset_t before_{};
+};
+
 // While one exists, its file or empty folder is removed when a signal ends the program at once: no
 // code checks for signals while the program waits for a slow reader of its output. Holds for the
-// first 64; a folder in another is registered after it.
+// first 64; a folder in another is registered after it. Create and register under SignalsHeld.
 class RemovedBySignal {
  public:
   explicit RemovedBySignal(const std::filesystem::path& path);

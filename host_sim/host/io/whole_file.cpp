@@ -38,6 +38,7 @@ void WholeFiles::add_folder(const fs::path& path) {
   std::error_code ignored;
   for (fs::path p = path; !p.empty() && !fs::exists(p, ignored); p = p.parent_path())
     made.push_back(p);
+  const SignalsHeld until_registered;
   new_folders_.insert(new_folders_.begin(), made.begin(), made.end());
   create_folder(path);
   for (auto folder = made.rbegin(); folder != made.rend(); ++folder)

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
+#include "host_sim/host/io/interruption.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/page/page.hpp"
 #include "host_sim/sim/live/host_header.hpp"
@@ -104,6 +105,7 @@ class LiveServer::Pages {
     port_ = port == 0 ? server_.bind_to_any_port(kLoopback) : port;
     if (port_ <= 0 || (port != 0 && !server_.bind_to_port(kLoopback, port)))
       throw host::UserError(fmt::format("--serve: port {} of this computer cannot be had", port));
+    const host::SignalsHeld not_for_the_listener;
     listener_ = std::thread([this] {
       server_.listen_after_bind();
       over_ = true;

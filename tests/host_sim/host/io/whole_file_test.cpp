@@ -2,6 +2,8 @@
 // need be.
 
 #include <fcntl.h>
+#include <sys/inotify.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +14,7 @@
 #include <gmock/gmock.h>
 
 #include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/io/file_draft.hpp"
 #include "host_sim/host/io/interruption.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
 #include "host_sim/host/io/toml_text.hpp"
@@ -237,6 +240,33 @@ TEST_P(SignalTest, LeavesNoDraft) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, SignalTest, testing::Values(SIGINT, SIGTERM, SIGHUP));
+
+// Sent the moment a draft appears: a signal between its creation and its registration comes later.
+TEST_F(WholeFileTest, ASignalAtTheCreationOfADraftLeavesNone) {
+  constexpr int kTimes = 50;
+  const int changes = ::inotify_init1(IN_CLOEXEC);
+  ASSERT_GE(changes, 0);
+  ASSERT_GE(::inotify_add_watch(changes, path("").c_str(), IN_CREATE), 0);
+  for (int i = 0; i < kTimes; ++i) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (;;)
+        const FileDraft draft(path("file"));
+    }
+    std::array<char, 4096> event{};
+    EXPECT_GT(::read(changes, event.data(), event.size()), 0);
+    static_cast<void>(::kill(child, SIGTERM));
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(WTERMSIG(status), SIGTERM);
+    ASSERT_EQ(entries(), 0);
+    // What the child did before it ended.
+    while (::ioctl(changes, FIONREAD, &status) == 0 && status > 0)
+      EXPECT_GT(::read(changes, event.data(), event.size()), 0);
+  }
+  ::close(changes);
+}
 
 // The second signal ends a program that was to end in order and is stuck.
 TEST_F(WholeFileTest, ASecondSignalLeavesNoDraft) {
