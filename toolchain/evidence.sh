@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# Measures the images of the Cortex-M boards in QEMU, proves what they promise and compares both with the budgets.
+# Proves what is promised of all code that runs beside a machine, and measures the images of the Cortex-M boards.
 #
-#   toolchain/evidence.sh              builds, measures, judges; docs/evidence.md must show the same figures
+#   toolchain/evidence.sh --proofs     links all libraries whole for this computer and every board, and proves from these images and
+#                                      those of the products: no heap, exceptions, globals, recursion ... (evidence/promises.py)
+#   toolchain/evidence.sh              measures sizes, stack and instructions in QEMU and compares them with the budgets;
+#                                      docs/evidence.md must show the same figures
 #   toolchain/evidence.sh --write      the same, and renews the figures in docs/evidence.md
 #   toolchain/evidence.sh --self-test  proves on small programs that the checks measure right and find each offence
 #
@@ -21,12 +24,16 @@ make_tables() {
   done
 }
 
-case "${1:-}" in
-  -h | --help) usage; exit 0 ;;
-esac
-need python3 c++filt arm-none-eabi-g++ arm-none-eabi-objdump
-if [ "${1:-}" != --self-test ]; then
-  need cmake ninja qemu-system-arm llvm-mca aarch64-linux-gnu-g++
+build_whole() {
+  build_preset host --target volcomp-whole
+  build_preset m7 --target volcomp-whole volcomp-node volcomp-servo volcomp-grinder
+  build_preset m4 --target volcomp-whole volcomp-node volcomp-servo
+  build_preset a53 --target volcomp-whole volcomp-node
+}
+
+build_measured() {
+  local board
+  need qemu-system-arm llvm-mca
   for board in m7 m4; do
     build_preset "$board" --target volcomp-node volcomp-servo volcomp-ticks volcomp-services volcomp-touches
   done
@@ -34,5 +41,14 @@ if [ "${1:-}" != --self-test ]; then
   build_preset host --target volcomp
   make_tables
   build_preset a53 --target volcomp-node
-fi
-exec python3 toolchain/evidence "$@"
+}
+
+[[ ${1:-} != -h && ${1:-} != --help ]] || { usage; exit 0; }
+need c++filt ar objdump g++ arm-none-eabi-g++ arm-none-eabi-objdump aarch64-linux-gnu-g++ aarch64-linux-gnu-objdump
+case "${1:-}" in
+  --self-test) ;;
+  --proofs) build_whole ;;
+  *) build_measured ;;
+esac
+# pyelftools is a package of Debian, and so for its python3.
+exec /usr/bin/python3 toolchain/evidence "$@"

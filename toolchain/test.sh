@@ -14,13 +14,13 @@
 #   arrows      includes follow the order of the rooms, without a circle
 #   build       the optimized host build
 #   test        its tests
-#   proofs      no heap, exceptions, globals, recursion ... in the libraries of the target
+#   proofs      no heap, exceptions, globals, recursion ... in the libraries and images of every target
 #   can         the tests that need a CAN interface of the kernel, below toolchain/with-vcan, and its shell; beside the next step
 #   asan        built with clang, tests with the address and undefined-behaviour sanitizers
 #   coverage    what of the target code those tests have run, at least 95 % of the branches; table in
 #               build/host-asan/coverage.txt
 #   boards      the firmware and its tests, executed in QEMU
-#   evidence    sizes, stack and instructions of the images, measured, proven, compared with docs/evidence.md; beside the next step
+#   evidence    sizes, stack and instructions of the images, measured, compared with docs/evidence.md; beside the next step
 #   tidy        clang-tidy
 #   loop        the firmware in QEMU in the loop with the simulated machine; beside the next step
 #   cppcheck    cppcheck over comp, hal and firmware
@@ -103,12 +103,8 @@ step_can() {
 }
 
 step_proofs() {
-  need python3
-  build_preset host --target volcomp_comp volcomp_metrology volcomp_c volcomp_canopen volcomp_node volcomp_hal_linux
-  bash toolchain/check-archive.sh --self-test
-  bash toolchain/check-archive.sh build/host
-  python3 toolchain/check-recursion.py --self-test
-  python3 toolchain/check-recursion.py build/host
+  bash toolchain/evidence.sh --self-test
+  bash toolchain/evidence.sh --proofs
 }
 
 step_asan() {
@@ -144,7 +140,6 @@ step_loop() {
 }
 
 step_evidence() {
-  bash toolchain/evidence.sh --self-test
   bash toolchain/evidence.sh
 }
 

@@ -1,6 +1,7 @@
-"""Measures the firmware of the Cortex-M boards and judges it; called by toolchain/evidence.sh, which builds the images first.
+"""Proves what is promised of every target, measures the firmware of the Cortex-M boards and judges it; called by
+toolchain/evidence.sh, which builds the images first.
 
-    python3 toolchain/evidence [--self-test | --write]
+    python3 toolchain/evidence [--self-test | --proofs | --write]
 
 Exit codes: 0 every promise holds, every budget is kept or known not to be (budgets.py), and docs/evidence.md says what was measured;
 1 not so; 2 something is missing.
@@ -14,6 +15,8 @@ import sys
 import board_evidence
 import elf
 import kernel_estimate
+import promises
+import promises_test
 import self_test
 import sizes
 import table
@@ -44,6 +47,13 @@ def measure():
     return evidence, checks, offences
 
 
+def prove():
+    offences = [offence for target in promises.IMAGES for offence in promises.prove(ROOT, target)]
+    for offence in offences:
+        print("  FOUND " + offence)
+    return not offences
+
+
 def judge(checks, offences):
     for check in checks:
         print("  " + check.line())
@@ -71,11 +81,14 @@ def page_agrees(text, write):
 
 
 def main(arguments):
-    if arguments not in ([], ["--self-test"], ["--write"]):
+    if arguments not in ([], ["--self-test"], ["--proofs"], ["--write"]):
         raise Failure(f'unknown argument "{" ".join(arguments)}" (try toolchain/evidence.sh --help).')
     if arguments == ["--self-test"]:
         self_test.main()
+        promises_test.main()
         return True
+    if arguments == ["--proofs"]:
+        return prove()
     evidence, checks, offences = measure()
     text = table.markdown(evidence)
     OUT.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Everything measured on one Cortex-M board: sizes, stack, instructions, and what its images may not contain."""
+"""Everything measured on one Cortex-M board: sizes, stack, instructions."""
 import re
 import sys
 
@@ -52,7 +52,6 @@ class BoardEvidence:
 
     def _product(self, name):
         image = self.image(name)
-        self.offences += symbol_rules.forbidden_in(image)
         size = sizes.measure(image)
         bounds = stack_bound.StackBound(code_flow.CodeFlow(image))
         stack = {"background": self._bound(bounds, "main")}
@@ -138,9 +137,7 @@ class BoardEvidence:
         if self.board not in budgets.GRINDERS:
             return None
         figures = dict(runs.figures(runs.run(self.root, self.board, self.image("strokes").path)))
-        grinder = self.image("grinder")
-        self.offences += symbol_rules.forbidden_in(grinder)
-        size = sizes.measure(grinder)
+        size = sizes.measure(self.image("grinder"))
         return {"tick": figures["stroke"], "background": figures["learning"], "flash": size.flash, "ram": size.ram}
 
     def _independence(self, spans):

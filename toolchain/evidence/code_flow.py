@@ -5,33 +5,9 @@ Flow is followed address by address from an entry, across tail jumps into other 
 import dataclasses
 import re
 import struct
-import subprocess
 
 import instructions
-from failure import Failure
-
-WIDE = ("bl", "tbb", "tbh")  # where no following code shows it
-LINE = re.compile(r"^\s*([0-9a-f]+):\t(\S+)(?:\t(.*))?$")
-
-
-def disassemble(image):
-    run = subprocess.run(["arm-none-eabi-objdump", "-d", "--no-show-raw-insn", "-w", str(image.path)],
-                         capture_output=True, text=True, check=False)
-    if run.returncode != 0:
-        raise Failure(f"arm-none-eabi-objdump cannot read {image.path}: {run.stderr.strip()}")
-    code, last = {}, None
-    for line in run.stdout.splitlines():
-        found = LINE.match(line)
-        if not found or found.group(2).startswith("."):
-            last = None
-            continue
-        address = int(found.group(1), 16)
-        operands = re.split(r"\s*[@;] ", (found.group(3) or "").strip())[0].strip()
-        if last is not None:
-            last.size = address - last.address
-        last = code[address] = instructions.Instruction(address, found.group(2), operands,
-                                                        4 if found.group(2) in WIDE or found.group(2).endswith(".w") else 2)
-    return code
+from disassembly import disassemble
 
 
 @dataclasses.dataclass

@@ -1,8 +1,6 @@
 """Flash and RAM of an image, from its headers."""
 import dataclasses
 
-import elf
-
 
 @dataclasses.dataclass(frozen=True)
 class Sizes:
@@ -14,6 +12,6 @@ class Sizes:
 def measure(image):
     first = min(load for load, _ in image.segments)
     flash = max(load + size for load, size in image.segments) - first
-    ram = sum(s.size for s in image.sections if s.loaded() and s.flags & elf.SHF_WRITE)
+    ram = sum(s.size for s in image.sections if s.writable)
     stack = next((s.size for s in image.sections if s.name == ".stack"), 0)
     return Sizes(flash, ram, stack)

@@ -1,16 +1,27 @@
 """What may not be in an image, and what the tick may use beside the code of this project."""
 import re
 
-# An image that contains one of these can take memory, throw, or run code before main.
+# An image that contains or calls one of these can take memory, throw, ask for a type at run time, or run code before main.
 FORBIDDEN = {
-    "heap": r"_sbrk(_r)?|(_*)(malloc|calloc|realloc|free|memalign|aligned_alloc)(_r)?|_Zn[wa].*|_Zd[la].*",
-    "exceptions": r"__cxa_(allocate_exception|throw|rethrow|begin_catch|end_catch|bad_cast|bad_typeid)|_Unwind_.*"
-                  r"|__gxx_personality.*|_ZSt[0-9]+__throw_.*|_ZSt9terminatev",
+    "heap": r"_sbrk(_r)?|(__libc_|_*)?(malloc|calloc|realloc|reallocarray|free|cfree|memalign|aligned_alloc|posix_memalign|valloc|pvalloc"
+            r"|strdup|strndup)(_r)?|_Zn[wa].*|_Zd[la].*",
+    "exceptions": r"__cxa_(allocate_exception|free_exception|throw|rethrow|begin_catch|end_catch|end_cleanup|init_primary_exception|bad_cast"
+                  r"|bad_typeid|call_unexpected|get_exception_ptr|throw_bad_array_new_length)|_Unwind_.*|__gxx_personality.*"
+                  r"|__aeabi_unwind_.*|_ZSt[0-9]+__throw_.*|_ZSt9terminatev",
+    "types": r"_ZT[IS].*|__dynamic_cast",
     "guards": r"__cxa_guard_.*",
-    "destructors": r"__cxa_atexit|__aeabi_atexit|atexit",
-    "initializers": r"_GLOBAL__(sub_)?I_.*|_Z41__static_initialization_and_destruction_0.*",
+    "destructors": r"__cxa_atexit|__cxa_thread_atexit(_impl)?|__aeabi_atexit|atexit|at_quick_exit",
+    "initializers": r"_GLOBAL__(sub_)?[ID]_.*|_Z41__static_initialization_and_destruction_0.*",
     "printing": r"v?(f|s|sn)?(i)?printf(_r)?|_v?fi?printf_r|puts|fwrite",
 }
+
+# Mathematics of the C library.
+LIBM = re.compile(
+    r"(__)?(a?cosh?|a?sinh?|a?tanh?|atan2|sincos|sqrt|cbrt|hypot|pow|powi|pow10|exp|exp2|exp10|expm1|log|log2|log10|log1p|logb|ilogb"
+    r"|ldexp|frexp|modf|scalbl?n|erfc?|[lt]gamma|gamma|lgamma_r|j[01n]|y[01n]|floor|ceil|trunc|round|roundeven|l?lround|rint|l?lrint"
+    r"|nearbyint|fabs|fmod|remainder|remquo|drem|copysign|nan|nextafter|nexttoward|nextup|nextdown|fdim|fmax|fmin|fma|significand"
+    r"|fe(clear|get|raise|set|test)except(flag)?|fe[gs]etround|fe[gs]etenv|feholdexcept|feupdateenv)[fl]?(_finite)?"
+    r"|__(fpclassify|signbit|isinf|isnan|finite|issignaling)[fl]?")
 
 # Code of the compiler's library that the tick may use: integers of 64 bits. Run-time ABI for the Arm Architecture
 # (IHI 0043), 4.2.
@@ -28,14 +39,10 @@ SOFT_DOUBLE = re.compile(
 
 
 def forbidden_in(image):
-    """Sentences, one per symbol that must not be there."""
+    """Sentences, one per symbol that the image contains or calls and must not."""
     rules = {kind: re.compile(pattern) for kind, pattern in FORBIDDEN.items()}
-    sentences = []
-    for symbol in image.symbols:
-        for kind, pattern in rules.items():
-            if symbol.section != 0 and symbol.name and pattern.fullmatch(symbol.name):
-                sentences.append(f"{image.path.name} contains {image.plain(symbol)} ({kind}).")
-    return sorted(set(sentences))
+    return sorted({f"{image.path.name}: {kind}: {image.plain(symbol)}" for symbol in image.symbols for kind, pattern in rules.items()
+                   if pattern.fullmatch(symbol.name.partition("@")[0])})
 
 
 def foreign_in_tick(image, names):
