@@ -16,6 +16,7 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
 void add_build_tables_command(CLI::App& app, int& code);
 void add_export_tables_command(CLI::App& app, int& code);
 void add_import_command(CLI::App& app, int& code);
+void add_drive_command(CLI::App& app, int& code);
 void add_dump_command(CLI::App& app, int& code);
 void add_evaluate_command(CLI::App& app, int& code);
 void add_calibrate_probe_command(CLI::App& app, int& code);

@@ -62,6 +62,7 @@ int run(int argc, char** argv) {
   add_machine_command(app, code);
   add_list_command(app, code);
   add_device_files_command(app, code);
+  add_drive_command(app, code);
   add_explain_command(app, code);
   add_setup_command(app, code);
   add_can_commands(app, code);

@@ -56,11 +56,16 @@ struct TouchProbeObjects {
   TouchProbeLatch negative_2;
 };
 
+// Room for the objects that a drive has beyond these: they hold what is written, nothing acts on
+// it.
+inline constexpr std::size_t kForeignBytes = 2048;
+
 struct Cia402Objects {
   canopen::CommunicationObjects communication{};
 #define DRIVE OBJECT_MEMBER
 #include "host_sim/host/bus/cia402.def"
   TouchProbeObjects probe;
+  std::array<std::uint8_t, kForeignBytes> foreign{};
 };
 
 [[nodiscard]] canopen::Dictionary cia402_dictionary();

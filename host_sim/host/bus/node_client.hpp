@@ -33,6 +33,9 @@ class NodeClient {
   // node_id 1…127.
   NodeClient(std::uint8_t node_id, Pump pump);
 
+  // For each answer.
+  void set_timeout_us(std::uint64_t timeout_us) { channel_.set_timeout_us(timeout_us); }
+
   // All throw NodeRefused, or UserError when the node does not answer, or answers nonsense.
   // `most`: bytes the value may have; `what` names it in messages.
   [[nodiscard]] SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,

@@ -68,6 +68,7 @@ void SdoChannel::advance(std::uint64_t now_us) {
   }
   if (started_ || jobs_.empty()) return;
   started_ = true;
+  client_.set_timeout_us(timeout_us_);
   Job& job = jobs_.front();
   if (job.writing) {
     client_.download(job.object, {job.bytes.data(), job.bytes.size()}, now_us);

@@ -22,6 +22,8 @@ class SdoChannel {
 
   explicit SdoChannel(std::uint8_t node) : node_(node) {}
 
+  // For an answer; from the next transfer on.
+  void set_timeout_us(std::uint64_t timeout_us) { timeout_us_ = timeout_us; }
   // Queue a transfer. `what` names it in messages.
   void write(canopen::ObjectId object, Bytes value, std::string what, OnDone done = {});
   template <class T>
@@ -69,6 +71,7 @@ class SdoChannel {
   void keep_last_word();
 
   std::uint8_t node_;
+  std::uint64_t timeout_us_ = canopen::kSdoTimeout_us;
   canopen::SdoClient client_;
   std::deque<Job> jobs_;
   bool started_ = false;

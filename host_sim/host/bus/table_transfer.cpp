@@ -86,7 +86,6 @@ ActiveTables active_tables(NodeClient& client) {
 }
 
 std::string refusal(NodeClient& client) {
-  static constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
   const auto reason = client.read(node::object::reason);
   if (reason == 0) return {};
   const auto axis = client.read(node::object::where_axis);

@@ -9,7 +9,6 @@ namespace volcomp::host {
 namespace {
 
 std::vector<std::string> places(const Where& w) {
-  static constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
   std::vector<std::string> parts;
   if (w.axis != '\0') parts.push_back(fmt::format("axis {}", w.axis));
   if (w.field != nullptr) parts.push_back(fmt::format("'{}'", w.field));

@@ -9,6 +9,7 @@
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/plausibility.hpp"
+#include "host_sim/host/io/bundled_files.hpp"
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/user_error.hpp"
@@ -226,29 +227,14 @@ MachineFile read_machine_file(const std::filesystem::path& path) {
 
 namespace {
 
-// An installed program has them beside it, one that was just built in its source folder.
-std::filesystem::path machines_folder() {
-  if (const char* const folder = std::getenv("VOLCOMP_MACHINES"); folder != nullptr) return folder;
-  std::error_code error;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-  auto installed = self.parent_path().parent_path() / "share/volcomp/machines";
-  return std::filesystem::exists(installed, error) ? installed : VOLCOMP_MACHINES_DIR;
-}
+constexpr BundledFiles kMachines{"machines", ".toml", "VOLCOMP_MACHINES"};
 
 }  // namespace
 
-std::vector<std::string> bundled_machines() {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(machines_folder(), error)) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
+std::vector<std::string> bundled_machines() { return names_of(kMachines); }
 
 std::filesystem::path bundled_machine(const std::string& name) {
-  std::filesystem::path path = machines_folder() / (name + ".toml");
+  std::filesystem::path path = path_of(kMachines, name);
   if (!std::filesystem::exists(path)) {
     throw UserError(fmt::format(
         "{}: no such machine file (set VOLCOMP_MACHINES or give --machine FILE)", path.string()));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
+#include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/charts.hpp"
 
 namespace volcomp::host {

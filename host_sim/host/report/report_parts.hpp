@@ -10,8 +10,6 @@
 
 namespace volcomp::host {
 
-inline constexpr std::array<const char*, 6> kChannels{"EX", "EY", "EZ", "EA", "EB", "EC"};
-
 [[nodiscard]] inline nlohmann::json axis_label(const char* label, const char* unit) {
   return {{"label", label}, {"unit", unit}};
 }

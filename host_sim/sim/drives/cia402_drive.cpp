@@ -52,7 +52,27 @@ host::Cia402Objects default_objects(const Cia402Drive::Settings& settings,
   o.feed = {turn, 1};
   o.position_unit = settings.rotary ? host::kIncrement : settings.units.position_unit;
   set_cycle(o, period_us);
+  if (settings.profile) settings.profile->fill_application(o, settings.node_id);
   return o;
+}
+
+canopen::Dictionary dictionary_of(const Cia402Drive::Settings& settings) {
+  return settings.profile ? settings.profile->dictionary() : host::cia402_dictionary();
+}
+
+template <std::size_t N>
+std::vector<canopen::PdoParameters> list_of(const std::array<canopen::PdoParameters, N>& pdos) {
+  return {pdos.begin(), pdos.end()};
+}
+
+std::vector<canopen::PdoParameters> receive_pdos_of(const Cia402Drive::Settings& settings) {
+  return settings.profile ? settings.profile->receive_pdos(settings.node_id)
+                          : list_of(host::cia402_receive_pdos(settings.node_id));
+}
+
+std::vector<canopen::PdoParameters> transmit_pdos_of(const Cia402Drive::Settings& settings) {
+  return settings.profile ? settings.profile->transmit_pdos(settings.node_id)
+                          : list_of(host::cia402_transmit_pdos(settings.node_id));
 }
 
 }  // namespace
@@ -60,7 +80,15 @@ host::Cia402Objects default_objects(const Cia402Drive::Settings& settings,
 Cia402Drive::Cia402Drive(const Settings& settings)
     : settings_(settings),
       period_us_(static_cast<std::uint64_t>(std::llround(settings.period_s * 1e6))),
-      device_({host::cia402_dictionary(), &objects_.communication, receive_, transmit_}, *this),
+      default_receive_(receive_pdos_of(settings)),
+      default_transmit_(transmit_pdos_of(settings)),
+      receive_(default_receive_.size()),
+      transmit_(default_transmit_.size()),
+      device_({dictionary_of(settings),
+               &objects_.communication,
+               {receive_.data(), receive_.size()},
+               {transmit_.data(), transmit_.size()}},
+              *this),
       axis_(settings.period_s, settings.time_constant_s, settings.units.presliding) {
   device_.set_node_id(settings.node_id);
 }
@@ -127,7 +155,9 @@ void Cia402Drive::reset_application() {
   fault_ = canopen::ErrorCode::none;
 }
 
-void Cia402Drive::configure(Span<canopen::Pdo> pdos, Span<const canopen::PdoParameters> parameters,
+// What an EDS maps against its own rules stays unmapped.
+void Cia402Drive::configure(std::vector<canopen::Pdo>& pdos,
+                            const std::vector<canopen::PdoParameters>& parameters,
                             canopen::PdoKind kind) {
   for (std::size_t i = 0; i < pdos.size(); ++i)
     static_cast<void>(pdos[i].configure(parameters[i], kind, device_.objects()));
@@ -135,10 +165,9 @@ void Cia402Drive::configure(Span<canopen::Pdo> pdos, Span<const canopen::PdoPara
 
 void Cia402Drive::reset_communication() {
   objects_.communication = default_communication(settings_);
-  const auto receive = host::cia402_receive_pdos(settings_.node_id);
-  const auto transmit = host::cia402_transmit_pdos(settings_.node_id);
-  configure(receive_, receive, canopen::PdoKind::receive);
-  configure(transmit_, transmit, canopen::PdoKind::transmit);
+  if (settings_.profile) settings_.profile->fill_communication(objects_, settings_.node_id);
+  configure(receive_, default_receive_, canopen::PdoKind::receive);
+  configure(transmit_, default_transmit_, canopen::PdoKind::transmit);
 }
 
 void Cia402Drive::state_changed(canopen::NmtState state, std::uint64_t) {

@@ -14,12 +14,14 @@
 // drive after the SYNC that ends the period, and before anybody fetches the answers to that SYNC.
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "firmware/canopen/device.hpp"
 #include "host_sim/host/bus/cia402_objects.hpp"
 #include "host_sim/sim/drives/cia402_axis.hpp"
 #include "host_sim/sim/drives/cia402_state_machine.hpp"
+#include "host_sim/sim/drives/drive_profile.hpp"
 
 namespace volcomp::sim {
 
@@ -49,6 +51,7 @@ class Cia402Drive final {
     std::int64_t latch_delay_ns = 0;             // from an edge of the probe to its latch, ≥ 0
     std::int64_t latch_resolution_ns = 20;       // instants of latches are multiples of this
     Units units{};
+    std::shared_ptr<const DriveProfile> profile{};  // none: every object of cia402.def
   };
 
   // What the position loop takes in at a SYNC.
@@ -145,8 +148,8 @@ class Cia402Drive final {
   [[nodiscard]] std::int32_t on_wire(std::int64_t units) const;
   [[nodiscard]] bool possible(canopen::ObjectId object, std::int64_t value) const;
 
-  void configure(Span<canopen::Pdo> pdos, Span<const canopen::PdoParameters> parameters,
-                 canopen::PdoKind kind);
+  void configure(std::vector<canopen::Pdo>& pdos,
+                 const std::vector<canopen::PdoParameters>& parameters, canopen::PdoKind kind);
   void object_changed(std::uint16_t index);
   void control();
   void change_mode();
@@ -175,8 +178,10 @@ class Cia402Drive final {
   Settings settings_;
   std::uint64_t period_us_;
   host::Cia402Objects objects_{};
-  std::array<canopen::Pdo, host::kReceivePdos> receive_{};
-  std::array<canopen::Pdo, host::kTransmitPdos> transmit_{};
+  std::vector<canopen::PdoParameters> default_receive_;
+  std::vector<canopen::PdoParameters> default_transmit_;
+  std::vector<canopen::Pdo> receive_;
+  std::vector<canopen::Pdo> transmit_;
   Cia402Device device_;
   PowerStateMachine machine_;
   Cia402Axis axis_;

@@ -1,0 +1,72 @@
+#pragma once
+// Reads the electronic data sheet of somebody else's device (CiA 306-1), or a DCF: which objects it
+// has, what may be done with each, and what it holds after power-on.
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "firmware/canopen/pdo.hpp"
+
+namespace volcomp::host {
+
+struct EdsFileObject {
+  std::string name;
+  std::uint16_t type = 0;  // CiA 301, table 44; DataType has those that a value here can have
+  canopen::Access access = canopen::Access::read_only;
+  bool to_rpdo = false;  // may be mapped into one
+  bool to_tpdo = false;
+  std::string value;  // DefaultValue, or ParameterValue of a DCF, as written; empty: none given
+};
+
+class EdsFile {
+ public:
+  static constexpr std::size_t kLargest = std::size_t{4} << 20U;
+
+  // Throws UserError naming the file and what is wrong: a line that is no INI, no object at all, a
+  // number that is none. An object whose section says nothing usable is left out.
+  EdsFile(const std::string& text, const std::string& file);
+
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::string& vendor() const { return vendor_; }
+  [[nodiscard]] const std::string& product() const { return product_; }
+
+  // Objects by index and sub-index; of arrays and records their sub-indices only.
+  using Key = std::pair<std::uint16_t, std::uint8_t>;
+  [[nodiscard]] const std::map<Key, EdsFileObject>& objects() const { return objects_; }
+  [[nodiscard]] const EdsFileObject* find(canopen::ObjectId object) const;
+  // The value of a number, "$NODEID" replaced; nothing when none is given. Throws UserError.
+  [[nodiscard]] std::optional<std::uint64_t> number(canopen::ObjectId object,
+                                                    std::uint8_t node_id) const;
+  // A PDO after power-on, by the indices of its two records. Where the EDS tells no count, as many
+  // entries as have a value. Throws UserError.
+  [[nodiscard]] canopen::PdoParameters pdo(std::uint16_t communication, std::uint16_t mapping,
+                                           std::uint8_t node_id) const;
+  // Types that may fill an RPDO without being taken, CiA 306-1 [DummyUsage].
+  [[nodiscard]] bool dummy(std::uint16_t type) const;
+
+ private:
+  using Section = std::map<std::string, std::string>;  // keys in lower case
+  void take(const std::string& section, const Section& keys);
+
+  std::string file_;
+  std::string vendor_;
+  std::string product_;
+  std::map<Key, EdsFileObject> objects_;
+  Section dummies_;
+};
+
+// Throws UserError, also when it cannot be read.
+[[nodiscard]] EdsFile read_eds_file(const std::string& path);
+
+// Drives whose data sheets come with the program (host_sim/drives), in the order of the alphabet.
+[[nodiscard]] std::vector<std::string> bundled_drives();
+// The data sheet of one of them, or the file of that path. Throws UserError as read_eds_file(), and
+// with the names there are for a name that is none.
+[[nodiscard]] EdsFile find_drive_eds(const std::string& name_or_path);
+
+}  // namespace volcomp::host
