@@ -67,6 +67,23 @@ DeviceBase::Work DeviceBase::work(const hal::CanFrame& frame) const {
   return resets ? Work::lengthy : Work::service;
 }
 
+std::size_t DeviceBase::heard(HeardIds& ids) const {
+  std::size_t count = 0;
+  const auto add = [&](std::uint32_t id) { ids[count++] = static_cast<std::uint16_t>(id); };
+  add(kNmt);
+  add(sync_.id());
+  add(kTime);
+  add(kSdoRequest + std::uint32_t{node_id_});
+  for (const Pdo& pdo : pdos_.receive()) {
+    if (pdo.valid()) add(pdo.id());
+  }
+  for (const std::uint32_t watched : values_.consumer_heartbeat) {
+    const std::uint32_t node = watched >> 16U;
+    if ((watched & 0xFFFFU) != 0 && node > 0 && node <= kMaxNodeId) add(kHeartbeat + node);
+  }
+  return count;
+}
+
 bool DeviceBase::enter_call(std::uint64_t now_us) {
   if (state_ == NmtState::boot_up) return false;
   now_us_ = now_us;

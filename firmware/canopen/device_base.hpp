@@ -38,6 +38,16 @@ class DeviceBase {
   [[nodiscard]] Work work(const hal::CanFrame& frame) const;
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
 
+  static constexpr std::size_t kMostTransmit = 32;
+  static constexpr std::size_t kMostReceive = 32;
+
+  // The identifiers of all frames that do anything here, for a filter in front of the port: NMT,
+  // SYNC, TIME, SDO requests, valid RPDOs, heartbeats of watched nodes. They change with 1005h,
+  // 1016h and the PDOs.
+  static constexpr std::size_t kMostHeard = 4 + kMostReceive + kHeartbeatConsumers;
+  using HeardIds = std::array<std::uint16_t, kMostHeard>;
+  [[nodiscard]] std::size_t heard(HeardIds& ids) const;
+
   [[nodiscard]] NmtState state() const { return state_; }
   [[nodiscard]] Emergency& emergency() { return emergency_; }
   [[nodiscard]] const Sync& sync() const { return sync_; }
@@ -53,9 +63,6 @@ class DeviceBase {
   void trigger_belated(std::size_t transmit_pdo);
   // Cancels a TPDO that is due: its values are no longer true.
   void withdraw(std::size_t transmit_pdo);
-
-  static constexpr std::size_t kMostTransmit = 32;
-  static constexpr std::size_t kMostReceive = 32;
 
  protected:
   enum class Offered : std::uint8_t { none, boot_up, sync, emergency, pdo, sdo, heartbeat };

@@ -15,6 +15,9 @@
 #include "firmware/node/node.hpp"
 #include "firmware/node/store/read_only_storage.hpp"
 #include "firmware/node/store/record_storage.hpp"
+#include "firmware/posix/kernel_filter.hpp"
+#include "firmware/posix/real_time.hpp"
+#include "firmware/posix/service_manager.hpp"
 #include "hal/linux/file_blocks.hpp"
 #include "hal/linux/lasting_can.hpp"
 #include "hal/linux/node_pipe.hpp"
@@ -42,6 +45,7 @@ struct Arguments {
   std::string store;
   int node_id = 32;
   bool exit_on_lost_interface = false;
+  volcomp::posix::RealTime real_time;
 };
 
 void say(const std::string& what, const std::string& sentence) {
@@ -67,17 +71,24 @@ bool outlives(LastingCan::News news, const Arguments& arguments) {
 
 int serve(Node& node, LastingCan& port, const Arguments& arguments) {
   const volcomp::hal::SteadyClock clock;
+  volcomp::posix::ServiceManager manager;
+  volcomp::posix::KernelFilter filter;
   constexpr std::uint64_t kPoll_us = 1000;
   node.power_on(clock.now_us());
+  manager.ready("node " + std::to_string(arguments.node_id) + " on " + arguments.link);
   while (stop_requested == 0) {
     node.bus_state(port.bus_state());
     volcomp::canopen::exchange(node.device(), port, clock.now_us());
+    node.frames_lost(port.take_losses());
+    filter.follow(node.device(), port);
     const std::uint64_t now = clock.now_us();
     if (!outlives(port.supervise(now), arguments)) return kInterfaceLost;
+    manager.alive(now);
     const std::uint64_t deadline = node.deadline_us();
     const std::uint64_t pause = deadline <= now ? 0 : std::min(deadline - now, kPoll_us);
     static_cast<void>(port.wait(static_cast<std::uint32_t>(pause)));
   }
+  manager.stopping();
   return 0;
 }
 
@@ -131,6 +142,13 @@ int run(const Arguments& arguments) {
     static NodePipe pipe;
     return run_on(pipe, &arguments.link[kPipe.size()], arguments, node);
   }
+  if (const auto failed = volcomp::posix::become_real_time(arguments.real_time)) {
+    static_cast<void>(std::fprintf(stderr, "volcomp-node: %s\n", failed->c_str()));
+    return kUnusableInput;
+  }
+  if (arguments.real_time.priority == 0)
+    say(arguments.link,
+        "an ordinary priority: other work on this computer delays offsets (--priority)");
   static LastingCan can;
   return run_on(can, arguments.link.c_str(), arguments, node);
 }
@@ -152,6 +170,12 @@ int start(int argc, char** argv) {
   app.add_flag("--exit-on-lost-interface", arguments.exit_on_lost_interface,
                "End with exit code 3 when the CAN interface goes down or away; without it the node "
                "waits until the interface is back");
+  app.add_option("--priority", arguments.real_time.priority,
+                 "Real-time priority (SCHED_FIFO), with the memory locked; below that of the "
+                 "interrupt threads of the CAN controller (default: none)")
+      ->check(CLI::Range(1, 99));
+  app.add_option("--cpu", arguments.real_time.cpu, "Stay on this processor, from 0 (default: any)")
+      ->check(CLI::Range(0, 1023));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

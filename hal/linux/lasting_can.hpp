@@ -3,6 +3,8 @@
 // takes the interface from under the socket, which then receives nothing more: the port opens it
 // again by its name when it is back.
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -33,18 +35,31 @@ class LastingCan {
     if (!lost_ || now_us - tried_us_ < kRetry_us) return News::none;
     tried_us_ = now_us;
     lost_ = !can_.open(name_.c_str()).ok();
+    if (!lost_ && filtered_) static_cast<void>(hear_only({ids_.data(), count_}));
     return lost_ ? News::none : News::back;
   }
 
   // As those of SocketCan; while the interface is lost nothing is sent or received.
   bool send(const CanFrame& frame) { return can_.send(frame); }
   bool receive(CanFrame& frame) { return can_.receive(frame); }
+  // As SocketCan::hear_only(), also after the interface has come back.
+  bool hear_only(Span<const std::uint16_t> ids) {
+    filtered_ = ids.size() <= ids_.size() && can_.hear_only(ids);
+    if (!filtered_) return false;
+    count_ = ids.size();
+    std::copy(ids.begin(), ids.end(), ids_.begin());
+    return true;
+  }
+  [[nodiscard]] std::uint32_t take_losses() { return can_.take_losses(); }
   [[nodiscard]] bool wait(std::uint32_t timeout_us) const { return can_.wait(timeout_us); }
   [[nodiscard]] CanBusState bus_state() const { return can_.bus_state(); }
 
  private:
   SocketCan can_;
   std::string name_;
+  std::array<std::uint16_t, SocketCan::kMostFilters> ids_{};
+  std::size_t count_ = 0;
+  bool filtered_ = false;
   std::uint64_t tried_us_ = 0;
   bool lost_ = false;
 };

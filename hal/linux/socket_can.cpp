@@ -7,9 +7,11 @@
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -21,6 +23,11 @@ namespace {
 // frame with some 800 bytes. Its own limit (net.core.rmem_max) may cut it; the port works then too.
 constexpr std::uint32_t kReceiveBufferBytes = 1024 * 1024;
 constexpr std::uint32_t kSendBufferBytes = 256 * 1024;
+
+// What tells the state of the controller. Others, with berr-reporting one for every error on the
+// bus, would only wake the process.
+constexpr std::uint32_t kWantedReports =
+    CAN_ERR_BUSOFF | CAN_ERR_RESTARTED | CAN_ERR_CRTL | CAN_ERR_TX_TIMEOUT;
 
 OpenStatus failure(OpenResult result) { return {result, errno}; }
 
@@ -90,9 +97,12 @@ OpenStatus SocketCan::attach(const char* interface) {
   if (const OpenStatus s = open_socket(descriptor_); !s.ok()) return s;
   int index = 0;
   if (const OpenStatus s = find_interface(descriptor_, interface, index); !s.ok()) return s;
-  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, CAN_ERR_MASK))
+  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, kWantedReports))
     return failure(OpenResult::failed);
-  static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_RCVBUF, kReceiveBufferBytes));
+  // Beyond rmem_max only a process with CAP_NET_ADMIN gets what it asks for.
+  if (!set_option(descriptor_, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBufferBytes))
+    static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_RCVBUF, kReceiveBufferBytes));
+  static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, 1));
   static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_SNDBUF, kSendBufferBytes));
   return bind_to(descriptor_, index);
 }
@@ -102,6 +112,7 @@ void SocketCan::close() {
   descriptor_ = -1;
   network_down_ = false;
   skipped_ = {};
+  dropped_ = losses_taken_ = 0;
   bus_state_ = CanBusState::active;
 }
 
@@ -118,7 +129,7 @@ bool SocketCan::send(const CanFrame& frame) {
 bool SocketCan::receive(CanFrame& frame) {
   for (int i = 0; i < kMaxSkippedAtOnce; ++i) {
     can_frame raw{};
-    if (::recv(descriptor_, &raw, sizeof raw, 0) != ssize_t{sizeof raw}) {
+    if (!take(raw)) {
       note_failure();
       return false;
     }
@@ -128,6 +139,37 @@ bool SocketCan::receive(CanFrame& frame) {
     return true;
   }
   return false;
+}
+
+// The counter of the socket comes with a frame once it is not 0 (socket(7), SO_RXQ_OVFL).
+bool SocketCan::take(can_frame& raw) {
+  iovec room{&raw, sizeof raw};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(std::uint32_t))> beside{};
+  msghdr message{};
+  message.msg_iov = &room;
+  message.msg_iovlen = 1;
+  message.msg_control = beside.data();
+  message.msg_controllen = beside.size();
+  if (::recvmsg(descriptor_, &message, 0) != ssize_t{sizeof raw}) return false;
+  const cmsghdr* const told = CMSG_FIRSTHDR(&message);
+  if (told != nullptr && told->cmsg_level == SOL_SOCKET && told->cmsg_type == SO_RXQ_OVFL)
+    std::memcpy(&dropped_, CMSG_DATA(told), sizeof dropped_);
+  return true;
+}
+
+bool SocketCan::hear_only(Span<const std::uint16_t> ids) {
+  if (ids.size() > kMostFilters) return false;
+  std::array<can_filter, kMostFilters> filters{};
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    filters[i] = {ids[i], CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG};
+  const auto size = static_cast<socklen_t>(ids.size() * sizeof(can_filter));
+  return ::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), size) == 0;
+}
+
+std::uint32_t SocketCan::take_losses() {
+  const std::uint32_t lost = dropped_ - losses_taken_;
+  losses_taken_ = dropped_;
+  return lost;
 }
 
 bool SocketCan::skip(const can_frame& raw) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 
+#include "comp/core/span.hpp"
 #include "hal/can_port.hpp"
 #include "hal/linux/open_status.hpp"
 
@@ -43,6 +44,14 @@ class SocketCan {
   // False when nothing is there, and after kMaxSkippedAtOnce useless frames in a row.
   bool receive(CanFrame& frame);
 
+  // From now on only frames with these identifiers (11 bits, at most kMostFilters) arrive, and the
+  // reports of the controller: no other frame wakes the process. False: the kernel refuses, and all
+  // arrive as before.
+  bool hear_only(Span<const std::uint16_t> ids);
+  // Frames that the kernel has dropped since the last call because the receive buffer was full.
+  // Known only with the next frame that arrives.
+  [[nodiscard]] std::uint32_t take_losses();
+
   // Sleeps until there is something to receive or the time is over; true in the first case. A
   // signal ends it early with false.
   [[nodiscard]] bool wait(std::uint32_t timeout_us) const;
@@ -58,16 +67,20 @@ class SocketCan {
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
   static constexpr int kMaxSkippedAtOnce = 64;
+  static constexpr std::size_t kMostFilters = 64;
 
  private:
   [[nodiscard]] OpenStatus attach(const char* interface);
   void note_failure();
+  [[nodiscard]] bool take(::can_frame& raw);
   bool skip(const ::can_frame& raw);
   void note_error(const ::can_frame& raw);
 
   int descriptor_ = -1;
   bool network_down_ = false;
   SkippedFrames skipped_;
+  std::uint32_t dropped_ = 0;  // by the kernel since the socket was opened; wraps
+  std::uint32_t losses_taken_ = 0;
   CanBusState bus_state_ = CanBusState::active;
 };
 

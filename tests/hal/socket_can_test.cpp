@@ -57,7 +57,7 @@ class KernelWithCan : public ::testing::Test {
       }
       return 0;
     };
-    calls.setsockopt = [](int, int, int) { return 0; };
+    calls.setsockopt = [](int, int, int, const void*, socklen_t) { return 0; };
     calls.bind = [](int, const sockaddr* address) {
       sockaddr_can can{};
       std::memcpy(&can, address, sizeof can);
@@ -65,10 +65,12 @@ class KernelWithCan : public ::testing::Test {
       EXPECT_EQ(can.can_ifindex, kInterfaceIndex);
       return 0;
     };
-    calls.recv = [this](int, void* bytes, std::size_t size) -> ssize_t {
+    calls.recvmsg = [this](int, msghdr* message) -> ssize_t {
       if (heard.empty()) return failing(receive_error);
-      std::memcpy(bytes, &heard.front(), size);
+      const std::size_t size = message->msg_iov->iov_len;
+      std::memcpy(message->msg_iov->iov_base, &heard.front(), size);
       heard.pop_front();
+      tell_drops(*message);
       return static_cast<ssize_t>(size);
     };
   }
@@ -80,7 +82,22 @@ class KernelWithCan : public ::testing::Test {
     EXPECT_EQ(port.descriptor(), -1) << "closed";
   }
 
+  // socket(7), SO_RXQ_OVFL: the kernel adds its counter once it is not 0.
+  void tell_drops(msghdr& message) const {
+    if (drops == 0) {
+      message.msg_controllen = 0;
+      return;
+    }
+    cmsghdr* const told = CMSG_FIRSTHDR(&message);
+    told->cmsg_level = SOL_SOCKET;
+    told->cmsg_type = SO_RXQ_OVFL;
+    told->cmsg_len = CMSG_LEN(sizeof drops);
+    std::memcpy(CMSG_DATA(told), &drops, sizeof drops);
+    message.msg_controllen = CMSG_SPACE(sizeof drops);
+  }
+
   SystemCalls calls;
+  std::uint32_t drops = 0;  // of the socket so far
   short flags = IFF_UP;
   int index_error = 0;
   int flags_error = 0;
@@ -133,9 +150,11 @@ TEST_F(KernelWithCan, AnInterfaceOfAnotherKind) {
 
 // Without error reports a bus-off would not be seen; smaller buffers do no harm.
 TEST_F(KernelWithCan, ErrorReportsAreNeededLargeBuffersAreNot) {
-  calls.setsockopt = [](int, int level, int) { return level == SOL_SOCKET ? failing(ENOBUFS) : 0; };
+  calls.setsockopt = [](int, int level, int, const void*, socklen_t) {
+    return level == SOL_SOCKET ? failing(ENOBUFS) : 0;
+  };
   EXPECT_TRUE(port.open("can0").ok());
-  calls.setsockopt = [](int, int level, int name) {
+  calls.setsockopt = [](int, int level, int name, const void*, socklen_t) {
     return level == SOL_CAN_RAW && name == CAN_RAW_ERR_FILTER ? failing(ENOPROTOOPT) : 0;
   };
   expect_refused(OpenResult::failed, ENOPROTOOPT);
@@ -204,6 +223,56 @@ TEST_F(KernelWithCan, ANetworkThatGoesDownShowsAndComesBack) {
     EXPECT_TRUE(port.receive(got));
     EXPECT_FALSE(port.network_down()) << error;
   }
+}
+
+TEST_F(KernelWithCan, DroppedFramesAreTakenOnceAlsoWhenTheCounterWraps) {
+  ASSERT_TRUE(port.open("can0").ok());
+  const auto losses_after = [this](std::uint32_t counter) {
+    heard = {raw_frame(0x123)};
+    drops = counter;
+    hal::CanFrame got;
+    EXPECT_TRUE(port.receive(got));
+    return port.take_losses();
+  };
+  EXPECT_EQ(losses_after(0), 0U);
+  EXPECT_EQ(losses_after(5), 5U);
+  EXPECT_EQ(port.take_losses(), 0U);
+  EXPECT_EQ(losses_after(0xFFFF'FFFF), 0xFFFF'FFFAU);
+  EXPECT_EQ(losses_after(2), 3U);
+  ASSERT_TRUE(port.open("can0").ok());  // another socket counts from 0
+  EXPECT_EQ(losses_after(1), 1U);
+}
+
+// --- filters (Documentation/networking/can.rst, CAN_RAW_FILTER)
+
+TEST_F(KernelWithCan, FiltersAreExactIdentifiersOf11Bits) {
+  ASSERT_TRUE(port.open("can0").ok());
+  std::vector<can_filter> set;
+  calls.setsockopt = [&](int, int level, int name, const void* value, socklen_t size) {
+    EXPECT_EQ(level, SOL_CAN_RAW);
+    EXPECT_EQ(name, CAN_RAW_FILTER);
+    set.resize(size / sizeof(can_filter));
+    std::memcpy(set.data(), value, size);
+    return 0;
+  };
+  const std::array<std::uint16_t, 2> ids{0x000, 0x620};
+  ASSERT_TRUE(port.hear_only(ids));
+  ASSERT_EQ(set.size(), 2U);
+  // The kernel takes a frame when id and mask agree: no 29-bit id, no remote request passes.
+  const auto passes = [&set](canid_t id) {
+    return std::any_of(set.begin(), set.end(), [id](const can_filter& filter) {
+      return (id & filter.can_mask) == (filter.can_id & filter.can_mask);
+    });
+  };
+  EXPECT_TRUE(passes(0x000));
+  EXPECT_TRUE(passes(0x620));
+  EXPECT_FALSE(passes(0x621));
+  EXPECT_FALSE(passes(0x620 | CAN_EFF_FLAG));
+  EXPECT_FALSE(passes(0x620 | CAN_RTR_FLAG));
+  const std::array<std::uint16_t, SocketCan::kMostFilters + 1> too_many{};
+  EXPECT_FALSE(port.hear_only(too_many));
+  calls.setsockopt = [](int, int, int, const void*, socklen_t) { return failing(ENOMEM); };
+  EXPECT_FALSE(port.hear_only(ids));
 }
 
 // --- error reports (linux/can/error.h)

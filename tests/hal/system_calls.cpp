@@ -12,7 +12,7 @@ int __real_ioctl(int fd, unsigned long request, ...);
 int __real_setsockopt(int fd, int level, int name, const void* value, socklen_t size);
 int __real_bind(int fd, const sockaddr* address, socklen_t size);
 ssize_t __real_send(int fd, const void* bytes, size_t size, int flags);
-ssize_t __real_recv(int fd, void* bytes, size_t size, int flags);
+ssize_t __real_recvmsg(int fd, msghdr* message, int flags);
 int __real_fstat(int fd, struct stat* info);
 int __real_flock(int fd, int operation);
 int __real_ftruncate(int fd, off_t size);
@@ -61,7 +61,8 @@ int __wrap_ioctl(int fd, unsigned long request, void* argument) {
 }
 int __wrap_setsockopt(int fd, int level, int name, const void* value, socklen_t size) {
   return ask<&SystemCalls::setsockopt>(
-      [&] { return __real_setsockopt(fd, level, name, value, size); }, fd, level, name);
+      [&] { return __real_setsockopt(fd, level, name, value, size); }, fd, level, name, value,
+      size);
 }
 int __wrap_bind(int fd, const sockaddr* address, socklen_t size) {
   return ask<&SystemCalls::bind>([&] { return __real_bind(fd, address, size); }, fd, address);
@@ -70,9 +71,9 @@ ssize_t __wrap_send(int fd, const void* bytes, size_t size, int flags) {
   return ask<&SystemCalls::send>([&] { return __real_send(fd, bytes, size, flags); }, fd, bytes,
                                  size);
 }
-ssize_t __wrap_recv(int fd, void* bytes, size_t size, int flags) {
-  return ask<&SystemCalls::recv>([&] { return __real_recv(fd, bytes, size, flags); }, fd, bytes,
-                                 size);
+ssize_t __wrap_recvmsg(int fd, msghdr* message, int flags) {
+  return ask<&SystemCalls::recvmsg>([&] { return __real_recvmsg(fd, message, flags); }, fd,
+                                    message);
 }
 int __wrap_fstat(int fd, struct stat* info) {
   return ask<&SystemCalls::fstat>([&] { return __real_fstat(fd, info); }, fd, info);

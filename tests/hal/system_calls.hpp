@@ -25,10 +25,10 @@ class SystemCalls {
 
   std::function<int(int domain, int type, int protocol)> socket;
   std::function<int(int fd, unsigned long request, void* argument)> ioctl;
-  std::function<int(int fd, int level, int name)> setsockopt;
+  std::function<int(int fd, int level, int name, const void* value, socklen_t size)> setsockopt;
   std::function<int(int fd, const sockaddr* address)> bind;
   std::function<ssize_t(int fd, const void* bytes, std::size_t size)> send;
-  std::function<ssize_t(int fd, void* bytes, std::size_t size)> recv;
+  std::function<ssize_t(int fd, msghdr* message)> recvmsg;
   std::function<int(int fd, struct stat* info)> fstat;
   std::function<int(int fd, int operation)> flock;
   std::function<int(int fd, off_t size)> ftruncate;

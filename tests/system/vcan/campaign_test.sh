@@ -18,7 +18,7 @@ start candump candump -r 100000000 -L vcan0
 candump=$!
 wait_for 'candump listens' listeners_are 1
 start node "$build/firmware/volcomp-node" --can vcan0 --node-id 32
-wait_for 'the node listens' listeners_are 2
+wait_for 'the node listens' node_listens
 
 "${campaign[@]}" --can vcan0 --cycle-hz "$cycle_hz" --json "$work/vcan.json" > "$work/vcan_run.txt" 2>&1 ||
   fail 'the campaign over vcan0'

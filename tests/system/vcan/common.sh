@@ -58,6 +58,11 @@ listeners_are() {
   [ "$(grep -c '^ *vcan0 .* raw' /proc/net/can/rcvlist_all)" = "$1" ]
 }
 
+# node_listens: the node with id 32 has told the kernel which frames it wants.
+node_listens() {
+  grep -q '^ *vcan0 *620 .* raw' /proc/net/can/rcvlist_sff
+}
+
 # lines_are NUMBER FILE: the file has so many lines.
 lines_are() {
   [ "$(wc -l < "$2")" = "$1" ]

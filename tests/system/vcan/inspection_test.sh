@@ -12,7 +12,7 @@ without_bus loopback.json "${inspection[@]}" --can loopback --json "$work/loopba
 bus_begins
 
 start node "$build/firmware/volcomp-node" --can vcan0 --node-id 32
-wait_for 'the node listens' listeners_are 1
+wait_for 'the node listens' node_listens
 
 "${inspection[@]}" --can vcan0 --json "$work/vcan.json" > "$work/vcan_run.txt" 2>&1 ||
   fail 'the inspection over vcan0'

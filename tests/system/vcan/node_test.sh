@@ -27,7 +27,7 @@ refuses() {
 start_node() {
   start node "$node" --can vcan0 --node-id 32 --store "$store"
   node_process=$!
-  wait_for 'the node listens' listeners_are 1
+  wait_for 'the node listens' node_listens
 }
 
 stop_node() {
