@@ -20,6 +20,12 @@ struct CommunicationObjects {
 #include "firmware/canopen/communication.def"
 };
 
+// By name, for who reads and writes them: object::cycle_period_us.
+namespace object {
+#define COMMON OBJECT_HANDLE
+#include "firmware/canopen/communication.def"
+}  // namespace object
+
 // 1029h: what a communication error does to an operational device.
 enum class ErrorBehaviour : std::uint8_t { to_pre_operational = 0, no_change = 1, to_stopped = 2 };
 

@@ -52,8 +52,8 @@ bool DeviceBase::is_domain(ObjectId object) const {
 AbortCode DeviceBase::check_communication(ObjectId object, Span<const std::uint8_t> bytes) const {
   const auto value =
       static_cast<std::uint32_t>(load_le(bytes.data(), std::min<std::size_t>(bytes.size(), 4)));
-  if (object.index == 0x1003 && value != 0) return AbortCode::invalid_value;
-  if (object.index == 0x1005) {
+  if (object.index == object::error_count.index && value != 0) return AbortCode::invalid_value;
+  if (object.index == object::sync_cob_id.index) {
     const std::uint32_t id = value & ~Sync::kProduce;
     // CiA 301, table 40, restricts nothing of what SYNC and EMCY share; on its own EMCY a device
     // sends something else.
@@ -63,12 +63,12 @@ AbortCode DeviceBase::check_communication(ObjectId object, Span<const std::uint8
     // CiA 301, 7.5.2.5: the identifier may not change while SYNC is being produced.
     if (sync_.producing() && id != sync_.id()) return AbortCode::invalid_value;
   }
-  if (object.index == 0x1019) {
+  if (object.index == object::sync_counter_overflow.index) {
     if (value == 1) return AbortCode::invalid_value;
     // CiA 301, 7.5.2.22. Stored values come back in the order of their indices.
     if (values_.cycle_period_us != 0 && state_ != NmtState::boot_up) return AbortCode::device_state;
   }
-  if (object.index == 0x1016 && (value & 0xFFFFU) != 0) {
+  if (object.index == object::consumer_heartbeat.index && (value & 0xFFFFU) != 0) {
     const std::uint32_t node = value >> 16U;
     if (node == 0 || node > kMaxNodeId) return AbortCode::none;  // CiA 301, 7.5.2.17: not used
     if (node == node_id_) return AbortCode::invalid_value;
@@ -84,19 +84,19 @@ AbortCode DeviceBase::check_communication(ObjectId object, Span<const std::uint8
 void DeviceBase::communication_written(ObjectId object) {
   std::uint8_t lost_node = 0;
   switch (object.index) {
-    case 0x1003:
+    case object::error_count.index:
       emergency_.clear_history();
       break;
-    case 0x1005:
-    case 0x1006:
-    case 0x1019:
+    case object::sync_cob_id.index:
+    case object::cycle_period_us.index:
+    case object::sync_counter_overflow.index:
       sync_.reset();
       break;
-    case 0x1016:
+    case object::consumer_heartbeat.index:
       if (heartbeats_.restart(object.sub, lost_node))
         emergency_.clear(ErrorCode::heartbeat, lost_node);
       break;
-    case 0x1017:
+    case object::producer_heartbeat_ms.index:
       last_heartbeat_us_ = now_us_;
       break;
     default:

@@ -84,13 +84,22 @@ struct Handle {
   std::uint8_t sub;
   std::uint8_t count;  // of values, or bytes of a text
   const char* name;
+  const char* member;  // of its structure
 
   // A constructor, so that no {index, sub} of an ObjectId becomes one.
-  constexpr Handle(std::uint16_t i, std::size_t s, std::size_t c, const char* n)
-      : index(i), sub(static_cast<std::uint8_t>(s)), count(static_cast<std::uint8_t>(c)), name(n) {}
+  constexpr Handle(std::uint16_t i, std::size_t s, std::size_t c, const char* n, const char* m = "")
+      : index(i),
+        sub(static_cast<std::uint8_t>(s)),
+        count(static_cast<std::uint8_t>(c)),
+        name(n),
+        member(m) {}
   // One of several, from 0.
   [[nodiscard]] constexpr Handle operator[](std::size_t which) const {
-    return {index, sub + which, count, name};
+    return {index, sub + which, count, name, member};
+  }
+  // Of one value, or of the text.
+  [[nodiscard]] constexpr std::size_t bytes() const {
+    return std::is_same_v<T, text> ? count : sizeof(T);
   }
   [[nodiscard]] constexpr ObjectId id() const { return {index, sub}; }
   // As a PDO maps it.
@@ -138,3 +147,8 @@ using canopen::object_lines::each;
   ::volcomp::canopen::object_lines::Values<::volcomp::canopen::object_lines::type, count> member \
       value;
 // NOLINTEND(bugprone-macro-parentheses)
+// A line as a handle.
+#define OBJECT_HANDLE(index, sub, count, type, member, use, value, range, name) \
+  inline constexpr ::volcomp::canopen::object_lines::Handle<                    \
+      ::volcomp::canopen::object_lines::type>                                   \
+      member{index, sub, count, name, #member};

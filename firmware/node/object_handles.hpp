@@ -6,46 +6,44 @@
 
 namespace volcomp::node::object {
 
-namespace lines = canopen::object_lines;
-using canopen::kErrorHistory;
-using canopen::kHeartbeatConsumers;
+using namespace canopen::object;
 
-#define HANDLE(index, sub, count, type, member, use, value, range, name) \
-  inline constexpr lines::Handle<lines::type> member{index, sub, count, name};
 // What a handler reads or writes, as bytes.
 #define DOMAIN_HANDLE(index, sub, count, member, use, name) \
-  inline constexpr lines::Handle<lines::u8> member{index, sub, count, name};
+  OBJECT_HANDLE(index, sub, count, u8, member, use, , any, name)
+// A row of the array `member`, or a value of a row: began_0.
+#define ROW_HANDLE(index, sub, count, type, member, which, use, range, name) \
+  OBJECT_HANDLE(index, sub, count, type, member##_##which, use, , range, name)
 
-#define COMMON HANDLE
-#include "firmware/canopen/communication.def"
-
-#define NODE HANDLE
+#define NODE OBJECT_HANDLE
+#define NODE_ROW ROW_HANDLE
 #define NODE_DOMAIN DOMAIN_HANDLE
 #include "firmware/node/objects.def"
 
 namespace probe {
-#define PROBE HANDLE
+#define PROBE OBJECT_HANDLE
 #define PROBE_DOMAIN DOMAIN_HANDLE
 #include "firmware/node/objects.def"
 }  // namespace probe
 
 namespace flank {
-#define FLANK HANDLE
+#define FLANK OBJECT_HANDLE
 #include "firmware/node/objects.def"
 }  // namespace flank
 
 namespace stroke {
-#define STROKE HANDLE
+#define STROKE OBJECT_HANDLE
+#define STROKE_ROW ROW_HANDLE
 #define STROKE_DOMAIN DOMAIN_HANDLE
 #include "firmware/node/objects.def"
 }  // namespace stroke
 
 namespace thermal {
-#define THERMAL HANDLE
+#define THERMAL OBJECT_HANDLE
 #include "firmware/node/objects.def"
 }  // namespace thermal
 
-#undef HANDLE
+#undef ROW_HANDLE
 #undef DOMAIN_HANDLE
 
 }  // namespace volcomp::node::object

@@ -104,9 +104,9 @@ int upload(const CanArguments& arguments) {
 int diagnose_node(const CanArguments& arguments) {
   Results results({arguments.json_file});
   host::NodeClient client = connect(arguments);
-  const host::Diagnosis diagnosis = host::diagnose(client);
+  const nlohmann::json diagnosis = host::diagnose(client);
   fmt::print(results.text(), "{}", host::describe(diagnosis));
-  results.add(arguments.json_file, json_text(host::to_json(diagnosis)));
+  results.add(arguments.json_file, json_text(diagnosis));
   results.write();
   return 0;
 }

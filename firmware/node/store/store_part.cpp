@@ -172,7 +172,7 @@ void StorePart::apply_parameters(Span<const std::uint8_t> stored, bool applicati
       strokes_.load_learned(value, learned);
       continue;
     }
-    const bool wanted = (index >= 0x2000) == application;
+    const bool wanted = (index >= object::machine_id.index) == application;
     if (wanted && sub == kWholePdo) apply_pdo(index, value);
     if (wanted && sub != kWholePdo) static_cast<void>(core_.device.write({index, sub}, value));
   }

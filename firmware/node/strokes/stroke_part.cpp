@@ -103,7 +103,9 @@ AbortCode WatchedStrokes::learn(LearnCommand command) {
 }
 
 void WatchedStrokes::before_read(canopen::ObjectId object) {
-  if (object.index >= 0x2510 && object.index <= 0x2524) service_.publish();
+  if (object.index >= object::stroke::frames.index &&
+      object.index <= object::stroke::table_state.index)
+    service_.publish();
 }
 
 AbortCode WatchedStrokes::read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source) {

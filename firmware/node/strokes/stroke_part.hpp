@@ -19,7 +19,9 @@ class WatchedStrokes : public NodePart {
   void background(std::uint64_t now_us);
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes);
   void before_read(canopen::ObjectId object);
-  static bool owns_domain(canopen::ObjectId object) { return object.index >= 0x2500; }
+  static bool owns_domain(canopen::ObjectId object) {
+    return object.index >= object::stroke::command.index;
+  }
   canopen::AbortCode read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source);
   canopen::AbortCode begin_domain(std::size_t announced, Span<std::uint8_t>& sink);
   canopen::AbortCode finish_domain(std::size_t size);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -17,6 +16,8 @@
 
 namespace volcomp::internal_helical {
 namespace {
+
+namespace stroke = node::object::stroke;
 
 constexpr std::size_t kX = 0;
 constexpr std::size_t kZ = 1;
@@ -134,16 +135,9 @@ host::SdoChannel::Bytes BusGrinder::read(canopen::ObjectId object, std::size_t m
   return found;
 }
 
-double BusGrinder::read_real(canopen::ObjectId object, const std::string& what) {
-  const std::uint64_t raw = host::number(read(object, sizeof(double), what));
-  double value = 0.0;
-  std::memcpy(&value, &raw, sizeof value);
-  return value;
-}
-
-std::vector<double> BusGrinder::read_floats(canopen::ObjectId object, std::size_t most,
-                                            const std::string& what) {
-  const host::SdoChannel::Bytes bytes = read(object, sizeof(float) * most, what);
+std::vector<double> BusGrinder::read_means(std::size_t table, std::size_t most) {
+  const auto& means = stroke::means;
+  const host::SdoChannel::Bytes bytes = read(means[table].id(), sizeof(float) * most, means.name);
   std::vector<double> values;
   for (std::size_t at = 0; at + sizeof(float) <= bytes.size(); at += sizeof(float))
     values.push_back(static_cast<double>(load_f32(&bytes[at])));
@@ -151,25 +145,20 @@ std::vector<double> BusGrinder::read_floats(canopen::ObjectId object, std::size_
 }
 
 std::string BusGrinder::feed_trouble() {
-  const std::uint64_t status = host::number(
-      read(node::object::stroke::offset_status.id(), 2, "status of the learned offset"));
-  if ((status & kOtherFeed) == 0) return {};
-  const std::uint64_t feed =
-      host::number(read(node::object::stroke::table_feed.id(), 4, "feed of the learned tables"));
+  if ((read(stroke::offset_status) & kOtherFeed) == 0) return {};
   return fmt::format(
       "the node adds no learned offset: its tables are for F={:g} mm/s, the stroke has F={:g} mm/s",
-      static_cast<double>(feed) / kNmPerMm, last_.feed_nm_per_s / kNmPerMm);
+      read(stroke::table_feed) / kNmPerMm, last_.feed_nm_per_s / kNmPerMm);
 }
 
 void BusGrinder::learn() {
   if (const std::string trouble = feed_trouble(); !trouble.empty()) throw host::UserError(trouble);
   host::SdoChannel& sdo = axes_->controller().node_objects();
-  sdo.write(node::object::stroke::learn, static_cast<std::uint8_t>(node::LearnCommand::learn));
+  sdo.write(stroke::learn, static_cast<std::uint8_t>(node::LearnCommand::learn));
   rest_until_answered();
   if (sdo.failure().empty()) return;
   sdo.clear();
-  const auto reason =
-      static_cast<Reason>(host::number(read(node::object::stroke::learn_reason.id(), 1, "reason")));
+  const auto reason = static_cast<Reason>(read(stroke::learn_reason));
   throw host::UserError(
       fmt::format("the node refuses to learn: {} [{}]", sentence(reason), code(reason)));
 }
@@ -188,19 +177,16 @@ MonitorView BusGrinder::view() {
   };
   MonitorView view;
   for (std::size_t d = 0; d < kDirections.size(); ++d) {
-    const std::vector<double> means =
-        read_floats({0x2516, static_cast<std::uint8_t>(d + 1)}, kStrokeNodes, "means by node");
+    const std::vector<double> means = read_means(d, kStrokeNodes);
     if (kDirections[d] == Direction::forward) view.over_stroke.amplitude = amplitude(means);
     view.stroke[d] = on_flank(means);
   }
-  const std::vector<double> slots = read_floats({0x2516, 3}, kGearSlots, "means by slot");
+  const std::vector<double> slots = read_means(kDirections.size(), kGearSlots);
   view.over_slots.amplitude = amplitude(slots);
   view.slot = on_flank(slots);
   view.around = orders_around(view.slot);
   for (std::size_t k = 0; k < kMostLines; ++k) {
-    const auto line = static_cast<std::uint8_t>(k + 1);
-    view.along.push_back(std::hypot(read_real({0x2514, line}, "line along Z"),
-                                    read_real({0x2515, line}, "line along Z")) /
+    view.along.push_back(std::hypot(read(stroke::lines_0[k]), read(stroke::lines_1[k])) /
                          std::sqrt(2.0));
   }
   return view;
@@ -208,8 +194,8 @@ MonitorView BusGrinder::view() {
 
 // 2526h:01, see firmware/node/strokes/stroke_objects.hpp.
 LearnedTables BusGrinder::tables() {
-  const host::SdoChannel::Bytes image =
-      read({0x2526, 1}, node::kMostLearnedBytes, "learned tables");
+  const auto& learned = stroke::learned_image;
+  const host::SdoChannel::Bytes image = read(learned.id(), node::kMostLearnedBytes, learned.name);
   const auto damaged = [] {
     return host::UserError("the node's learned tables are damaged on the way");
   };

@@ -34,12 +34,15 @@ class BusGrinder final : public GrinderControl {
   // An object of the node; the machine rests until it is there. `most`: bytes it may have.
   [[nodiscard]] host::SdoChannel::Bytes read(canopen::ObjectId object, std::size_t most,
                                              const std::string& what);
+  template <class T>
+  [[nodiscard]] T read(const canopen::object_lines::Handle<T>& object) {
+    return host::value_of<T>(read(object.id(), object.bytes(), object.name));
+  }
   [[nodiscard]] sim::BusAxes& axes() { return *axes_; }
 
  private:
-  [[nodiscard]] std::vector<double> read_floats(canopen::ObjectId object, std::size_t most,
-                                                const std::string& what);
-  [[nodiscard]] double read_real(canopen::ObjectId object, const std::string& what);
+  // 2516h: means by node, or by slot.
+  [[nodiscard]] std::vector<double> read_means(std::size_t table, std::size_t most);
   void rest_until_answered();
 
   std::unique_ptr<sim::BusAxes> axes_;

@@ -6,7 +6,6 @@ namespace volcomp::host {
 namespace {
 
 namespace lines = canopen::object_lines;
-using canopen::mapped;
 using canopen::NamedEntry;
 
 constexpr std::array kDriveEntries{
@@ -36,14 +35,23 @@ constexpr std::uint8_t kEverySync = 1;
 constexpr std::uint8_t kNextSync = 0;
 
 constexpr std::array<Layout, kReceivePdos> kReceiveLayout{{
-    {0x200, kEverySync, 2, {mapped(0x6040, 0, 16), mapped(0x607A, 0, 32)}},
-    {0x300, kEverySync, 1, {mapped(0x60B0, 0, 32)}},
+    {0x200, kEverySync, 2, {cia402::controlword.mapped(), cia402::target.mapped()}},
+    {0x300, kEverySync, 1, {cia402::offset.mapped()}},
 }};
 constexpr std::array<Layout, kTransmitPdos> kTransmitLayout{{
-    {0x180, kEverySync, 3, {mapped(0x6064, 0, 32), mapped(0x6041, 0, 16), mapped(0x60B9, 0, 16)}},
-    {0x280, kNextSync, 2, {mapped(0x60BA, 0, 32), mapped(0x60D1, 0, 32)}},
-    {0x380, canopen::kEventType, 2, {mapped(0x60D5, 0, 16), mapped(0x60F4, 0, 32)}},
-    {0x480, kEverySync, 1, {mapped(0x60B0, 0, 32)}},
+    {0x180,
+     kEverySync,
+     3,
+     {cia402::actual.mapped(), cia402::statusword.mapped(), cia402::status.mapped()}},
+    {0x280,
+     kNextSync,
+     2,
+     {cia402::positive_1_position.mapped(), cia402::positive_1_time_ns.mapped()}},
+    {0x380,
+     canopen::kEventType,
+     2,
+     {cia402::positive_1_edge_count.mapped(), cia402::following_error.mapped()}},
+    {0x480, kEverySync, 1, {cia402::offset.mapped()}},
 }};
 
 template <std::size_t N>

@@ -68,6 +68,15 @@ struct Cia402Objects {
   std::array<std::uint8_t, kForeignBytes> foreign{};
 };
 
+// By name, for who reads and writes them: cia402::controlword, cia402::positive_1_position.
+namespace cia402 {
+#define DRIVE OBJECT_HANDLE
+#define TOUCH OBJECT_HANDLE
+#define EDGE(index, type, edge, member, name) \
+  OBJECT_HANDLE(index, 0, 1, type, edge##_##member, sent, , any, name)
+#include "host_sim/host/bus/cia402.def"
+}  // namespace cia402
+
 [[nodiscard]] canopen::Dictionary cia402_dictionary();
 [[nodiscard]] Span<const canopen::NamedEntry> named_cia402_dictionary();
 

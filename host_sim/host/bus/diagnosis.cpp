@@ -1,9 +1,23 @@
 #include "host_sim/host/bus/diagnosis.hpp"
 
+#include <fmt/format.h>
+
+#include "comp/tick/status_text.hpp"
+#include "firmware/node/store/storage.hpp"
+#include "host_sim/host/bus/stroke_diagnosis.hpp"
+#include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/bus/thermal_diagnosis.hpp"
+#include "host_sim/host/report/json_format.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
+
 namespace volcomp::host {
 namespace {
 
 namespace object = node::object;
+using canopen::NmtState;
+using nlohmann::json;
+using node::StoreResult;
 
 // 2^40 (positions) and 2^32 (offsets, limits) units per turn of a rotary axis.
 constexpr double kMicroradPerTurn = 2e6 * 3.14159265358979323846;
@@ -11,90 +25,169 @@ constexpr double kPositionUnitsPerTurn = 1099511627776.0;
 constexpr double kOffsetUnitsPerTurn = 4294967296.0;
 constexpr double kUmPerNm = 1e-3;
 
-constexpr std::uint8_t sub_of(std::size_t axis) { return static_cast<std::uint8_t>(axis + 1); }
+// By NodeState.
+constexpr std::array kNodeStates{
+    "idle",
+    "has no tables to compensate with",
+    "waits for the drives to report the offsets they hold",
+    "compensates every axis",
+    "compensates, but not every axis as it should",
+    "is about to restart, its background hangs; corrections are ramped to zero"};
 
-AxisDiagnosis diagnose_axis(NodeClient& client, std::size_t axis, const std::string& letters) {
-  AxisDiagnosis d;
-  d.number = axis + 1;
-  d.letter = axis < letters.size() ? letters[axis] : '\0';
-  d.drive = client.read(object::drive[axis]);
-  if (d.drive == 0) return d;
-  d.rotary = client.read(object::rotary[axis]) != 0;
-  d.drive_status = client.read(object::drive_status[axis]);
-  d.status = client.read(object::status[axis]);
+// By TableState.
+constexpr std::array kTableStates{"nothing was sent",
+                                  "being sent, or broken off",
+                                  "complete, not yet checked",
+                                  "checked and good, not active",
+                                  "ready to be activated",
+                                  "active",
+                                  "refused"};
+
+constexpr std::array kBegan{object::began_0, object::began_1, object::began_2, object::began_3,
+                            object::began_4};
+
+const char* words(NmtState state) {
+  switch (state) {
+    case NmtState::boot_up:
+      return "starting";
+    case NmtState::stopped:
+      return "STOPPED";
+    case NmtState::operational:
+      return "OPERATIONAL";
+    case NmtState::pre_operational:
+      return "PRE-OPERATIONAL, waits to be started";
+  }
+  return "unknown";
+}
+
+// Names of the bits, in their order.
+std::string name_of_bit(std::size_t bit) { return code(static_cast<StatusBit>(1U << bit)); }
+
+json axis_facts(NodeClient& client, std::size_t axis, const std::string& letters) {
+  json facts{{"axis", axis + 1}, {"letter", letters.substr(std::min(axis, letters.size()), 1)}};
+  read_facts(client, facts, object::drive[axis], object::drive_status[axis], object::status[axis]);
+  const bool rotary = client.read(object::rotary[axis]) != 0;
   const std::uint32_t numerator = client.read(object::scale_numerator[axis]);
   const std::uint32_t denominator = client.read(object::scale_denominator[axis]);
   const std::int32_t offset = client.read(object::offset[axis]);
   const std::int32_t largest = client.read(object::largest[axis]);
-  d.offset = static_cast<double>(offset) * numerator / denominator *
-             (d.rotary ? kMicroradPerTurn / kPositionUnitsPerTurn : kUmPerNm);
-  d.largest_offset =
-      static_cast<double>(largest) * (d.rotary ? kMicroradPerTurn / kOffsetUnitsPerTurn : kUmPerNm);
-  for (std::size_t bit = 0; bit < d.began.size(); ++bit) {
-    const auto index = static_cast<std::uint16_t>(0x2610 + axis);
-    d.began[bit] = client.read_value<std::uint16_t>({index, sub_of(bit)}, "count of a status");
+  facts["offset"] = static_cast<double>(offset) * numerator / denominator *
+                    (rotary ? kMicroradPerTurn / kPositionUnitsPerTurn : kUmPerNm);
+  facts["largest_offset"] =
+      static_cast<double>(largest) * (rotary ? kMicroradPerTurn / kOffsetUnitsPerTurn : kUmPerNm);
+  facts["unit"] = rotary ? "µrad" : "µm";
+  facts["status_text"] = describe_status(facts["status"]);
+  for (std::size_t bit = 0; bit < kStatusBits; ++bit)
+    facts["began"][name_of_bit(bit)] = client.read(kBegan.at(axis)[bit]);
+  return facts;
+}
+
+json axes_facts(NodeClient& client, bool tables) {
+  const std::string letters = tables ? client.read(object::axis_letters) : std::string();
+  json axes = json::array();
+  for (std::size_t axis = 0; axis < node::kNodeAxes; ++axis) {
+    if (client.read(object::drive[axis]) != 0) axes.push_back(axis_facts(client, axis, letters));
   }
-  return d;
+  return axes;
 }
 
-void read_identity(NodeClient& client, Diagnosis& d) {
-  constexpr std::uint64_t kHeartbeatPatience_us = 1'000'000;
-  d.name = client.read_text({0x1008, 0}, 24, "device name");
-  d.hardware_version = client.read_text({0x1009, 0}, 8, "hardware version");
-  d.software_version = client.read_text({0x100A, 0}, 8, "software version");
-  d.nmt = client.await_heartbeat(kHeartbeatPatience_us);
-}
-
-void read_errors(NodeClient& client, Diagnosis& d) {
-  d.error_register = client.read_value<std::uint8_t>({0x1001, 0}, "error register");
-  const auto count = client.read_value<std::uint8_t>({0x1003, 0}, "number of errors");
-  for (unsigned i = 1; i <= count; ++i) {
-    d.errors.push_back(
-        client.read_value<std::uint32_t>({0x1003, static_cast<std::uint8_t>(i)}, "error field"));
+json error_facts(NodeClient& client) {
+  json errors = json::array();
+  const unsigned count = client.read(object::error_count);
+  for (unsigned i = 0; i < count; ++i) {
+    const std::uint32_t field = client.read(object::error_history[i]);
+    errors.push_back({{"field", field}, {"text", describe_error(field)}});
   }
+  return errors;
 }
 
-void read_tables(NodeClient& client, Diagnosis& d) {
-  d.state = client.read<node::NodeState>(object::state);
-  d.table_state = client.read<node::TableState>(object::table_state);
-  d.tables = active_tables(client);
-  d.machine_id = client.read(object::machine_id);
-  d.refusal = refusal(client);
+std::string describe_axis(const json& a) {
+  std::string text = fmt::format(
+      "axis {}: {}\n  drive: node {}, {}\n  offset {:.3f} {}, largest so far {:.3f} {}\n",
+      a["letter"] == "" ? a["axis"] : a["letter"], a["status_text"], a["drive"],
+      describe_drive(a["drive_status"]), a["offset"], a["unit"], a["largest_offset"], a["unit"]);
+  for (std::size_t bit = 1; bit < kStatusBits; ++bit) {
+    const json& times = a["began"][name_of_bit(bit)];
+    if (times != 0)
+      text += fmt::format("  {} x {}\n", times, volcomp::words(static_cast<StatusBit>(1U << bit)));
+  }
+  return text;
 }
 
-void read_counters(NodeClient& client, Diagnosis& d) {
-  d.cycles = client.read(object::cycles);
-  d.deadline_missed = client.read(object::deadline_missed);
-  d.cycles_skipped = client.read(object::cycles_skipped);
-  d.sync_missed = client.read(object::sync_missed);
-  d.sync_foreign = client.read(object::sync_foreign);
-  d.activations = client.read(object::activations);
-  d.rejections = client.read(object::rejections);
-  d.stored = client.read<node::StoreResult>(object::stored);
-  d.saved = client.read<node::StoreResult>(object::store_result);
-  d.start = client.read<hal::ResetCause>(object::reset_cause);
-  d.frames_lost = client.read(object::frames_lost);
+std::string tables_line(const json& d) {
+  if (d["active_crc"] == "00000000") return "none";
+  return fmt::format("CRC-32 {}, sequence number {}", d["active_crc"], d["active_sequence"]);
+}
+
+std::string machine_line(const json& d) {
+  return d["machine_id"] == 0 ? "takes tables of any machine"
+                              : fmt::format("takes tables of machine {} only", d["machine_id"]);
 }
 
 }  // namespace
 
-Diagnosis diagnose(NodeClient& client) {
-  Diagnosis d;
-  d.node_id = client.node_id();
-  read_identity(client, d);
-  read_errors(client, d);
-  read_tables(client, d);
-  read_counters(client, d);
-  const std::string letters = d.tables.crc == 0
-                                  ? std::string()
-                                  : client.read_text(object::axis_letters.id(), 8, "axis letters");
-  for (std::size_t axis = 0; axis < node::kNodeAxes; ++axis) {
-    const AxisDiagnosis a = diagnose_axis(client, axis, letters);
-    if (a.drive != 0) d.axes.push_back(a);
-  }
-  d.strokes = diagnose_strokes(client);
-  d.thermal = diagnose_thermal(client);
+json diagnose(NodeClient& client) {
+  constexpr std::uint64_t kHeartbeatPatience_us = 1'000'000;
+  json d{{"node_id", client.node_id()}, {"name", client.read(object::device_name)}};
+  const auto nmt = client.await_heartbeat(kHeartbeatPatience_us);
+  d["network_state"] = nmt ? json(words(*nmt)) : json();
+  read_facts(client, d, object::hardware_version, object::software_version, object::error_register,
+             object::machine_id, object::active_sequence, object::cycles, object::deadline_missed,
+             object::cycles_skipped, object::sync_missed, object::sync_foreign, object::activations,
+             object::rejections, object::frames_lost);
+  const std::uint32_t crc = client.read(object::active_crc);
+  const auto saved = client.read<StoreResult>(object::store_result);
+  d["active_crc"] = fmt::format("{:08X}", crc);
+  d["refusal"] = refusal(client);
+  d["errors"] = error_facts(client);
+  d["state"] = word_of(kNodeStates, client.read(object::state));
+  d["table_state"] = word_of(kTableStates, client.read(object::table_state));
+  d["stored"] = sentence(client.read<StoreResult>(object::stored));
+  d["saved"] = saved == StoreResult::nothing_stored ? "There was none." : sentence(saved);
+  d["start"] = words(client.read<hal::ResetCause>(object::reset_cause));
+  d["axes"] = axes_facts(client, crc != 0);
+  d["strokes"] = diagnose_strokes(client);
+  d["thermal"] = diagnose_thermal(client);
   return d;
+}
+
+std::string describe(const json& d) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  const auto line = [&lines](const char* what, const std::string& value) {
+    lines.emplace_back(what, value);
+  };
+  const bool silent = d["network_state"].is_null();
+  line("network state:", silent ? "unknown, no heartbeat within 1 s" : d["network_state"]);
+  line("state:", d["state"]);
+  line("active tables:", tables_line(d));
+  line("image last sent:", d["table_state"]);
+  if (d["refusal"] != "") line("last refusal:", d["refusal"]);
+  line("machine:", machine_line(d));
+  line("last start:", d["start"]);
+  line("store at the start:", d["stored"]);
+  line("last save or restore:", d["saved"]);
+  line("cycles:", fmt::format("{}, {} of them incomplete at the deadline, {} cut short by SYNC",
+                              d["cycles"], d["deadline_missed"], d["cycles_skipped"]));
+  line("SYNC:",
+       fmt::format("{} missed, {} of another producer", d["sync_missed"], d["sync_foreign"]));
+  line("frames lost:", fmt::format("{}", d["frames_lost"]));
+  line("tables:",
+       fmt::format("{} times activated, {} times refused", d["activations"], d["rejections"]));
+  if (!d["thermal"].is_null()) add_thermal_lines(d["thermal"], lines);
+  line("errors now:", d["error_register"] == 0
+                          ? "none"
+                          : fmt::format("error register {:02X}h", d["error_register"]));
+  line("error history:", d["errors"].empty() ? "empty" : "newest first");
+  std::string text = fmt::format("node {}: {}, hardware {}, software {}\n", d["node_id"], d["name"],
+                                 d["hardware_version"], d["software_version"]) +
+                     text_of_section(list_section("", lines));
+  for (const json& error : d["errors"])
+    text += fmt::format("  {}\n", error["text"]);
+  if (d["axes"].empty()) text += "no axis has a drive\n";
+  for (const json& axis : d["axes"])
+    text += describe_axis(axis);
+  if (!d["strokes"].is_null()) text += describe_strokes(d["strokes"]);
+  return text;
 }
 
 }  // namespace volcomp::host

@@ -29,13 +29,6 @@ void NodeClient::write(canopen::ObjectId object, SdoChannel::Bytes value, const 
   finish_transfer(progress);
 }
 
-std::string NodeClient::read_text(canopen::ObjectId object, std::size_t most,
-                                  const std::string& what) {
-  const SdoChannel::Bytes bytes = read(object, most, what);
-  const std::string text(bytes.begin(), bytes.end());
-  return text.substr(0, text.find('\0'));
-}
-
 void NodeClient::finish_transfer(const Progress& progress) {
   channel_.poll(pump_(*this));
   while (!channel_.idle()) {

@@ -2,6 +2,7 @@
 // Objects of the compensation node read and written one by one, as a service tool does: every call
 // returns with the answer.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -43,25 +44,31 @@ class NodeClient {
   void write(canopen::ObjectId object, SdoChannel::Bytes value, const std::string& what,
              const Progress& progress = {});
 
-  template <class T>
-  [[nodiscard]] T read_value(canopen::ObjectId object, const std::string& what) {
-    return static_cast<T>(number(read(object, sizeof(T), what)));
-  }
   // By its handle (object_handles.hpp), perhaps as another type.
   template <class T>
-  [[nodiscard]] T read(const canopen::object_lines::Handle<T>& object) {
-    return read_value<T>(object.id(), object.name);
+  [[nodiscard]] auto read(const canopen::object_lines::Handle<T>& object) {
+    return value_of<T>(read(object.id(), object.bytes(), object.name));
   }
   template <class As, class T>
   [[nodiscard]] As read(const canopen::object_lines::Handle<T>& object) {
-    return static_cast<As>(read_value<T>(object.id(), object.name));
+    return static_cast<As>(read(object));
   }
-  [[nodiscard]] std::string read(const canopen::object_lines::Handle<char>& object) {
-    return read_text(object.id(), object.count, object.name);
+  // Nothing where the node does not know the object.
+  template <class T>
+  [[nodiscard]] std::optional<T> find(const canopen::object_lines::Handle<T>& object) {
+    try {
+      return read(object);
+    } catch (const NodeRefused& refused) {
+      if (refused.code == canopen::AbortCode::no_object) return std::nullopt;
+      throw;
+    }
   }
-  // Up to `most` characters.
-  [[nodiscard]] std::string read_text(canopen::ObjectId object, std::size_t most,
-                                      const std::string& what);
+  // All values of it.
+  template <class T, std::size_t count>
+  void read(const canopen::object_lines::Handle<T>& object, std::array<T, count>& values) {
+    for (std::size_t i = 0; i < count; ++i)
+      values[i] = read(object[i]);
+  }
 
   // The state in the next heartbeat; nothing when none comes in time.
   [[nodiscard]] std::optional<canopen::NmtState> await_heartbeat(std::uint64_t timeout_us);

@@ -2,9 +2,12 @@
 // Reads and writes of one node's objects over SDO, one after the other: what a configuration tool
 // or a motion controller keeps per node.
 
+#include <algorithm>
+#include <cstring>
 #include <deque>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "firmware/canopen/bytes.hpp"
@@ -13,6 +16,25 @@
 #include "hal/can_port.hpp"
 
 namespace volcomp::host {
+
+// An unsigned number from the bytes of an object.
+[[nodiscard]] inline std::uint64_t number(const std::vector<std::uint8_t>& bytes) {
+  return canopen::load_le(bytes.data(), bytes.size() < 8 ? bytes.size() : 8);
+}
+
+// The value of a Handle<T> from its bytes; text up to its end.
+template <class T>
+[[nodiscard]] auto value_of(const std::vector<std::uint8_t>& bytes) {
+  if constexpr (std::is_same_v<T, char>) {
+    return std::string(bytes.begin(), std::find(bytes.begin(), bytes.end(), 0));
+  } else if constexpr (std::is_floating_point_v<T>) {
+    T value = 0;
+    std::memcpy(&value, bytes.data(), std::min(bytes.size(), sizeof value));
+    return value;
+  } else {
+    return static_cast<T>(number(bytes));
+  }
+}
 
 class SdoChannel {
  public:
@@ -38,6 +60,12 @@ class SdoChannel {
   }
   // `most`: bytes the value may have.
   void read(canopen::ObjectId object, std::size_t most, std::string what, OnRead done);
+  // `done` takes the value.
+  template <class T, class Done>
+  void read(const canopen::object_lines::Handle<T>& object, Done done) {
+    read(object.id(), object.bytes(), object.name,
+         [done](const Bytes& bytes) { done(value_of<T>(bytes)); });
+  }
 
   // After a failure the rest of the queue is dropped; failure() gives the reason.
   [[nodiscard]] bool idle() const { return jobs_.empty() && !outgoing_; }
@@ -82,10 +110,5 @@ class SdoChannel {
   bool refused_ = false;
   canopen::ObjectId failed_;
 };
-
-// An unsigned number from the bytes of an object.
-[[nodiscard]] inline std::uint64_t number(const SdoChannel::Bytes& bytes) {
-  return canopen::load_le(bytes.data(), bytes.size() < 8 ? bytes.size() : 8);
-}
 
 }  // namespace volcomp::host

@@ -1,88 +1,59 @@
 #include "host_sim/host/bus/stroke_diagnosis.hpp"
 
-#include <cstring>
-
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
+#include "comp/strokes/learning_guard.hpp"
 #include "comp/strokes/stroke_offsets.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/bus/explain/catalogue.hpp"
+#include "host_sim/host/report/json_format.hpp"
 
 namespace volcomp::host {
 namespace {
 
+namespace lines = canopen::object_lines;
 namespace stroke = node::object::stroke;
-using canopen::ObjectId;
+using nlohmann::json;
 
+constexpr std::array<const char*, 2> kWays{"forward", "backward"};
 constexpr std::array<const char*, node::kStrokeTables> kTableNames{"forward", "backward", "slots"};
+// By StrokeTableState.
+constexpr std::array kTableStates{"none in force", "wait for the end of a stroke", "in force"};
 
-template <class Real>
-double read_real(NodeClient& client, ObjectId object, const std::string& what) {
-  const SdoChannel::Bytes bytes = client.read(object, sizeof(Real), what);
-  Real value = 0;
-  std::memcpy(&value, bytes.data(), std::min(bytes.size(), sizeof value));
-  return static_cast<double>(value);
-}
+constexpr std::size_t kSyncRms = node::kFigures - 1;  // of 2512h, 2513h
+constexpr std::size_t kRmsOfX = 3 * node::kFigures - 1;
 
-LearnedTableDiagnosis diagnose_table(NodeClient& client, std::size_t table) {
-  const auto index = static_cast<std::uint16_t>(0x2521U + table);
-  LearnedTableDiagnosis d;
-  d.action = client.read_value<GuardAction>({index, 1}, "learning: action");
-  d.result = client.read_value<LearningResult>({index, 2}, "learning: result");
-  d.updated = client.read_value<std::uint16_t>({index, 3}, "learning: nodes changed");
-  d.clamped = client.read_value<std::uint16_t>({index, 4}, "learning: nodes at the limit");
-  d.skipped = client.read_value<std::uint16_t>({index, 5}, "learning: nodes left alone");
-  d.flank_rms_um = read_real<double>(client, {index, 6}, "learning: RMS on the flank");
-  d.weight = read_real<double>(client, {index, 7}, "learning: weight");
-  return d;
-}
-
-void read_watched(NodeClient& client, StrokeDiagnosis& d) {
-  for (std::size_t use = 0; use < kFrameUses; ++use)
-    d.frames[use] = client.read(stroke::frames[use]);
-  d.passes_lost = client.read(stroke::passes_lost);
-  d.discarded = client.read(stroke::discarded);
-  for (std::size_t side = 0; side < 2; ++side) {
-    const auto figures = static_cast<std::uint16_t>(0x2512U + side);
-    d.passes[side] = client.read(stroke::passes[side]);
-    d.sync_rms_um[side] = read_real<double>(client, {figures, node::kFigures}, "RMS on the flank");
-    d.x_rms_um[side] = read_real<double>(client, {figures, 3 * node::kFigures}, "RMS of X");
+node::StrokeObjects read_strokes(NodeClient& client) {
+  node::StrokeObjects o;
+  o.command = client.read(stroke::command);
+  client.read(stroke::frames, o.frames);
+  o.passes_lost = client.read(stroke::passes_lost);
+  o.discarded = client.read(stroke::discarded);
+  client.read(stroke::passes, o.passes);
+  for (const std::size_t figure : {kSyncRms, kRmsOfX}) {
+    o.figures[0].at(figure) = client.read(stroke::figures_0[figure]);
+    o.figures[1].at(figure) = client.read(stroke::figures_1[figure]);
   }
+  o.learn_reason = client.read(stroke::learn_reason);
+  client.read(stroke::prediction_um, o.prediction_um);
+  o.table_state = client.read(stroke::table_state);
+  o.table_feed = client.read(stroke::table_feed);
+  o.offset_status = client.read(stroke::offset_status);
+  o.offset = client.read(stroke::offset);
+#define LEARNED(index, sub, type, table, member, name) \
+  o.learned[table].member = client.read(lines::Handle<lines::type>(index, sub, 1, name));
+#include "firmware/node/objects.def"
+  return o;
 }
 
-void read_learned(NodeClient& client, StrokeDiagnosis& d) {
-  d.learning = client.read<Reason>(stroke::learn_reason);
-  for (std::size_t i = 0; i < 3; ++i)
-    d.prediction_um.at(i) =
-        read_real<float>(client, stroke::prediction_um[i].id(), "predicted effect");
-  d.tables = client.read<node::StrokeTableState>(stroke::table_state);
-  const std::int32_t feed = client.read(stroke::table_feed);
-  d.table_feed_mm_per_s = feed / kNmPerMm;
-  d.offset_status = client.read(stroke::offset_status);
-  const std::int32_t offset = client.read(stroke::offset);
-  d.offset_urad = 1e6 * 256.0 / kUnitsPerRad * offset;
-  for (std::size_t table = 0; table < d.table.size(); ++table)
-    d.table[table] = diagnose_table(client, table);
-}
-
-const char* words(node::StrokeTableState state) {
-  switch (state) {
-    case node::StrokeTableState::none:
-      return "none in force";
-    case node::StrokeTableState::waiting:
-      return "wait for the end of a stroke";
-    case node::StrokeTableState::in_force:
-      return "in force";
-  }
-  return "unknown";
-}
-
-std::string words(const LearnedTableDiagnosis& t) {
+std::string words(const node::LearnedTable& t) {
   if (t.weight <= 0.0) return "no step yet";
-  if (t.action == GuardAction::roll_back)
+  const auto action = static_cast<GuardAction>(t.action);
+  if (action == GuardAction::roll_back)
     return fmt::format("got worse ({:.2f} µm), the best table again, weight {:g}", t.flank_rms_um,
                        t.weight);
-  switch (t.result) {
+  switch (static_cast<LearningResult>(t.result)) {
     case LearningResult::nodata:
       return "nothing was seen, unchanged";
     case LearningResult::nonfinite:
@@ -95,81 +66,74 @@ std::string words(const LearnedTableDiagnosis& t) {
   return fmt::format(
       "{:.2f} µm on the flank, then {} nodes changed, {} left alone, {} at the limit{}",
       t.flank_rms_um, t.updated, t.skipped, t.clamped,
-      t.action == GuardAction::hold ? "; worse than before" : "");
+      action == GuardAction::hold ? "; worse than before" : "");
 }
 
-std::string offset_words(const StrokeDiagnosis& d) {
-  const bool other_feed = (d.offset_status & kOtherFeed) != 0;
-  if (other_feed)
+std::string offset_words(double offset_urad, std::uint16_t status, double feed_mm_per_s) {
+  if ((status & kOtherFeed) != 0)
     return fmt::format("none: the tables are for F={:g} mm/s, another feed is programmed",
-                       d.table_feed_mm_per_s);
-  return fmt::format("{:.2f} µrad, {}", d.offset_urad, describe_status(d.offset_status));
+                       feed_mm_per_s);
+  return fmt::format("{:.2f} µrad, {}", offset_urad, describe_status(status));
 }
 
 }  // namespace
 
-std::optional<StrokeDiagnosis> diagnose_strokes(NodeClient& client) {
-  StrokeDiagnosis d;
-  try {
-    d.on = client.read(stroke::command) != 0;
-  } catch (const NodeRefused& refused) {
-    if (refused.code == canopen::AbortCode::no_object) return std::nullopt;
-    throw;
-  }
-  if (!d.on) return d;
-  read_watched(client, d);
-  read_learned(client, d);
-  return d;
+json diagnose_strokes(NodeClient& client) {
+  const auto command = client.find(stroke::command);
+  if (!command) return nullptr;
+  return stroke_facts(*command == 0 ? node::StrokeObjects{} : read_strokes(client));
 }
 
-std::string describe(const StrokeDiagnosis& d) {
-  if (!d.on) return {};
-  std::uint32_t unused = 0;
-  for (std::size_t use = 1; use < d.frames.size(); ++use)
-    unused += d.frames[use];
-  std::string text = fmt::format("strokes: {} samples used, {} not; {} passes discarded, {} lost\n",
-                                 d.frames[0], unused, d.discarded, d.passes_lost);
-  constexpr std::array<const char*, 2> kWays{"forward", "backward"};
-  for (std::size_t side = 0; side < 2; ++side)
-    text +=
-        fmt::format("  {}: {} passes since the last step, {:.2f} µm rms out of step, X {:.2f} µm\n",
-                    kWays[side], d.passes[side], d.sync_rms_um[side], d.x_rms_um[side]);
-  if (d.learning != Reason::ok)
-    text +=
-        fmt::format("  last refusal to learn: {} [{}]\n", sentence(d.learning), code(d.learning));
-  if (d.learning == Reason::breaks_helix)
-    text +=
-        fmt::format("  on the flank: Z alone {:.1f} µm, C alone {:.1f} µm, together {:.1f} µm\n",
-                    d.prediction_um[0], d.prediction_um[1], d.prediction_um[2]);
-  text += fmt::format("  learned tables: {}\n  learned offset of C: {}\n", words(d.tables),
-                      offset_words(d));
-  for (std::size_t table = 0; table < d.table.size(); ++table)
-    text += fmt::format("  table {}: {}\n", kTableNames[table], words(d.table[table]));
-  return text;
-}
-
-nlohmann::json to_json(const StrokeDiagnosis& d) {
-  nlohmann::json tables;
-  for (std::size_t table = 0; table < d.table.size(); ++table) {
-    const LearnedTableDiagnosis& t = d.table[table];
+json stroke_facts(const node::StrokeObjects& o) {
+  json tables;
+  for (std::size_t table = 0; table < o.learned.size(); ++table) {
+    const node::LearnedTable& t = o.learned[table];
     tables[kTableNames[table]] = {
         {"text", words(t)},     {"updated", t.updated},           {"clamped", t.clamped},
         {"skipped", t.skipped}, {"flank_rms_um", t.flank_rms_um}, {"weight", t.weight}};
   }
-  return {{"on", d.on},
-          {"samples", d.frames},
-          {"passes", d.passes},
-          {"passes_discarded", d.discarded},
-          {"passes_lost", d.passes_lost},
-          {"sync_rms_um", d.sync_rms_um},
-          {"x_rms_um", d.x_rms_um},
-          {"refusal", d.learning == Reason::ok ? "" : code(d.learning)},
-          {"prediction_um", d.prediction_um},
-          {"tables", words(d.tables)},
-          {"table_feed_mm_per_s", d.table_feed_mm_per_s},
-          {"offset_urad", d.offset_urad},
-          {"offset_text", offset_words(d)},
+  const double feed_mm_per_s = o.table_feed / kNmPerMm;
+  const double offset_urad = 1e6 * 256.0 / kUnitsPerRad * o.offset;
+  const auto refusal = static_cast<Reason>(o.learn_reason);
+  return {{"on", o.command != 0},
+          {"samples", o.frames},
+          {"passes", o.passes},
+          {"passes_discarded", o.discarded},
+          {"passes_lost", o.passes_lost},
+          {"sync_rms_um", {o.figures[0][kSyncRms], o.figures[1][kSyncRms]}},
+          {"x_rms_um", {o.figures[0][kRmsOfX], o.figures[1][kRmsOfX]}},
+          {"refusal", refusal == Reason::ok ? "" : code(refusal)},
+          {"prediction_um", o.prediction_um},
+          {"tables", word_of(kTableStates, o.table_state)},
+          {"table_feed_mm_per_s", feed_mm_per_s},
+          {"offset_urad", offset_urad},
+          {"offset_text", offset_words(offset_urad, o.offset_status, feed_mm_per_s)},
           {"table", tables}};
+}
+
+std::string describe_strokes(const json& d) {
+  if (!d["on"]) return {};
+  std::uint64_t unused = 0;
+  for (std::size_t use = 1; use < d["samples"].size(); ++use)
+    unused += d["samples"][use].get<std::uint64_t>();
+  std::string text = fmt::format("strokes: {} samples used, {} not; {} passes discarded, {} lost\n",
+                                 d["samples"][0], unused, d["passes_discarded"], d["passes_lost"]);
+  for (std::size_t side = 0; side < kWays.size(); ++side)
+    text +=
+        fmt::format("  {}: {} passes since the last step, {:.2f} µm rms out of step, X {:.2f} µm\n",
+                    kWays[side], d["passes"][side], d["sync_rms_um"][side], d["x_rms_um"][side]);
+  if (const std::string refusal = d["refusal"]; !refusal.empty())
+    text += fmt::format("  last refusal to learn: {} [{}]\n",
+                        meaning_of(refusal).codes.front().what, refusal);
+  if (d["refusal"] == code(Reason::breaks_helix))
+    text +=
+        fmt::format("  on the flank: Z alone {:.1f} µm, C alone {:.1f} µm, together {:.1f} µm\n",
+                    d["prediction_um"][0], d["prediction_um"][1], d["prediction_um"][2]);
+  text += fmt::format("  learned tables: {}\n  learned offset of C: {}\n", d["tables"],
+                      d["offset_text"]);
+  for (const char* const table : kTableNames)
+    text += fmt::format("  table {}: {}\n", table, d["table"][table]["text"]);
+  return text;
 }
 
 }  // namespace volcomp::host

@@ -5,58 +5,36 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/report/json_format.hpp"
+
 namespace volcomp::host {
 namespace {
 
 namespace thermal = node::object::thermal;
+using nlohmann::json;
 
-TemperatureDiagnosis diagnose_input(NodeClient& client, std::size_t input) {
-  TemperatureDiagnosis d;
+// By ThermalState.
+constexpr std::array kStates{
+    "none", "the tables follow the temperatures", "the tables are about to follow a temperature",
+    "held: the active image is no longer in the node, activate tables to go on"};
+// By TemperatureState.
+constexpr std::array kInputStates{"none yet, as at the reference", "good",
+                                  "none for too long, the last good one is used",
+                                  "not plausible, the last good one is used"};
+
+json diagnose_input(NodeClient& client, std::size_t input) {
   const std::int16_t reading = client.read(thermal::reading[input]);
-  d.connected = reading != TemperatureInput::kNone;
-  d.latest_C = 0.01 * reading;
-  d.state = client.read<TemperatureState>(thermal::input[input]);
-  return d;
+  const bool connected = reading != TemperatureInput::kNone;
+  return {{"latest_C", connected ? json(0.01 * reading) : json()},
+          {"state", word_of(kInputStates, client.read(thermal::input[input]))}};
 }
 
-const char* words(node::ThermalState state) {
-  switch (state) {
-    case node::ThermalState::off:
-      return "none";
-    case node::ThermalState::following:
-      return "the tables follow the temperatures";
-    case node::ThermalState::behind:
-      return "the tables are about to follow a temperature";
-    case node::ThermalState::held:
-      return "held: the active image is no longer in the node, activate tables to go on";
-  }
-  return "unknown";
-}
-
-const char* words(TemperatureState state) {
-  switch (state) {
-    case TemperatureState::unknown:
-      return "none yet, as at the reference";
-    case TemperatureState::good:
-      return "good";
-    case TemperatureState::stale:
-      return "none for too long, the last good one is used";
-    case TemperatureState::implausible:
-      return "not plausible, the last good one is used";
-  }
-  return "unknown";
-}
-
-std::string input_text(const TemperatureDiagnosis& d) {
-  return d.connected ? fmt::format("{:.2f} deg C, {}", d.latest_C, words(d.state))
-                     : fmt::format("no sensor, {}", words(d.state));
-}
-
-std::string expiry_text(const ThermalDiagnosis& d) {
-  if (d.expires_unix_s == 0) return "never";
-  const std::string date = date_text(d.expires_unix_s);
-  if (d.unix_s == 0) return date + " (the node does not know the date)";
-  return d.expired ? date + ", PAST: measure the machine again" : date;
+std::string expiry_text(const json& d) {
+  if (d["expires_unix_s"] == 0) return "never";
+  const std::string date = date_text(d["expires_unix_s"]);
+  if (d["unix_s"] == 0) return date + " (the node does not know the date)";
+  return d["expired"] ? date + ", PAST: measure the machine again" : date;
 }
 
 }  // namespace
@@ -65,46 +43,33 @@ std::string date_text(std::int64_t unix_s) {
   return fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::gmtime(static_cast<std::time_t>(unix_s)));
 }
 
-std::optional<ThermalDiagnosis> diagnose_thermal(NodeClient& client) {
-  ThermalDiagnosis d;
-  try {
-    d.state = client.read<node::ThermalState>(thermal::state);
-  } catch (const NodeRefused& refused) {
-    if (refused.code == canopen::AbortCode::no_object) return std::nullopt;
-    throw;
-  }
-  d.behind_um = 1e-3 * client.read(thermal::behind_nm);
-  d.followed = client.read(thermal::followed);
-  for (std::size_t i = 0; i < d.input.size(); ++i)
-    d.input[i] = diagnose_input(client, i);
-  d.unix_s = client.read(thermal::unix_s);
-  d.expires_unix_s = client.read(thermal::expires_unix_s);
-  d.expired = client.read(thermal::expired) != 0;
+json diagnose_thermal(NodeClient& client) {
+  const auto state = client.find(thermal::state);
+  if (!state) return nullptr;
+  json d{{"state", word_of(kStates, *state)},
+         {"behind_um", 1e-3 * client.read(thermal::behind_nm)},
+         {"expired", client.read(thermal::expired) != 0}};
+  read_facts(client, d, thermal::followed, thermal::unix_s, thermal::expires_unix_s);
+  for (std::size_t i = 0; i < kTemperatureInputs; ++i)
+    d["temperatures"].push_back(diagnose_input(client, i));
   return d;
 }
 
-void add_lines(const ThermalDiagnosis& d, std::vector<std::pair<std::string, std::string>>& lines) {
+void add_thermal_lines(const json& d, std::vector<std::pair<std::string, std::string>>& lines) {
   lines.emplace_back("tables expire:", expiry_text(d));
-  lines.emplace_back("expansion:", words(d.state));
-  if (d.state != node::ThermalState::off)
+  lines.emplace_back("expansion:", d["state"]);
+  if (d["state"] != kStates[0])
     lines.back().second +=
-        fmt::format(" ({} times so far, {:.3f} µm behind)", d.followed, d.behind_um);
-  for (std::size_t i = 0; i < d.input.size(); ++i) {
-    const bool idle = !d.input[i].connected && d.input[i].state == TemperatureState::unknown;
-    if (!idle) lines.emplace_back(fmt::format("temperature {}:", i), input_text(d.input[i]));
+        fmt::format(" ({} times so far, {:.3f} µm behind)", d["followed"], d["behind_um"]);
+  for (std::size_t i = 0; i < d["temperatures"].size(); ++i) {
+    const json& input = d["temperatures"][i];
+    const bool connected = !input["latest_C"].is_null();
+    if (connected || input["state"] != kInputStates[0])
+      lines.emplace_back(fmt::format("temperature {}:", i),
+                         connected
+                             ? fmt::format("{:.2f} deg C, {}", input["latest_C"], input["state"])
+                             : fmt::format("no sensor, {}", input["state"]));
   }
-}
-
-nlohmann::json to_json(const ThermalDiagnosis& d) {
-  nlohmann::json inputs = nlohmann::json::array();
-  for (const TemperatureDiagnosis& input : d.input) {
-    inputs.push_back({{"latest_C", input.connected ? nlohmann::json(input.latest_C) : nullptr},
-                      {"state", words(input.state)}});
-  }
-  return {{"state", words(d.state)}, {"behind_um", d.behind_um},
-          {"followed", d.followed},  {"temperatures", inputs},
-          {"unix_s", d.unix_s},      {"expires_unix_s", d.expires_unix_s},
-          {"expired", d.expired}};
 }
 
 }  // namespace volcomp::host

@@ -11,6 +11,7 @@
 #include "comp/core/units.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/object_handles.hpp"
+#include "host_sim/host/bus/cia402_objects.hpp"
 #include "host_sim/host/bus/setup_plan.hpp"
 #include "host_sim/sim/controller/bus_controller.hpp"
 
@@ -35,16 +36,17 @@ bool may_count_in(std::uint32_t unit, const host::BusAxis& axis) {
 void arm_probe(host::SdoChannel& sdo, std::uint8_t drive) {
   constexpr std::uint16_t kRisingContinuously = 0x0013;
   constexpr std::uint8_t kAtNextSync = 0;
-  const auto report = [&sdo](std::uint16_t pdo, std::uint32_t id, const std::string& name) {
+  const auto report = [&sdo](std::size_t number, std::uint32_t id, const std::string& name) {
+    const auto pdo = static_cast<std::uint16_t>(canopen::PdoTable::kTransmitCommunication + number);
     sdo.write_value<std::uint32_t>({pdo, 1}, id | canopen::kPdoInvalid, name + " off");
     sdo.write_value<std::uint8_t>({pdo, 2}, kAtNextSync, name + " type");
     sdo.write_value<std::uint32_t>({pdo, 1}, id, name + " on");
   };
   const std::uint32_t base = canopen::kPdoNoRtr | drive;
-  report(0x1801, base | canopen::kTpdo2, "latch PDO");
-  report(0x1802, base | canopen::kTpdo3, "edge counter PDO");
-  sdo.write_value<std::uint16_t>({0x60B8, 0}, 0, "touch probe off");
-  sdo.write_value<std::uint16_t>({0x60B8, 0}, kRisingContinuously, "touch probe function");
+  report(host::kLatchPdo, base | canopen::kTpdo2, "latch PDO");
+  report(host::kEdgePdo, base | canopen::kTpdo3, "edge counter PDO");
+  sdo.write(host::cia402::function, 0);
+  sdo.write(host::cia402::function, kRisingContinuously);
 }
 
 }  // namespace
@@ -76,29 +78,27 @@ void BusController::check_scaling(Station& s, std::size_t axis) {
                             letter, what);
   };
   if (!a.rotary) {
-    s.channel.read({0x60A8, 0}, 4, "position unit",
-                   [a, differ](const host::SdoChannel::Bytes& unit) {
-                     if (!may_count_in(static_cast<std::uint32_t>(host::number(unit)), a))
-                       differ(fmt::format("60A8h is {:08X}h", host::number(unit)));
-                   });
+    s.channel.read(host::cia402::position_unit, [a, differ](std::uint32_t unit) {
+      if (!may_count_in(unit, a)) differ(fmt::format("60A8h is {:08X}h", unit));
+    });
     return;
   }
   auto ratio = std::make_shared<std::array<double, 4>>();
-  const std::array<canopen::ObjectId, 4> objects{
-      {{0x6091, 1}, {0x6091, 2}, {0x6092, 1}, {0x6092, 2}}};
+  const auto& gear = host::cia402::gear;
+  const auto& feed = host::cia402::feed;
+  const std::array objects{gear[0], gear[1], feed[0], feed[1]};
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    s.channel.read(objects[i], 4, "gear and feed",
-                   [a, differ, ratio, i](const host::SdoChannel::Bytes& v) {
-                     (*ratio)[i] = static_cast<double>(host::number(v));
-                     if (i + 1 < ratio->size()) return;
-                     // 6092h counts position units per revolution of the shaft, which is the axis.
-                     const double per_turn = (*ratio)[2] / (*ratio)[3];
-                     const double expected = static_cast<double>(kUnitsPerTurn) *
-                                             static_cast<double>(a.scale_denominator) /
-                                             static_cast<double>(a.scale_numerator);
-                     if (std::abs(per_turn - expected) > 0.5)
-                       differ(fmt::format("{:.0f} units per turn", per_turn));
-                   });
+    s.channel.read(objects[i], [a, differ, ratio, i](std::uint32_t value) {
+      (*ratio)[i] = value;
+      if (i + 1 < ratio->size()) return;
+      // 6092h counts position units per revolution of the shaft, which is the axis.
+      const double per_turn = (*ratio)[2] / (*ratio)[3];
+      const double expected = static_cast<double>(kUnitsPerTurn) *
+                              static_cast<double>(a.scale_denominator) /
+                              static_cast<double>(a.scale_numerator);
+      if (std::abs(per_turn - expected) > 0.5)
+        differ(fmt::format("{:.0f} units per turn", per_turn));
+    });
   }
 }
 
@@ -107,15 +107,11 @@ void BusController::configure_drive(Station& s, std::size_t axis) {
   host::SdoChannel& sdo = s.channel;
   host::queue_plan(sdo, host::common_plan(settings_));
   check_scaling(s, axis);
-  sdo.write_value<std::uint32_t>(
-      node::object::consumer_heartbeat[1].id(),
-      std::uint32_t{settings_.node} << 16U | settings_.heartbeat_timeout_ms,
-      "heartbeat of the compensation node");
+  sdo.write(canopen::object::consumer_heartbeat[1],
+            std::uint32_t{settings_.node} << 16U | settings_.heartbeat_timeout_ms);
   if (a.lowest != a.highest) {
-    sdo.write_value<std::uint32_t>({0x607D, 1}, static_cast<std::uint32_t>(a.lowest),
-                                   "lower software limit");
-    sdo.write_value<std::uint32_t>({0x607D, 2}, static_cast<std::uint32_t>(a.highest),
-                                   "upper software limit");
+    sdo.write(host::cia402::software_limit[0], a.lowest);
+    sdo.write(host::cia402::software_limit[1], a.highest);
   }
   set_mode(sdo, axis, kHomingMode);
   if (settings_.probes) arm_probe(sdo, a.drive);
@@ -137,22 +133,19 @@ void BusController::take_refusal(Station& s) {
       sdo.abort_code() != AbortCode::general)
     return;
   s.channel.clear();
-  s.channel.read(node::object::reason_text.id(), node::kMostReasonText, "reason in words",
-                 [&s, what](const host::SdoChannel::Bytes& text) {
-                   s.refusal = what + ": " + std::string(text.begin(), text.end());
-                 });
+  s.channel.read(node::object::reason_text,
+                 [&s, what](const std::string& text) { s.refusal = what + ": " + text; });
 }
 
 // Reads the CRC first: a node that has stored or kept these tables does not get them again.
 void BusController::queue_tables(host::SdoChannel& sdo) {
-  sdo.read(node::object::active_crc.id(), 4, "CRC of the active tables",
-           [this, &sdo](const host::SdoChannel::Bytes& crc) {
-             if (host::number(crc) == image_crc_) return;
-             sdo.write(node::object::image.id(), image_, "table image");
-             sdo.write_value<std::uint8_t>(node::object::table_command.id(),
-                                           static_cast<std::uint8_t>(node::TableCommand::activate),
-                                           "activation of the tables");
-           });
+  sdo.read(node::object::active_crc, [this, &sdo](std::uint32_t crc) {
+    if (crc == image_crc_) return;
+    sdo.write(node::object::image.id(), image_, "table image");
+    sdo.write_value<std::uint8_t>(node::object::table_command.id(),
+                                  static_cast<std::uint8_t>(node::TableCommand::activate),
+                                  "activation of the tables");
+  });
 }
 
 }  // namespace volcomp::sim

@@ -239,11 +239,9 @@ void BusController::set_modes() {
 // Only the state of the drive counts: a response may be lost or belong to an earlier request.
 void BusController::set_mode(host::SdoChannel& sdo, std::size_t axis, std::int8_t mode) {
   axis_[axis].mode_is(0);
-  sdo.write({0x6060, 0}, {static_cast<std::uint8_t>(mode)}, "mode of operation");
-  sdo.read({0x6061, 0}, 1, "mode of operation in force",
-           [this, axis](const host::SdoChannel::Bytes& v) {
-             axis_[axis].mode_is(static_cast<std::int8_t>(host::number(v)));
-           });
+  sdo.write(host::cia402::mode, mode);
+  sdo.read(host::cia402::mode_display,
+           [this, axis](std::int8_t display) { axis_[axis].mode_is(display); });
 }
 
 // --- verdict

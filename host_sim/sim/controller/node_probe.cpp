@@ -35,20 +35,14 @@ void queue_flank(host::SdoChannel& node, const FlankFeature& flank, const FlankF
 }
 
 void queue_judgement(host::SdoChannel& node, FlankJudgement& judgement) {
-  constexpr const char* kWhat = "judgement of a touch";
   namespace object = volcomp::node::object::probe;
-  const auto read = [&](const auto& value, auto take) {
-    node.read(value.id(), 4, kWhat,
-              [take](const host::SdoChannel::Bytes& b) { take(host::number(b)); });
+  const auto read = [&node](const auto& value, auto& out) {
+    node.read(value, [&out](auto found) { out = static_cast<std::decay_t<decltype(out)>>(found); });
   };
-  read(object::distance_nm, [&judgement](std::uint64_t n) {
-    judgement.distance_nm = static_cast<std::int32_t>(static_cast<std::uint32_t>(n));
-  });
-  read(object::flank_verdict,
-       [&judgement](std::uint64_t n) { judgement.verdict = static_cast<Reason>(n); });
-  read(object::foot, [&judgement](std::uint64_t n) { judgement.foot = static_cast<Reason>(n); });
-  read(object::judged,
-       [&judgement](std::uint64_t n) { judgement.sequence = static_cast<std::uint32_t>(n); });
+  read(object::distance_nm, judgement.distance_nm);
+  read(object::flank_verdict, judgement.verdict);
+  read(object::foot, judgement.foot);
+  read(object::judged, judgement.sequence);
 }
 
 // The mapping of 2401h: node_objects.cpp.

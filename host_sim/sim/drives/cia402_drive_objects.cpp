@@ -8,13 +8,16 @@
 
 namespace volcomp::sim {
 
+namespace cia402 = host::cia402;
 using canopen::AbortCode;
 
 namespace {
 
 // Objects whose writing does something at once. The target comes before the controlword that may
 // have arrived with it: a drive that this controlword enables waits for the next target.
-constexpr std::array<std::uint16_t, 5> kActedUpon{0x607A, 0x607C, 0x6060, 0x60B8, 0x6040};
+constexpr std::array<std::uint16_t, 5> kActedUpon{cia402::target.index, cia402::home_offset.index,
+                                                  cia402::mode.index, cia402::function.index,
+                                                  cia402::controlword.index};
 
 bool is_supported(host::OperationMode mode) {
   return mode == host::OperationMode::none || mode == host::OperationMode::homing ||
@@ -58,11 +61,11 @@ void Cia402Drive::written(canopen::ObjectId object, std::uint64_t) {
 }
 
 void Cia402Drive::object_changed(std::uint16_t index) {
-  if (index == 0x607A && in_cyclic_position()) target_arrived_ = true;
-  if (index == 0x607C) home_offset_given_ = true;
-  if (index == 0x6060) change_mode();
-  if (index == 0x60B8) apply_function(objects_.probe);
-  if (index == 0x6040) control();
+  if (index == cia402::target.index && in_cyclic_position()) target_arrived_ = true;
+  if (index == cia402::home_offset.index) home_offset_given_ = true;
+  if (index == cia402::mode.index) change_mode();
+  if (index == cia402::function.index) apply_function(objects_.probe);
+  if (index == cia402::controlword.index) control();
 }
 
 void Cia402Drive::control() {
@@ -99,13 +102,13 @@ void Cia402Drive::home_here() {
 // Choices that are not a range.
 bool Cia402Drive::possible(canopen::ObjectId object, std::int64_t value) const {
   switch (object.index) {
-    case 0x605A:
+    case cia402::quick_stop_option.index:
       return value == host::kQuickStopThenOff || value == host::kQuickStopThenStay;
-    case 0x605E:
+    case cia402::fault_option.index:
       return value == host::kFaultOff || value == host::kFaultBrake;
-    case 0x6060:
+    case cia402::mode.index:
       return is_supported(static_cast<host::OperationMode>(value));
-    case 0x60C2:  // the servo clock has one period
+    case cia402::cycle_value.index:  // the servo clock has one period
       return value == (object.sub == 1 ? static_cast<std::int8_t>(objects_.cycle_value)
                                        : objects_.cycle_exponent);
     default:

@@ -2,22 +2,24 @@
 
 #include <fmt/format.h>
 
-#include "firmware/node/node_objects.hpp"
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/host/bus/device_files/eds_objects.hpp"
 
 namespace volcomp::host {
 namespace {
 
+namespace object = node::object;
 using Objects = std::vector<EdsObject>;
 
-const std::string& default_of(const Objects& objects, std::uint16_t index, std::uint8_t sub) {
+template <class T>
+const std::string& default_of(const Objects& objects, const canopen::object_lines::Handle<T>& of) {
   for (const EdsObject& object : objects) {
-    if (object.index != index) continue;
+    if (object.index != of.index) continue;
     for (const EdsValue& value : object.values) {
-      if (value.sub == sub) return value.value.value();
+      if (value.sub == of.sub) return value.value.value();
     }
   }
-  throw std::logic_error(fmt::format("the node has no object {:04X}h:{:02X}", index, sub));
+  throw std::logic_error(fmt::format("the node has no {}", of.name));
 }
 
 // The dates are those of this layout of the file: a file that is made again must not differ.
@@ -51,8 +53,8 @@ void write_device_info(std::string& out, const Objects& objects) {
       "ProductNumber={}\n"
       "RevisionNumber={}\n"
       "OrderCode=\n",
-      default_of(objects, 0x1018, 1), default_of(objects, 0x1008, 0),
-      default_of(objects, 0x1018, 2), default_of(objects, 0x1018, 3));
+      default_of(objects, object::vendor_id), default_of(objects, object::device_name),
+      default_of(objects, object::product_code), default_of(objects, object::revision));
   for (const int kbit_s : {10, 20, 50, 125, 250, 500, 800, 1000}) {
     const bool usual = kbit_s >= 125 && kbit_s != 800;
     out += fmt::format("BaudRate_{}={}\n", kbit_s, usual ? 1 : 0);
@@ -123,7 +125,9 @@ enum class Group { mandatory, optional, manufacturer };
 
 Group group_of(const EdsObject& object) {
   const std::uint16_t index = object.index;
-  if (index == 0x1000 || index == 0x1001 || index == 0x1018) return Group::mandatory;
+  if (index == object::device_type.index || index == object::error_register.index ||
+      index == object::vendor_id.index)
+    return Group::mandatory;
   return index >= 0x2000 && index < 0x6000 ? Group::manufacturer : Group::optional;
 }
 

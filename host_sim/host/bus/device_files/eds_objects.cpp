@@ -22,8 +22,9 @@ using canopen::PdoTable;
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::uint16_t kErrorField = 0x1003;
-constexpr std::uint16_t kSdoServer = 0x1200;
+constexpr std::uint16_t kErrorField = canopen::object::error_history.index;
+constexpr std::uint16_t kSdoServer = canopen::object::sdo_cob_id.index;
+constexpr std::uint16_t kIdentity = canopen::object::vendor_id.index;
 
 // --- names
 
@@ -152,7 +153,7 @@ EdsValue make_count(const Twins& twins, std::uint16_t index) {
 
 // Identity (23h) and SDO parameter (22h) are records though their values have one type.
 ObjectCode code_of(const EdsObject& object) {
-  if (object.index == 0x1018 || object.index == kSdoServer) return ObjectCode::record;
+  if (object.index == kIdentity || object.index == kSdoServer) return ObjectCode::record;
   const auto& v = object.values;
   const bool alike =
       std::all_of(v.begin() + 1, v.end(), [&v](const EdsValue& x) { return x.type == v[1].type; });

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "firmware/node/object_handles.hpp"
+
 namespace volcomp::host {
 namespace {
 
@@ -70,7 +72,8 @@ std::string default_of(const Line& l) {
 bool differ_by_a_number(const EdsObject& a, const EdsObject& b) {
   if (purpose(a.index) == nullptr || purpose(a.index) != purpose(b.index)) return false;
   if (a.values.size() != b.values.size()) return false;
-  const bool same_name = without_number(a.name) == without_number(b.name) || a.index >= 0x2610;
+  const bool same_name =
+      without_number(a.name) == without_number(b.name) || a.index >= node::object::began_0.index;
   return same_name && std::equal(a.values.begin(), a.values.end(), b.values.begin(),
                                  [](const EdsValue& x, const EdsValue& y) {
                                    return x.sub == y.sub && x.type == y.type &&

@@ -32,8 +32,8 @@ void expect_a_node(std::shared_ptr<FrameLink> link) {
   auto state = client.await_heartbeat(10'000'000);
   if (state == canopen::NmtState::boot_up) state = client.await_heartbeat(10'000'000);
   EXPECT_EQ(state, canopen::NmtState::pre_operational);
-  EXPECT_EQ(client.read_value<std::uint32_t>({0x1018, 2}, "product code"), 0x564F'4C43U);
-  EXPECT_EQ(diagnose(client).nmt, canopen::NmtState::pre_operational);
+  EXPECT_EQ(number(client.read({0x1018, 2}, 4, "product code")), 0x564F'4C43U);
+  EXPECT_EQ(diagnose(client).at("network_state"), "PRE-OPERATIONAL, waits to be started");
 }
 
 // --- frame pipe

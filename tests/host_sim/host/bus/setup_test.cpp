@@ -196,7 +196,7 @@ TEST(Setup, TakesDrivesThatHaveChangedPlaces) {
   ASSERT_TRUE(set_up_by_file(bench, machine).ok());
   std::swap(machine.axes[0].drive.node, machine.axes[2].drive.node);
   EXPECT_TRUE(set_up_by_file(bench, machine).ok());
-  EXPECT_EQ(bench.client.read_value<std::uint8_t>({0x2010, 1}, "drive"), 3);
+  EXPECT_EQ(number(bench.client.read({0x2010, 1}, 1, "drive")), 3);
 }
 
 TEST(Setup, AnAxisThatIsGoneHasNoDriveAnyMore) {
@@ -204,8 +204,8 @@ TEST(Setup, AnAxisThatIsGoneHasNoDriveAnyMore) {
   bench.write({0x2010, 5}, {9});
   bench.write({0x1016, 6}, {100, 0, 9, 0});
   ASSERT_TRUE(set_up_by_file(bench, machine_of("xyfz")).ok());
-  EXPECT_EQ(bench.client.read_value<std::uint8_t>({0x2010, 5}, "drive"), 0);
-  EXPECT_EQ(bench.client.read_value<std::uint32_t>({0x1016, 6}, "heartbeat"), 0U);
+  EXPECT_EQ(number(bench.client.read({0x2010, 5}, 1, "drive")), 0);
+  EXPECT_EQ(number(bench.client.read({0x1016, 6}, 4, "heartbeat")), 0U);
 }
 
 TEST(Setup, ValuesReadBackOtherwiseAreNamed) {
@@ -278,7 +278,7 @@ TEST(Setup, RefusesANodeThatRuns) {
 TEST(Setup, RefusesANodeWithoutStore) {
   ServiceBench bench;
   EXPECT_THAT(refusal_of_setup(bench, machine_of("xyfz"), true), HasSubstr("has no store"));
-  EXPECT_EQ(bench.client.read_value<std::uint32_t>({0x2000, 1}, "machine id"), 0U);
+  EXPECT_EQ(number(bench.client.read({0x2000, 1}, 4, "machine id")), 0U);
 }
 
 TEST(Setup, RefusesAnotherDevice) {
@@ -310,10 +310,10 @@ TEST(Setup, ARefusedValueIsNamedAndNothingIsStored) {
     });
     EXPECT_THAT(text, AllOf(HasSubstr("node id of the controller (2000h:02)"),
                             HasSubstr("nothing was stored"), HasSubstr("1 of 3 values")));
-    EXPECT_EQ(bench.client.read_value<std::uint32_t>({0x2000, 1}, "machine id"), 1001U);
+    EXPECT_EQ(number(bench.client.read({0x2000, 1}, 4, "machine id")), 1001U);
   }
   ServiceBench bench(&blocks.storage);
-  EXPECT_EQ(bench.client.read_value<std::uint32_t>({0x2000, 1}, "machine id"), 0U);
+  EXPECT_EQ(number(bench.client.read({0x2000, 1}, 4, "machine id")), 0U);
 }
 
 TEST(Setup, AFailingStoreIsReportedWithItsReason) {

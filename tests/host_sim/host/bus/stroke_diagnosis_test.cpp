@@ -7,6 +7,7 @@
 
 #include "comp/strokes/stroke_offsets.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/bus/stroke_diagnosis.hpp"
 #include "tests/host_sim/host/bus/service_bench.hpp"
 
 namespace volcomp::host {
@@ -23,11 +24,9 @@ std::vector<std::uint8_t> bytes_of(double value) {
 
 TEST(StrokeDiagnosis, OfANodeThatWatchesNone) {
   ServiceBench bench;
-  const Diagnosis d = diagnose(bench.client);
-  ASSERT_TRUE(d.strokes);
-  EXPECT_FALSE(d.strokes->on);
+  const nlohmann::json d = diagnose(bench.client);
+  EXPECT_EQ(d.at("strokes").at("on"), false);
   EXPECT_THAT(describe(d), Not(HasSubstr("strokes")));
-  EXPECT_EQ(to_json(d).at("strokes").at("on"), false);
 }
 
 TEST(StrokeDiagnosis, OfANodeThatHasJustBeenToldTo) {
@@ -39,50 +38,53 @@ TEST(StrokeDiagnosis, OfANodeThatHasJustBeenToldTo) {
   bench.write({0x2501, 1}, bytes_of(1.0 / 305.2));
   bench.write({0x2501, 2}, bytes_of(74.24));
   bench.write({0x2500, 1}, {1});
-  const Diagnosis d = diagnose(bench.client);
-  ASSERT_TRUE(d.strokes && d.strokes->on);
-  EXPECT_EQ(d.strokes->frames[0], 0U);
+  const nlohmann::json d = diagnose(bench.client);
+  ASSERT_EQ(d.at("strokes").at("on"), true);
+  EXPECT_EQ(d.at("strokes").at("samples").at(0), 0);
   EXPECT_THAT(describe(d), HasSubstr("strokes: 0 samples used"));
   EXPECT_THAT(describe(d), HasSubstr("learned tables: none in force"));
   EXPECT_THAT(describe(d), HasSubstr("table slots: no step yet"));
 }
 
-StrokeDiagnosis grinding() {
-  StrokeDiagnosis d;
-  d.on = true;
-  d.tables = node::StrokeTableState::in_force;
-  d.table_feed_mm_per_s = 13.4;
-  for (LearnedTableDiagnosis& table : d.table)
+node::StrokeObjects grinding() {
+  node::StrokeObjects d;
+  d.command = 1;
+  d.table_state = 2;  // in force
+  d.table_feed = 13'400'000;
+  for (node::LearnedTable& table : d.learned)
     table.weight = 0.5;
   return d;
 }
 
 // Names the feed the tables are for.
 TEST(StrokeDiagnosis, NamesTheFeedOfTheTables) {
-  StrokeDiagnosis d = grinding();
+  node::StrokeObjects d = grinding();
   d.offset_status = kOtherFeed;
-  EXPECT_THAT(describe(d), HasSubstr("the tables are for F=13.4 mm/s"));
+  EXPECT_THAT(describe_strokes(stroke_facts(d)), HasSubstr("the tables are for F=13.4 mm/s"));
 }
 
 // Names the table whose signal rose.
 TEST(StrokeDiagnosis, SaysWhichTableGotWorse) {
-  StrokeDiagnosis d = grinding();
-  d.table[1].action = GuardAction::roll_back;
-  d.table[1].flank_rms_um = 4.5;
-  d.table[1].weight = 0.25;
-  EXPECT_THAT(describe(d), HasSubstr("table backward: got worse (4.50 µm), the best table again, "
-                                     "weight 0.25"));
-  d.table[0].result = LearningResult::nodata;
-  EXPECT_THAT(describe(d), HasSubstr("table forward: nothing was seen, unchanged"));
+  node::StrokeObjects d = grinding();
+  d.learned[1].action = 2;  // rolled back
+  d.learned[1].flank_rms_um = 4.5;
+  d.learned[1].weight = 0.25;
+  EXPECT_THAT(describe_strokes(stroke_facts(d)),
+              HasSubstr("table backward: got worse (4.50 µm), the best table again, "
+                        "weight 0.25"));
+  d.learned[0].result = 2;  // no data
+  EXPECT_THAT(describe_strokes(stroke_facts(d)),
+              HasSubstr("table forward: nothing was seen, unchanged"));
 }
 
 // The same: predicted effect of learning from C alone.
 TEST(StrokeDiagnosis, SaysWhatOneAxisAloneWouldDo) {
-  StrokeDiagnosis d = grinding();
-  d.learning = Reason::breaks_helix;
-  d.prediction_um = {-38.9, 40.2, 1.3};
-  EXPECT_THAT(describe(d), HasSubstr("Z alone -38.9 µm, C alone 40.2 µm, together 1.3 µm"));
-  EXPECT_EQ(to_json(d).at("refusal"), "breaks_helix");
+  node::StrokeObjects d = grinding();
+  d.learn_reason = static_cast<std::uint8_t>(Reason::breaks_helix);
+  d.prediction_um = {-38.9F, 40.2F, 1.3F};
+  EXPECT_THAT(describe_strokes(stroke_facts(d)),
+              HasSubstr("Z alone -38.9 µm, C alone 40.2 µm, together 1.3 µm"));
+  EXPECT_EQ(stroke_facts(d).at("refusal"), "breaks_helix");
 }
 
 }  // namespace
