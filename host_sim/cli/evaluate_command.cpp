@@ -101,10 +101,11 @@ int evaluate(const EvaluateArguments& a) {
   for (const std::string& text : a.at)
     positions.push_back(position_from(text, evaluator.chain()));
   const host::Evaluation evaluation = evaluator.evaluate(positions);
-  results.add(a.csv_file, host::evaluation_csv(evaluator, evaluation, from.source));
-  results.add(a.json_file, json_text(host::evaluation_json(evaluator, evaluation, from.source)));
+  const nlohmann::json facts = host::evaluation_json(evaluator, evaluation, from.source);
+  results.add(a.csv_file, host::evaluation_csv(evaluator, facts));
+  results.add(a.json_file, json_text(facts));
   results.write();
-  fmt::print(results.text(), "{}", host::evaluation_text(evaluator, evaluation, from.source));
+  fmt::print(results.text(), "{}", host::evaluation_text(evaluator, facts));
   return 0;
 }
 

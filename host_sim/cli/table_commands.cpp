@@ -14,6 +14,7 @@
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/host/bus/thermal_diagnosis.hpp"
+#include "host_sim/host/report/json_format.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
 namespace volcomp::cli {
@@ -39,17 +40,16 @@ bool is_rotary(const host::MachineFile& machine, std::size_t a) {
 std::string closed_text(const nlohmann::json& axis) {
   if (!axis.contains("turn_closed")) return "";
   const nlohmann::json& gap = axis["turn_closed"];
-  return fmt::format("; ends of the turn {:.2f} µm, {:.2f} µrad apart, closed",
-                     gap["um"].get<double>(), gap["urad"].get<double>());
+  return fmt::format("; ends of the turn {:.2f} µm, {:.2f} µrad apart, closed", gap["um"],
+                     gap["urad"]);
 }
 
 std::string axis_line(const nlohmann::json& axis) {
   std::string figures;
   for (const char* name : {"A", "R", "E", "B", "M"})
-    figures += fmt::format("{} {:.2f} ", name, axis["iso230_2"][name].get<double>());
-  return fmt::format("{}  {} targets -> {} knots, {} reversal; ISO 230-2: {}{}{}\n",
-                     axis["axis"].get<std::string>(), axis["targets"].get<int>(),
-                     axis["knots"].get<int>(),
+    figures += fmt::format("{} {:.2f} ", name, axis["iso230_2"][name]);
+  return fmt::format("{}  {} targets -> {} knots, {} reversal; ISO 230-2: {}{}{}\n", axis["axis"],
+                     axis["targets"], axis["knots"],
                      axis["reversal_known"].get<bool>() ? "known" : "unknown", figures,
                      axis["unit"] == "um" ? "µm" : "µrad", closed_text(axis));
 }
@@ -74,15 +74,14 @@ std::string words_of(const host::MachineFile& machine, const Provenance& provena
   if (facts.contains("squareness_urad")) {
     const nlohmann::json& p = facts["squareness_urad"];
     text += fmt::format("squareness in the model: a_xy {:.2f} a_xz {:.2f} a_yz {:.2f} µrad\n",
-                        p["a_xy"].get<double>(), p["a_xz"].get<double>(), p["a_yz"].get<double>());
+                        p["a_xy"], p["a_xz"], p["a_yz"]);
   }
   text += expansion_text(machine, provenance);
-  if (facts.contains("expires_utc"))
-    text += fmt::format("expires {} UTC\n", facts["expires_utc"].get<std::string>());
+  if (facts.contains("expires_utc")) text += fmt::format("expires {} UTC\n", facts["expires_utc"]);
   for (const nlohmann::json& warning : facts["warnings"])
-    text += fmt::format("warning: {}\n", warning.get<std::string>());
+    text += fmt::format("warning: {}\n", warning);
   return text + fmt::format("first-order run-time model within {:.1f} nm of the exact chain\n",
-                            facts["model_bound_nm"].get<double>());
+                            facts["model_bound_nm"]);
 }
 
 // Figures after ISO 230-2 in um or urad.
@@ -163,7 +162,7 @@ int build_tables(const BuildArguments& arguments) {
   results.write();
   fmt::print(results.text(), "{}{}: {} bytes, machine {}, CRC-32 {}\n",
              words_of(machine, provenance, facts), shown_output(arguments.out), image.size(),
-             machine.id, facts["crc32"].get<std::string>());
+             machine.id, facts["crc32"]);
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include "comp/tick/compensator.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
+#include "host_sim/host/report/json_format.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/text_of.hpp"
 
@@ -142,7 +143,7 @@ std::string words(const json& list) {
 std::string place_text(const json& at) {
   std::vector<std::string> parts;
   for (const auto& [letter, value] : at.items())
-    parts.push_back(fmt::format("{} {:.4g}", letter, value.get<double>()));
+    parts.push_back(fmt::format("{} {:.4g}", letter, value));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -164,9 +165,8 @@ std::string axes_text(const json& facts) {
     const bool rotary = a["kind"] == "rotary";
     text += fmt::format(
         "axis {}: {:g} to {:g} {}, zero at {:g}, {} targets; drive {}, {:.15g} units per {}", name,
-        a["travel"][0].get<double>(), a["travel"][1].get<double>(), unit,
-        a["reference"].get<double>(), a["targets"].get<int>(), a["node_id"].get<int>(),
-        a[rotary ? "units_per_turn" : "units_per_mm"].get<double>(), rotary ? "turn" : "mm");
+        a["travel"][0], a["travel"][1], unit, a["reference"], a["targets"], a["node_id"],
+        a[rotary ? "units_per_turn" : "units_per_mm"], rotary ? "turn" : "mm");
     if (a.contains("software_limits_mm"))
       text += fmt::format(", software limits {}", a["software_limits_mm"].dump());
     text += fmt::format("\n        errors {}; location {}\n", words(a["error_motions"]),
@@ -179,7 +179,7 @@ std::string correction_text(const json& facts) {
   std::string text;
   const json& c = facts["correction"];
   text += fmt::format("correcting axes {}: least authority {:.3f} at {}{}\n", words(c["axes"]),
-                      c["least_authority"].get<double>(), place_text(c["at"]),
+                      c["least_authority"], place_text(c["at"]),
                       c["enough"].get<bool>()
                           ? ""
                           : fmt::format("; below {} nothing is corrected there", kMinAuthority));
@@ -223,19 +223,16 @@ json summary_of(const MachineFile& m) {
 }
 
 std::string summary_text(const json& facts) {
-  std::string text =
-      fmt::format("{}: {} (id {})\n", facts["file"].get<std::string>(),
-                  facts["name"].get<std::string>(), facts["id"].get<std::uint32_t>());
-  text += fmt::format("chain {}, lower bodies {}\n", facts["chain"].get<std::string>(),
-                      words(facts["lower_body"]));
+  std::string text = fmt::format("{}: {} (id {})\n", facts["file"], facts["name"], facts["id"]);
+  text += fmt::format("chain {}, lower bodies {}\n", facts["chain"], words(facts["lower_body"]));
   text += text_of_section(body_table(facts));
   text += fmt::format("tool point {} mm in the frame of the last body of the tool\n",
                       facts["tool_point_mm"].dump());
   text += axes_text(facts) + correction_text(facts);
-  text += fmt::format("run-time model: {}; tables of {} bytes\n", facts["model"].get<std::string>(),
-                      facts["table_bytes"].get<std::size_t>());
-  text += fmt::format("compensation node {}, controller {}\n", facts["node_id"].get<int>(),
-                      facts["controller_id"].get<int>());
+  text +=
+      fmt::format("run-time model: {}; tables of {} bytes\n", facts["model"], facts["table_bytes"]);
+  text += fmt::format("compensation node {}, controller {}\n", facts["node_id"],
+                      facts["controller_id"]);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include "host_sim/host/io/rounded.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/report/charts.hpp"
+#include "host_sim/host/report/json_format.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -31,10 +32,6 @@ bool is_rotary_axis(const MachineChain& chain, std::size_t a) {
   return chain.axis(a).kind == JointKind::rotary;
 }
 
-double shown_place(const MachineChain& chain, std::size_t a, double q) {
-  return is_rotary_axis(chain, a) ? kDegPerRad * q : q;
-}
-
 // um or urad.
 double shown_offset(const MachineChain& chain, std::size_t a, double offset) {
   return offset * (is_rotary_axis(chain, a) ? kUradPerRad : kUmPerMm);
@@ -44,112 +41,96 @@ const char* offset_unit(const MachineChain& chain, std::size_t a) {
   return is_rotary_axis(chain, a) ? "urad" : "um";
 }
 
-// Without the sign of a rounded zero.
-double six_decimals(double value) { return rounded(value, 6); }
-double three_decimals(double value) { return rounded(value, 3); }
-
-std::string letters_beyond(const MachineChain& chain, const EvaluatedPoint& point) {
-  std::string letters;
-  for (std::size_t a = 0; a < chain.axis_count(); ++a)
-    if ((point.beyond >> a & 1U) != 0) letters += chain.axis(a).letter;
-  return letters;
+// In mm or degrees, of a point of the facts.
+double shown_place(const MachineChain& chain, std::size_t a, const json& point) {
+  const double q = point["at"][std::string(1, chain.axis(a).letter)];
+  return is_rotary_axis(chain, a) ? kDegPerRad * q : q;
 }
 
-std::string source_text(const TableSource& source) {
-  const std::string crc =
-      source.crc ? fmt::format(", CRC-32 {:08X}", *source.crc) : ", built for this evaluation";
-  return fmt::format("{}{}", fmt::join(source.files, " "), crc);
+std::string source_text(const json& facts) {
+  return fmt::format("{}{}", fmt::join(facts["files"], " "),
+                     facts.contains("crc32") ? fmt::format(", CRC-32 {}", facts["crc32"])
+                                             : ", built for this evaluation");
 }
 
 // "X mean, Y mean, Z mean".
-std::string directions_text(const TableEvaluator& evaluator) {
+std::string directions_text(const json& facts) {
   std::vector<std::string> axes;
-  for (std::size_t a = 0; a < evaluator.chain().axis_count(); ++a)
-    axes.push_back(
-        fmt::format("{} {}", evaluator.chain().axis(a).letter, travel_name(evaluator.travel())));
+  for (const json& axis : facts["axes"])
+    axes.push_back(fmt::format("{} {}", axis["axis"], axis["direction"]));
   return fmt::format("{}", fmt::join(axes, ", "));
 }
 
-std::string heading(const TableEvaluator& evaluator, const TableSource& source) {
-  return fmt::format("tables: {}\nchain {}; direction of travel: {}\n", source_text(source),
-                     chain_text(evaluator.chain()), directions_text(evaluator));
-}
-
-std::string distance_text(const OffsetDistance& d, const MachineChain& chain) {
-  std::string text = fmt::format("{:.2f} nm", d.nm);
-  if (chain.has_rotary()) text += fmt::format(" and {:.2f} nrad", d.nrad);
+std::string distance_text(const json& d, const MachineChain& chain) {
+  std::string text = fmt::format("{:.2f} nm", d["nm"]);
+  if (chain.has_rotary()) text += fmt::format(" and {:.2f} nrad", d["nrad"]);
   return text;
 }
 
-std::string agreement_text(const TableEvaluator& evaluator, const Evaluation& evaluation) {
-  const MachineChain& chain = evaluator.chain();
+std::string agreement_text(const MachineChain& chain, const json& facts) {
   const std::string model = fmt::format("run-time model within {} of the exact chain\n",
-                                        distance_text(evaluation.model_from_exact, chain));
-  if (!evaluator.within_1nm()) return "tick not evaluated: more than 5 axes or 128 knots\n" + model;
+                                        distance_text(facts["model_from_exact_max"], chain));
+  if (!facts.contains("tick_from_model_max"))
+    return "tick not evaluated: more than 5 axes or 128 knots\n" + model;
   return fmt::format("tick within {} of its model in double, {}\n",
-                     distance_text(evaluation.tick_from_model, chain),
-                     *evaluator.within_1nm() ? "1 nm is promised"
-                                             : "1 nm is not promised for errors above 1 mm") +
+                     distance_text(facts["tick_from_model_max"], chain),
+                     facts["tick_within_1nm_promised"]
+                         ? "1 nm is promised"
+                         : "1 nm is not promised for errors above 1 mm") +
          model;
 }
 
-std::string offsets_line(const TableEvaluator& evaluator, const Pose& offset, const char* what) {
+std::string offsets_line(const json& point, const TableEvaluator& evaluator, const char* of,
+                         const char* what) {
   std::string line = "  offset";
-  for (const std::size_t a : evaluator.offset_axes())
-    line += fmt::format("  {} {:.3f} {}", evaluator.chain().axis(a).letter,
-                        three_decimals(shown_offset(evaluator.chain(), a, offset[a])),
-                        is_rotary_axis(evaluator.chain(), a) ? "µrad" : "µm");
+  for (const std::size_t a : evaluator.offset_axes()) {
+    const std::string letter(1, evaluator.chain().axis(a).letter);
+    const json& offset = point["offsets"][letter];
+    line += fmt::format("  {} {:.3f} {}", letter, rounded(offset[of], 3),
+                        offset["unit"] == "urad" ? "µrad" : "µm");
+  }
   return line + fmt::format(", {}\n", what);
 }
 
-std::string point_lines(const TableEvaluator& evaluator, const EvaluatedPoint& point) {
+std::string point_lines(const TableEvaluator& evaluator, const json& point) {
   const MachineChain& chain = evaluator.chain();
   std::string text = "at";
   for (std::size_t a = 0; a < chain.axis_count(); ++a)
-    text += fmt::format("  {} {:.6g} {}", chain.axis(a).letter, shown_place(chain, a, point.at[a]),
+    text += fmt::format("  {} {:.6g} {}", chain.axis(a).letter, shown_place(chain, a, point),
                         is_rotary_axis(chain, a) ? "deg" : "mm");
-  if (point.beyond != 0)
+  if (!point["beyond_table"].empty())
     text += fmt::format(", {} beyond the table: the values are those of its end",
-                        letters_beyond(chain, point));
-  const Vec3 e = (kUmPerMm * point.position).unaryExpr(&three_decimals);
-  const Vec3 w = (kUradPerRad * point.orientation).unaryExpr(&three_decimals);
-  text += fmt::format(
-      "\n  E  {:.3f} {:.3f} {:.3f} µm, orientation {:.3f} {:.3f} {:.3f} µrad, in base\n", e(0),
-      e(1), e(2), w(0), w(1), w(2));
-  if (!point.authority) return text + "  no offset: the correcting axes cannot act here\n";
-  text += offsets_line(evaluator, point.exact, "exact chain");
-  if (point.tick) text += offsets_line(evaluator, *point.tick, "tick");
+                        fmt::join(point["beyond_table"], ""));
+  const auto three = [](const json& values) {
+    return fmt::format("{:.3f} {:.3f} {:.3f}", rounded(values[0], 3), rounded(values[1], 3),
+                       rounded(values[2], 3));
+  };
+  text += fmt::format("\n  E  {} µm, orientation {} µrad, in base\n", three(point["error_um"]),
+                      three(point["orientation_urad"]));
+  if (!point["authority"]) return text + "  no offset: the correcting axes cannot act here\n";
+  text += offsets_line(point, evaluator, "exact", "exact chain");
+  if (evaluator.within_1nm()) text += offsets_line(point, evaluator, "tick", "tick");
   return text;
 }
 
-std::string largest_lines(const TableEvaluator& evaluator, const Evaluation& evaluation) {
+std::string largest_lines(const TableEvaluator& evaluator, const json& points) {
+  const auto squared = [](const json& point) {
+    const json& e = point["error_um"];
+    return Vec3(e[0], e[1], e[2]).squaredNorm();
+  };
   const auto longest =
-      std::max_element(evaluation.points.begin(), evaluation.points.end(),
-                       [](const EvaluatedPoint& a, const EvaluatedPoint& b) {
-                         return a.position.squaredNorm() < b.position.squaredNorm();
-                       });
-  const auto refused = std::count_if(evaluation.points.begin(), evaluation.points.end(),
-                                     [](const EvaluatedPoint& p) { return !p.authority; });
-  std::string text = fmt::format("{} points, the largest error:\n", evaluation.points.size());
+      std::max_element(points.begin(), points.end(),
+                       [&](const json& a, const json& b) { return squared(a) < squared(b); });
+  const auto refused = std::count_if(points.begin(), points.end(),
+                                     [](const json& p) { return p["authority"] == false; });
+  std::string text = fmt::format("{} points, the largest error:\n", points.size());
   text += point_lines(evaluator, *longest);
   if (refused != 0)
     text += fmt::format("{} points where the correcting axes cannot act\n", refused);
   return text;
 }
 
-void add_offset_cells(const TableEvaluator& evaluator, const EvaluatedPoint& point,
-                      std::string& row) {
-  const auto add = [&](std::size_t a, const Pose* offset) {
-    row += ',';
-    if (offset != nullptr)
-      row += fmt::format("{:.6f}", six_decimals(shown_offset(evaluator.chain(), a, (*offset)[a])));
-  };
-  for (const std::size_t a : evaluator.offset_axes()) {
-    add(a, point.authority ? &point.exact : nullptr);
-    add(a, point.authority ? &point.model : nullptr);
-    add(a, point.tick ? &*point.tick : nullptr);
-  }
-}
+constexpr std::array kOffsets{"exact", "model", "tick"};
 
 std::string csv_header(const TableEvaluator& evaluator) {
   const MachineChain& chain = evaluator.chain();
@@ -159,9 +140,28 @@ std::string csv_header(const TableEvaluator& evaluator) {
         fmt::format("{} [{}],", chain.axis(a).letter, is_rotary_axis(chain, a) ? "deg" : "mm");
   header += "EX [um],EY [um],EZ [um],EA [urad],EB [urad],EC [urad]";
   for (const std::size_t a : evaluator.offset_axes())
-    for (const char* of : {"exact", "model", "tick"})
+    for (const char* const of : kOffsets)
       header += fmt::format(",{} {} [{}]", chain.axis(a).letter, of, offset_unit(chain, a));
   return header + ",beyond\n";
+}
+
+std::string csv_row(const TableEvaluator& evaluator, const json& point) {
+  const MachineChain& chain = evaluator.chain();
+  std::string row;
+  for (std::size_t a = 0; a < chain.axis_count(); ++a)
+    row += fmt::format("{:.9g},", shown_place(chain, a, point));
+  for (const char* const errors : {"error_um", "orientation_urad"})
+    for (const json& value : point[errors])
+      row += fmt::format("{:.6f},", rounded(value, 6));
+  for (const std::size_t a : evaluator.offset_axes()) {
+    const json offset = point["offsets"].value(std::string(1, chain.axis(a).letter), json());
+    for (const char* const of : kOffsets) {
+      if (!offset.is_null() && !offset[of].is_null())
+        row += fmt::format("{:.6f}", rounded(offset[of], 6));
+      row += ',';
+    }
+  }
+  return row + fmt::format("{}\n", fmt::join(point["beyond_table"], ""));
 }
 
 json point_json(const TableEvaluator& evaluator, const EvaluatedPoint& point) {
@@ -196,38 +196,25 @@ json distance_json(const OffsetDistance& d) { return {{"nm", d.nm}, {"nrad", d.n
 
 }  // namespace
 
-std::string evaluation_text(const TableEvaluator& evaluator, const Evaluation& evaluation,
-                            const TableSource& source) {
-  std::string text = heading(evaluator, source);
-  if (evaluation.points.size() > kMostShownPoints) {
-    text += largest_lines(evaluator, evaluation);
+std::string evaluation_text(const TableEvaluator& evaluator, const json& facts) {
+  std::string text = fmt::format("tables: {}\nchain {}; direction of travel: {}\n",
+                                 source_text(facts), facts["chain"], directions_text(facts));
+  if (facts["points"].size() > kMostShownPoints) {
+    text += largest_lines(evaluator, facts["points"]);
   } else {
-    for (const EvaluatedPoint& point : evaluation.points)
+    for (const json& point : facts["points"])
       text += point_lines(evaluator, point);
   }
-  return text + agreement_text(evaluator, evaluation);
+  return text + agreement_text(evaluator.chain(), facts);
 }
 
-std::string evaluation_csv(const TableEvaluator& evaluator, const Evaluation& evaluation,
-                           const TableSource& source) {
-  const MachineChain& chain = evaluator.chain();
+std::string evaluation_csv(const TableEvaluator& evaluator, const json& facts) {
   std::string text = fmt::format(
       "# tables: {}\n# chain {}; direction of travel: {}\n# E: error of the tool point and "
       "orientation in base, exact chain; offsets: exact chain, run-time model in double, tick\n{}",
-      source_text(source), chain_text(chain), directions_text(evaluator), csv_header(evaluator));
-  for (const EvaluatedPoint& point : evaluation.points) {
-    std::string row;
-    for (std::size_t a = 0; a < chain.axis_count(); ++a)
-      row += fmt::format("{:.9g},", shown_place(chain, a, point.at[a]));
-    std::vector<std::string> error;
-    for (Eigen::Index i = 0; i < 3; ++i)
-      error.push_back(fmt::format("{:.6f}", six_decimals(kUmPerMm * point.position(i))));
-    for (Eigen::Index i = 0; i < 3; ++i)
-      error.push_back(fmt::format("{:.6f}", six_decimals(kUradPerRad * point.orientation(i))));
-    row += fmt::format("{}", fmt::join(error, ","));
-    add_offset_cells(evaluator, point, row);
-    text += row + ',' + letters_beyond(chain, point) + '\n';
-  }
+      source_text(facts), facts["chain"], directions_text(facts), csv_header(evaluator));
+  for (const json& point : facts["points"])
+    text += csv_row(evaluator, point);
   return text;
 }
 

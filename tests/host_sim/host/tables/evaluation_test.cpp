@@ -172,15 +172,15 @@ TEST(Evaluation, TextSaysWhichTablesAndWhichDirection) {
   TableEvaluator evaluator(tables, "tables", Travel::backward);
   const Evaluation evaluation = evaluator.evaluate({{70.0, 0.0, 0.0}});
   const TableSource source{{"a.vct"}, 0x1234ABCDU};
-  EXPECT_THAT(evaluation_text(evaluator, evaluation, source),
+  const nlohmann::json j = evaluation_json(evaluator, evaluation, source);
+  EXPECT_THAT(evaluation_text(evaluator, j),
               testing::AllOf(testing::HasSubstr("a.vct, CRC-32 1234ABCD"),
                              testing::HasSubstr("X down, Y down, Z down"),
                              testing::HasSubstr("X beyond the table")));
-  EXPECT_THAT(evaluation_csv(evaluator, evaluation, source),
+  EXPECT_THAT(evaluation_csv(evaluator, j),
               testing::EndsWith("\n70,0,0,-1.000000,0.000000,0.000000,0.000000,0.000000,0.000000,"
                                 "1.000000,1.000000,1.000000,0.000000,0.000000,0.000000,"
                                 "0.000000,0.000000,0.000000,X\n"));
-  const nlohmann::json j = evaluation_json(evaluator, evaluation, source);
   EXPECT_EQ(j.at("crc32"), "1234ABCD");
   EXPECT_EQ(j.at("points").at(0).at("beyond_table"), nlohmann::json({"X"}));
 }
