@@ -102,9 +102,10 @@ json error_facts(NodeClient& client) {
 }
 
 std::string describe_axis(const json& a) {
+  const std::string letter = a["letter"];
   std::string text = fmt::format(
       "axis {}: {}\n  drive: node {}, {}\n  offset {:.3f} {}, largest so far {:.3f} {}\n",
-      a["letter"] == "" ? a["axis"] : a["letter"], a["status_text"], a["drive"],
+      letter.empty() ? a["axis"] : json(letter), a["status_text"], a["drive"],
       describe_drive(a["drive_status"]), a["offset"], a["unit"], a["largest_offset"], a["unit"]);
   for (std::size_t bit = 1; bit < kStatusBits; ++bit) {
     const json& times = a["began"][name_of_bit(bit)];
@@ -161,7 +162,7 @@ std::string describe(const json& d) {
   line("state:", d["state"]);
   line("active tables:", tables_line(d));
   line("image last sent:", d["table_state"]);
-  if (d["refusal"] != "") line("last refusal:", d["refusal"]);
+  if (const std::string last = d["refusal"]; !last.empty()) line("last refusal:", last);
   line("machine:", machine_line(d));
   line("last start:", d["start"]);
   line("store at the start:", d["stored"]);
