@@ -94,13 +94,28 @@ TEST(HeardIds, NoOtherFrameDoesAnything) {
   EXPECT_TRUE(twins.alike());
 }
 
-TEST(HeardIds, AreThoseOfTheDefaultConfiguration) {
+void write(Node& node, canopen::ObjectId object, std::uint32_t value) {
+  std::array<std::uint8_t, 4> bytes{};
+  std::memcpy(bytes.data(), &value, sizeof value);
+  ASSERT_EQ(node.device().write(object, bytes), canopen::AbortCode::none);
+}
+
+TEST(HeardIds, FollowTheConfiguration) {
   Node node(32, nullptr);
   node.power_on(0);
-  for (const unsigned id : {0x000U, 0x080U, 0x100U, 0x620U, 0x181U, 0x201U})
-    EXPECT_TRUE(hears(node, static_cast<std::uint16_t>(id))) << std::hex << id;
-  for (const unsigned id : {0x123U, 0x621U, 0x5A0U, 0x701U, 0x7E5U})
-    EXPECT_FALSE(hears(node, static_cast<std::uint16_t>(id))) << std::hex << id;
+  const auto hears_all = [&node](std::initializer_list<unsigned> ids) {
+    return std::all_of(ids.begin(), ids.end(), [&node](unsigned id) {
+      return hears(node, static_cast<std::uint16_t>(id));
+    });
+  };
+  EXPECT_TRUE(hears_all({0x000, 0x080, 0x100, 0x620}));
+  for (const unsigned id : {0x123U, 0x182U, 0x621U, 0x5A0U, 0x703U})
+    EXPECT_FALSE(hears_all({id})) << std::hex << id;
+  write(node, {0x1016, 1}, 3U << 16U | 100U);
+  write(node, {0x1400, 1}, 0x182);
+  write(node, {0x1005, 0}, 0x090);
+  EXPECT_TRUE(hears_all({0x703, 0x182, 0x090}));
+  EXPECT_FALSE(hears_all({0x080}));
 }
 
 }  // namespace
