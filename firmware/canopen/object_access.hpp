@@ -3,9 +3,18 @@
 // directions work on bytes in place; a domain (table image) is never copied.
 
 #include "comp/core/span.hpp"
-#include "firmware/canopen/abort_code.hpp"
 
 namespace volcomp::canopen {
+
+// SDO abort codes (CiA 301, table 22).
+enum class AbortCode : std::uint32_t {
+  none = 0,
+#define ABORT_CODE(number, name, sentence) name = (number),
+#include "firmware/canopen/codes.def"
+};
+
+// One plain sentence; also for codes another device made up.
+[[nodiscard]] const char* sentence(AbortCode code);
 
 struct ObjectId {
   std::uint16_t index = 0;

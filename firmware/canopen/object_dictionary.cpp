@@ -14,6 +14,18 @@ std::size_t stride(const Entry& entry) {
 
 }  // namespace
 
+const char* sentence(AbortCode code) {
+  switch (code) {
+    case AbortCode::none:
+      return "The transfer succeeded.";
+#define ABORT_CODE(number, name, sentence) \
+  case AbortCode::name:                    \
+    return sentence;
+#include "firmware/canopen/codes.def"
+  }
+  return "The device gave an abort code of its own.";
+}
+
 std::size_t Entry::size() const { return size_of(type()); }
 
 ObjectDictionary::Found ObjectDictionary::find(ObjectId object) const {

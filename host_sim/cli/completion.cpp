@@ -1,10 +1,12 @@
 #include "host_sim/cli/completion.hpp"
 
 #include <cstddef>
+#include <memory>
 
 #include <fmt/format.h>
 
 #include "host_sim/cli/command_tree.hpp"
+#include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/exit_codes.hpp"
 
 namespace volcomp::cli {
@@ -100,8 +102,17 @@ int print_candidates(const CLI::App& program, std::vector<std::string> words) {
   return print_values(value_after(current.substr(0, equals)), current.substr(0, equals + 1));
 }
 
-const char* completion_script(const std::string& shell) {
-  return shell == "bash" ? kBash : shell == "zsh" ? kZsh : kFish;
+void add_completion_command(CLI::App& app, int& code) {
+  CLI::App* command =
+      app.add_subcommand("completion", "Print a script that completes the commands in a shell");
+  auto shell = std::make_shared<std::string>();
+  command->add_option("SHELL", *shell, "Whose: bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  command->callback([shell, &code] {
+    fmt::print("{}", *shell == "bash" ? kBash : *shell == "zsh" ? kZsh : kFish);
+    code = 0;
+  });
 }
 
 }  // namespace volcomp::cli

@@ -1,5 +1,5 @@
 #pragma once
-// What a shell offers for Tab: scripts that ask the program itself.
+// What a shell offers for Tab: its script (volcomp completion) asks the program itself.
 
 #include <string>
 #include <vector>
@@ -15,8 +15,5 @@ inline constexpr const char* kCompleteCommand = "__complete";
 // on the command line: a candidate a line, a tab, its description; the shell leaves out what does
 // not begin as that word. Returns the exit code: 0, or 1 where the names of files belong.
 [[nodiscard]] int print_candidates(const CLI::App& program, std::vector<std::string> words);
-
-// For "bash", "zsh" or "fish".
-[[nodiscard]] const char* completion_script(const std::string& shell);
 
 }  // namespace volcomp::cli

@@ -1,24 +1,76 @@
 // volcomp: the host tool. Exit codes: exit_codes.hpp.
 
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "host_sim/cli/command_tree.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/completion.hpp"
 #include "host_sim/cli/exit_codes.hpp"
-#include "host_sim/cli/misspelt.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/host/io/interruption.hpp"
+#include "host_sim/host/io/nearest_word.hpp"
 #include "host_sim/host/io/version.hpp"
 
 namespace volcomp::cli {
 namespace {
+
+std::vector<std::string> names_below(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : commands_below(app))
+    names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
+  return names;
+}
+
+std::string unknown(const char* what, const std::string& word,
+                    const std::vector<std::string>& known, const std::string& remedy) {
+  const std::string nearest = host::nearest_word(word, known);
+  return fmt::format("unknown {} \"{}\"{}{}", what, word,
+                     nearest.empty() ? "" : fmt::format(", did you mean \"{}\"?", nearest), remedy);
+}
+
+// The first word that is no command or option where one is expected, with the known one that it may
+// have been: "unknown command \"simulte\", did you mean \"simulate\"?". Empty where all are known.
+// `words`: the command line without the name of the program.
+std::string misspelt(const CLI::App& app, const std::vector<std::string>& words) {
+  const CLI::App* command = &app;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word.rfind("--", 0) == 0 && word.size() > 2) {
+      const std::string name = word.substr(0, word.find('='));
+      const CLI::Option* option = command->get_option_no_throw(name);
+      if (option == nullptr)
+        return unknown("option", name, option_names(*command),
+                       fmt::format(" (all: {} --help)", full_name(*command)));
+      const bool has_value = option->get_items_expected_max() > 0;
+      if (has_value && name.size() == word.size()) ++i;
+      continue;
+    }
+    if (word.rfind('-', 0) == 0 || command->get_require_subcommand_min() == 0) continue;
+    const CLI::App* below = command_named(*command, word);
+    if (below == nullptr)
+      return unknown("command", word, names_below(*command),
+                     fmt::format(" (known: {})", fmt::join(names_below(*command), ", ")));
+    command = below;
+  }
+  return {};
+}
 
 // An empty value is what an unset variable of a shell leaves, and would pass for "not given".
 void refuse_empty_values(CLI::App& app) {
@@ -92,6 +144,7 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+
 }  // namespace volcomp::cli
 
 int main(int argc, char** argv) {

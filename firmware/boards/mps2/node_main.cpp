@@ -4,29 +4,89 @@
 // After a permanent failure the node sends nothing: the drives keep their last offset, and the
 // missing heartbeat stops the feed. The next start reports the cause of the restart.
 
+#include <array>
+#include <string_view>
+
 #include "firmware/boards/mps2/exit_code.hpp"
 #include "firmware/boards/mps2/linker_symbols.hpp"
-#include "firmware/boards/mps2/node_link.hpp"
 #include "firmware/boards/mps2/reset_cause.hpp"
 #include "firmware/boards/mps2/stack.hpp"
 #include "firmware/node/node_task.hpp"
 #include "firmware/node/store/record_storage.hpp"
+#include "hal/mps2/clock.hpp"
 #include "hal/mps2/console.hpp"
 #include "hal/mps2/flash_blocks.hpp"
 #include "hal/mps2/nvic.hpp"
+#include "hal/mps2/pipe_port.hpp"
+#include "hal/mps2/semihosting.hpp"
+#include "hal/mps2/slcan_port.hpp"
 #include "hal/mps2/tick_mask.hpp"
 #include "hal/mps2/timer.hpp"
 #include "hal/mps2/watchdog.hpp"
 
 namespace {
 
-using volcomp::boards::NodeLink;
 using volcomp::hal::mps2::FlashBlocks;
 using volcomp::hal::mps2::PipePort;
 using volcomp::hal::mps2::TickMask;
 using volcomp::hal::mps2::Watchdog;
-using Task = volcomp::node::NodeTask<NodeLink, NodeLink, TickMask, Watchdog>;
+namespace hal = volcomp::hal;
 namespace console = volcomp::hal::mps2::console;
+
+// The last word of the semihosting command line is "slcan"; anything else, or no debugger, selects
+// the frame pipe.
+bool slcan_is_wanted() {
+  constexpr std::string_view kWord = " slcan";
+  std::array<char, 128> text{};
+  if (!hal::mps2::semihosting::command_line(text)) return false;
+  std::string_view line(text.data());
+  if (line.size() < kWord.size()) return false;
+  line.remove_prefix(line.size() - kWord.size());
+  return line == kWord;
+}
+
+// How the node reaches its bus, chosen when it starts: by the frame pipe, or by SLCAN on UART0. To
+// the node it is one CAN port with one clock; see node_task.hpp.
+class NodeLink {
+ public:
+  // False when the frame pipe cannot be opened.
+  [[nodiscard]] bool open() {
+    hal::mps2::Clock::start();
+    is_pipe_ = !slcan_is_wanted();
+    if (is_pipe_) return pipe_.open();
+    slcan_.start();
+    return true;
+  }
+
+  [[nodiscard]] bool is_pipe() const { return is_pipe_; }
+  [[nodiscard]] const hal::mps2::PipePort& pipe() const { return pipe_; }
+  [[nodiscard]] hal::mps2::SlcanPort& slcan() { return slcan_; }
+
+  // A turn of the pipe is a tick of the node; SLCAN knows no turns.
+  void begin_turn() {
+    if (is_pipe_) pipe_.begin_turn();
+  }
+  void end_turn() {
+    if (is_pipe_) pipe_.end_turn();
+  }
+  bool send(const hal::CanFrame& frame) {
+    return is_pipe_ ? pipe_.send(frame) : slcan_.send(frame);
+  }
+  bool receive(hal::CanFrame& frame) {
+    return is_pipe_ ? pipe_.receive(frame) : slcan_.receive(frame);
+  }
+
+  // In the pipe the time of the host, so that the node and the bus have one time.
+  [[nodiscard]] std::uint64_t now_us() const { return is_pipe_ ? pipe_.now_us() : clock_.now_us(); }
+
+ private:
+  hal::mps2::PipePort pipe_;
+  hal::mps2::SlcanPort slcan_;
+  hal::mps2::Clock clock_;
+  bool is_pipe_ = false;  // open() decides
+};
+
+using Task = volcomp::node::NodeTask<NodeLink, NodeLink, TickMask, Watchdog>;
 
 constexpr std::uint8_t kNodeId = 32;
 constexpr std::uint32_t kTick_us = 1000;

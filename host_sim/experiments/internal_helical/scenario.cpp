@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/metrology/gears/internal_gear_deviations.hpp"
 #include "host_sim/experiments/internal_helical/bus_grinder.hpp"
 #include "host_sim/experiments/internal_helical/grinding_job.hpp"
 #include "host_sim/experiments/internal_helical/integrated_grinder.hpp"
@@ -12,6 +13,40 @@
 
 namespace volcomp::internal_helical {
 namespace {
+
+// Profiles are taken evenly around the gear; of 79 slots 0, 20, 39 and 59.
+constexpr int kProfileSlots = 4;
+
+HelicalInspection inspect_gear(const InternalGear& gear, const FlankGrinding& grinding,
+                               const std::vector<StrokeTrace>& passes, double probe_mm,
+                               sim::Random& random) {
+  HelicalInspection result;
+  for (std::size_t side = 0; side < kHelicalSides.size(); ++side) {
+    HelicalPitch& pitch = result.pitch[side];
+    for (const StrokeTrace& pass : passes) {
+      const double dn = grinding.pitch_point(pass, side) + random.normal(probe_mm);
+      pitch.position.push_back(kUmPerMm * pitch_arc_towards_plus(gear, kHelicalSides[side], dn));
+    }
+    host::require(evaluate_pitch(pitch.position, pitch.figures), "pitch");
+  }
+  for (int k = 0; k < kProfileSlots; ++k) {
+    const auto slot = static_cast<std::size_t>((k * gear.teeth + 1) / kProfileSlots);
+    for (std::size_t side = 0; side < kHelicalSides.size(); ++side) {
+      HelicalProfile profile{slot, side, {}, {}};
+      for (std::size_t i = 0; i < kProfilePoints; ++i) {
+        const double dn =
+            grinding.profile_point(passes.at(slot), side, i) + random.normal(probe_mm);
+        profile.deviation.push_back(kUmPerMm * transverse_of(gear, dn));
+      }
+      host::require(
+          evaluate_internal_profile(grinding.roll_length(), profile.deviation, profile.figures),
+          "profile");
+      result.F_alpha = std::max(result.F_alpha, profile.figures.total);
+      result.profile.push_back(profile);
+    }
+  }
+  return result;
+}
 
 std::unique_ptr<GrinderControl> make_control(const host::MachineFile& machine,
                                              const host::WatchedStrokes& watched,

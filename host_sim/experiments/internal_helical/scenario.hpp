@@ -5,14 +5,35 @@
 
 #include <filesystem>
 
+#include "comp/metrology/gears/gear_deviations.hpp"
+#include "comp/metrology/gears/pitch.hpp"
 #include "host_sim/experiments/internal_helical/geometry_check.hpp"
 #include "host_sim/experiments/internal_helical/grinder_control.hpp"
-#include "host_sim/experiments/internal_helical/inspection.hpp"
+#include "host_sim/experiments/internal_helical/grinding.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 
 namespace volcomp::internal_helical {
+
+struct HelicalPitch {
+  std::vector<double> position;  // along the reference circle, towards +angle, µm
+  PitchDeviations figures;       // µm
+};
+
+struct HelicalProfile {
+  std::size_t slot = 0;
+  std::size_t side = 0;           // of kHelicalSides
+  std::vector<double> deviation;  // transverse, at FlankGrinding::roll_length(), µm
+  TraceDeviations figures;        // µm; slope positive: material grows towards the tip
+};
+
+// The ground gear on a measuring machine: pitch of all slots and profile of four, at mid face.
+struct HelicalInspection {
+  std::array<HelicalPitch, 2> pitch;
+  std::vector<HelicalProfile> profile;
+  double F_alpha = 0.0;  // the worst of the profiles; the paper gives one without a side
+};
 
 inline constexpr int kLearningUpdates = 6;  // leaves 15 % of the error
 inline constexpr int kRoundsPerUpdate = 2;

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
-#include "host_sim/experiments/l300g/checks.hpp"
 #include "host_sim/experiments/l300g/inspection.hpp"
 #include "host_sim/experiments/l300g/lobing_check.hpp"
 #include "host_sim/experiments/l300g/mandrel.hpp"
@@ -15,6 +15,17 @@
 #include "host_sim/host/report/progress.hpp"
 
 namespace volcomp::l300g {
+
+// Whether a point depends on the feed: the same place of a flank, touched at 10, 30, 100, 300 and
+// 1000 mm/min.
+struct FeedCheck {
+  std::vector<double> feed_mm_min;
+  std::vector<double> raw_nm;        // normal to the flank, as latched; from the mean of all
+  std::vector<double> corrected_nm;  // as the node reports
+
+  [[nodiscard]] double raw_spread_nm() const;
+  [[nodiscard]] double corrected_spread_nm() const;
+};
 
 enum class Origin : std::uint8_t {
   nominal,  // the axis of A is where the machine file has it

@@ -1,19 +1,85 @@
 #include "host_sim/sim/boards/emulated_node.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <deque>
 #include <fstream>
 #include <functional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include "host_sim/host/bus/links/boot_up.hpp"
 #include "host_sim/host/bus/links/paced_link.hpp"
+#include "host_sim/host/bus/links/serial_device.hpp"
 #include "host_sim/host/bus/links/socket_link.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+// Reads the progress of the processor of a running QEMU over its machine protocol (QMP).
+class QemuMonitor {
+ public:
+  // `socket`: the Unix socket on which QEMU listens (-qmp). Throws UserError naming it, here and
+  // later, when there is no answer or none of QEMU.
+  explicit QemuMonitor(const std::string& socket) : socket_(socket) {
+    if (!next_message().contains("QMP")) fail("no QEMU listens there");
+    static_cast<void>(ask("qmp_capabilities"));
+  }
+
+  // Executed since the start. QEMU counts with -icount only. It answers in its main loop, each turn
+  // of which also takes one frame out of a CAN interface: a call takes in one that waits there.
+  [[nodiscard]] std::uint64_t instructions();
+
+ private:
+  [[nodiscard]] nlohmann::json ask(const char* command);
+  [[nodiscard]] nlohmann::json next_message();
+  [[noreturn]] void fail(const char* what) const {
+    throw host::UserError(socket_.path() + ": " + what);
+  }
+
+  host::SerialDevice socket_;
+  std::string incoming_;
+};
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kPatience{30};
+constexpr std::uint32_t kLook_us = 100'000;
+
+std::uint64_t QemuMonitor::instructions() {
+  const nlohmann::json answer = ask("query-replay");
+  if (!answer.contains("icount")) fail("this QEMU does not tell how many instructions it executed");
+  return answer.at("icount").get<std::uint64_t>();
+}
+
+// QEMU also sends events in between.
+nlohmann::json QemuMonitor::ask(const char* command) {
+  const std::string text = nlohmann::json{{"execute", command}}.dump() + "\n";
+  if (socket_.write(text) != text.size()) fail("takes no more commands");
+  for (;;) {
+    nlohmann::json message = next_message();
+    if (message.contains("return")) return message["return"];
+    if (message.contains("error")) fail("refuses a command");
+  }
+}
+
+nlohmann::json QemuMonitor::next_message() {
+  const Clock::time_point until = Clock::now() + kPatience;
+  std::size_t end = incoming_.find('\n');
+  for (; end == std::string::npos; end = incoming_.find('\n')) {
+    if (Clock::now() > until) fail("does not answer");
+    socket_.wait(kLook_us);
+    incoming_ += socket_.read();
+  }
+  const std::string line = incoming_.substr(0, end);
+  incoming_.erase(0, end + 1);
+  nlohmann::json message = nlohmann::json::parse(line, nullptr, false);
+  if (!message.is_object()) fail("does not answer as QEMU does");
+  return message;
+}
 
 constexpr int kEndPatience_ms = 10'000;
 constexpr int kCanBootPatience_ms = 60'000;  // in an emulator inside an emulator
@@ -150,10 +216,10 @@ void EmulatedNode::join_by_can(const std::filesystem::path& image, const std::st
   start(command(board_, can_machine(board_, interface), "", image));
   with_last_words([&] {
     if (!host::await_boot_up(*socket, kCanBootPatience_ms)) fail("runs, but no node starts in it");
-    monitor_ = std::make_unique<QemuMonitor>(folder_.path() / kMonitor);
-    const auto progress = [this] {
+    const auto progress = [this,
+                           monitor = std::make_shared<QemuMonitor>(folder_.path() / kMonitor)] {
       watch();
-      return monitor_->instructions();
+      return monitor->instructions();
     };
     can_ = std::make_unique<host::PacedLink>(std::move(socket), progress, kCanBurst,
                                              kInstructionsPerBurst);

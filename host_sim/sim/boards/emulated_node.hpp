@@ -16,7 +16,6 @@
 #include "host_sim/host/io/temporary_folder.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/boards/child_process.hpp"
-#include "host_sim/sim/boards/qemu_monitor.hpp"
 
 namespace volcomp::sim {
 
@@ -85,7 +84,6 @@ class EmulatedNode {
   host::TemporaryFolder folder_;
   std::unique_ptr<ChildProcess> qemu_;
   std::unique_ptr<host::PipeLink> pipe_;
-  std::unique_ptr<QemuMonitor> monitor_;
   std::unique_ptr<host::FrameLink> can_;
 };
 

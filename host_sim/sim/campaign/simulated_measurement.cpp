@@ -1,13 +1,106 @@
 #include "host_sim/sim/campaign/simulated_measurement.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "comp/metrology/tables/line_fit.hpp"
 #include "host_sim/host/machine/xyz_axes.hpp"
 #include "host_sim/sim/campaign/any_axes.hpp"
 #include "host_sim/sim/campaign/measured_diagonals.hpp"
+#include "host_sim/sim/instruments/ball_bar.hpp"
+#include "host_sim/sim/truth/drawn_machine.hpp"
 
 namespace volcomp::sim {
 namespace {
+
+constexpr std::size_t kMostTargets = 401;
+constexpr std::size_t kTargetsOfGrid = 101;
+constexpr double kSamePlace = 1e-9;  // of a pitch
+
+// Relative values of an axis that its file states in another convention or on another side.
+ErrorMotion in_relative_terms(const ErrorMotion& stated, const host::MachineFile& file,
+                              std::size_t a, double q) {
+  host::MachineFile relative = file;
+  relative.convention = Convention::relative;
+  relative.side = Side::moving;
+  return in_file_terms(to_internal(stated, file.chain.axis(a), q, file.convention, file.side),
+                       relative, a, q);
+}
+
+void have_at_reference(const host::MachineFile& file, std::size_t a, TrueAxis& truth) {
+  const host::AxisFile& axis = file.axes[a];
+  const ErrorMotion there = in_relative_terms(axis.at_reference, file, a, axis.reference);
+  for (std::size_t c = 0; c < 6; ++c) {
+    ErrorFunction& f = truth.channel[c];
+    f.constant += there(static_cast<Eigen::Index>(c)) - f.at(axis.reference, truth.lo, truth.hi);
+  }
+}
+
+// At the sensed point and in the terms of the file, where the builder of tables takes them out.
+void take_slopes(const host::MachineFile& file, std::size_t a, TrueMachine& machine) {
+  const host::AxisFile& axis = file.axes[a];
+  const Joint& joint = file.chain.axis(a);
+  const std::vector<double> at = axis.all_targets();
+  std::vector<ErrorMotion> value;
+  for (const double q : at) {
+    Pose pose{};
+    pose[a] = q;
+    value.push_back(at_lever(in_file_terms(machine.errors(pose, {})[a], file, a, q),
+                             axis.sensed.lever(joint.axis, q)));
+  }
+  const double sense = file.convention == Convention::relative ? 1.0 : branch_sign(joint.branch);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (c == index(joint.axis)) continue;
+    std::vector<double> straightness;
+    straightness.reserve(value.size());
+    for (const ErrorMotion& v : value)
+      straightness.push_back(v(static_cast<Eigen::Index>(c)));
+    TrueAxis& truth = machine.axis[a];
+    truth.channel[c].linear -=
+        sense * least_squares_slope(at, straightness) * (truth.hi - truth.lo);
+  }
+}
+
+void have_squareness(const host::MachineFile& file, TrueMachine& machine) {
+  const host::SquarenessFile& s = *file.squareness;
+  const std::array<std::size_t, 3> xyz{file.axis_index('X'), file.axis_index('Y'),
+                                       file.axis_index('Z')};
+  const std::vector<double> x = s.line(0);
+  const std::vector<double> y = s.line(1);
+  const std::vector<double> z = s.line(2);
+  Random unused(0);
+  // Unit gain, so one step is exact.
+  const XyfzSquareness own =
+      measure_squareness(machine, machine.chain.tool_point(), {s.at, x, y, z}, 0.0, unused, xyz);
+  const DirectionErrors directions = xyfz_directions(close_squareness(s.measured, own));
+  for (std::size_t k = 0; k < 3; ++k)
+    machine.directions[xyz[k]] = directions[k];
+}
+
+// Squareness is defined between X, Y and Z.
+bool has_squareness(const host::AxisFile& axis) { return axis.letter >= 'X' && axis.letter <= 'Z'; }
+
+bool has_target_at_reference(const host::AxisFile& axis, std::size_t targets) {
+  const double place =
+      (axis.reference - axis.lo) / (axis.hi - axis.lo) * static_cast<double>(targets - 1);
+  return std::abs(place - std::round(place)) < kSamePlace * static_cast<double>(targets);
+}
+
+void place_targets(host::AxisFile& axis) {
+  for (std::size_t targets = axis.targets; targets <= kMostTargets; ++targets) {
+    if (!has_target_at_reference(axis, targets)) continue;
+    axis.targets = targets;
+    return;
+  }
+  const double pitch = (axis.hi - axis.lo) / static_cast<double>(kTargetsOfGrid - 1);
+  const double below = std::floor((axis.reference - axis.lo) / pitch);
+  const double above = std::floor((axis.hi - axis.reference) / pitch);
+  axis.lo = axis.reference - below * pitch;
+  axis.hi = axis.reference + above * pitch;
+  axis.targets = static_cast<std::size_t>(below + above) + 1;
+}
 
 NoiseClasses classes_of(const Instruments& instruments) {
   return instruments.perfect ? no_noise() : NoiseClasses{};
@@ -29,6 +122,27 @@ bool is_read_between_work_and_tool(const host::MachineFile& file) {
 }
 
 }  // namespace
+
+TrueMachine draw_slides(const host::MachineFile& file, std::uint64_t seed) {
+  Random random(seed);
+  TrueMachine machine = ideal_machine(file);
+  for (std::size_t a = 0; a < file.axes.size(); ++a) {
+    if (!file.axes[a].rotary) {
+      machine.axis[a] = draw_linear(file.axes[a], index(file.chain.axis(a).axis), random);
+      have_at_reference(file, a, machine.axis[a]);
+      if (!file.squareness || !has_squareness(file.axes[a])) take_slopes(file, a, machine);
+    }
+    have_at_reference(file, a, machine.axis[a]);
+  }
+  if (file.squareness) have_squareness(file, machine);
+  return machine;
+}
+
+host::MachineFile with_targets_at_references(host::MachineFile file) {
+  for (host::AxisFile& axis : file.axes)
+    place_targets(axis);
+  return file;
+}
 
 std::vector<host::RunsFile> simulate_runs(const SimulatedMachine& simulated,
                                           const Instruments& instruments, std::size_t runs) {

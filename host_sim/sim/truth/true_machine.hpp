@@ -2,11 +2,34 @@
 // The machine as it really is: smooth error motions, reversal, squareness, thermal growth, exact
 // kinematics.
 
+#include <array>
+#include <cmath>
+
+#include "comp/core/units.hpp"
 #include "comp/machine/xyfz.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
-#include "host_sim/sim/truth/error_function.hpp"
 
 namespace volcomp::sim {
+
+// One smooth error channel of a simulated axis, never a table:
+// constant + linear·u + Σ a_k sin(kπu + φ_k) + ripple, u = place in the travel, 0…1.
+struct ErrorFunction {
+  double constant = 0.0;
+  double linear = 0.0;
+  std::array<double, 3> amplitude{};
+  std::array<double, 3> phase{};
+  double ripple = 0.0;         // amplitude
+  double ripple_period = 7.3;  // mm or rad
+  double ripple_phase = 0.0;
+
+  [[nodiscard]] double at(double q, double lo, double hi) const {
+    const double u = (q - lo) / (hi - lo);
+    double value = constant + linear * u;
+    for (std::size_t k = 0; k < amplitude.size(); ++k)
+      value += amplitude[k] * std::sin(static_cast<double>(k + 1) * kPi * u + phase[k]);
+    return value + ripple * std::sin(2.0 * kPi * q / ripple_period + ripple_phase);
+  }
+};
 
 // Truth of one axis: relative values (tool with respect to workpiece) at the reading head.
 struct TrueAxis {

@@ -1,8 +1,9 @@
-#include "host_sim/cli/manual_page.hpp"
+// volcomp man: volcomp(1) in troff, made from the commands themselves.
 
 #include <fmt/format.h>
 
 #include "host_sim/cli/command_tree.hpp"
+#include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/host/io/version.hpp"
 
@@ -86,8 +87,6 @@ constexpr const char* kExamples =
     "volcomp verify before.csv after.csv \\-\\-limit\\-um 5\n"
     ".fi\n.RE\n";
 
-}  // namespace
-
 std::string manual_page(CLI::App& program) {
   std::string text = fmt::format(
       ".TH VOLCOMP 1 \"\" \"volcomp {}\" \"User Commands\"\n"
@@ -112,6 +111,16 @@ std::string manual_page(CLI::App& program) {
     text += fmt::format(".TP\n.B {}\n{}\n", number(e.code), troff(e.meaning));
   text += "Interrupted by a signal it ends by that signal, after undoing what was half done.\n";
   return text + kExamples + ".SH SEE ALSO\n\\fBvolcomp\\-node\\fR(1), \\fBcandump\\fR(1)\n";
+}
+
+}  // namespace
+
+void add_man_command(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand("man", "Print the manual page (troff)");
+  command->callback([&app, &code] {
+    fmt::print("{}", manual_page(app));
+    code = 0;
+  });
 }
 
 }  // namespace volcomp::cli
