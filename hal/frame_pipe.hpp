@@ -22,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "comp/core/bytes.hpp"
 #include "hal/can_port.hpp"
 
 namespace volcomp::hal {
@@ -52,18 +53,6 @@ static_assert(kData + std::tuple_size<decltype(CanFrame::data)>::value == kPipeR
 inline constexpr std::uint32_t kEndOfTurn = 0xFFFF'FFFE;
 inline constexpr std::uint32_t kQuit = 0xFFFF'FFFF;
 
-constexpr void store(PipeBytes& bytes, std::size_t at, std::size_t count, std::uint64_t value) {
-  for (std::size_t i = 0; i < count; ++i)
-    bytes[at + i] = static_cast<std::uint8_t>(value >> (8U * i));
-}
-
-constexpr std::uint64_t load(const PipeBytes& bytes, std::size_t at, std::size_t count) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    value |= std::uint64_t{bytes[at + i]} << (8U * i);
-  return value;
-}
-
 constexpr bool zero(const PipeBytes& bytes, std::size_t from, std::size_t to) {
   for (std::size_t i = from; i < to; ++i) {
     if (bytes[i] != 0) return false;
@@ -74,7 +63,7 @@ constexpr bool zero(const PipeBytes& bytes, std::size_t from, std::size_t to) {
 constexpr PipeRecord decode_frame(const PipeBytes& bytes) {
   PipeRecord record;
   CanFrame& frame = record.frame;
-  frame.id = static_cast<std::uint16_t>(load(bytes, kId, 4));
+  frame.id = static_cast<std::uint16_t>(load_le(&bytes[kId], 4));
   frame.size = bytes[kSize];
   if (frame.size > frame.data.size()) return {};
   if (!zero(bytes, kData + frame.size, kPipeRecordBytes)) return {};
@@ -89,7 +78,7 @@ constexpr PipeRecord decode_frame(const PipeBytes& bytes) {
 // The frame as hal/can_port.hpp has it: id up to 0x7FF, size up to 8, data zero beyond.
 constexpr PipeBytes pipe_frame(const CanFrame& frame) {
   PipeBytes bytes{};
-  pipe_layout::store(bytes, pipe_layout::kId, 4, frame.id);
+  store_le(&bytes[pipe_layout::kId], 4, frame.id);
   bytes[pipe_layout::kSize] = frame.size;
   for (std::size_t i = 0; i < frame.data.size(); ++i)
     bytes[pipe_layout::kData + i] = frame.data[i];
@@ -98,14 +87,14 @@ constexpr PipeBytes pipe_frame(const CanFrame& frame) {
 
 constexpr PipeBytes pipe_end_of_turn(std::uint64_t now_us) {
   PipeBytes bytes{};
-  pipe_layout::store(bytes, pipe_layout::kId, 4, pipe_layout::kEndOfTurn);
-  pipe_layout::store(bytes, pipe_layout::kData, 8, now_us);
+  store_le(&bytes[pipe_layout::kId], 4, pipe_layout::kEndOfTurn);
+  store_le(&bytes[pipe_layout::kData], 8, now_us);
   return bytes;
 }
 
 constexpr PipeBytes pipe_quit() {
   PipeBytes bytes{};
-  pipe_layout::store(bytes, pipe_layout::kId, 4, pipe_layout::kQuit);
+  store_le(&bytes[pipe_layout::kId], 4, pipe_layout::kQuit);
   return bytes;
 }
 
@@ -113,11 +102,11 @@ constexpr PipeBytes pipe_quit() {
 constexpr PipeRecord pipe_record(const PipeBytes& bytes) {
   using pipe_layout::kData;
   if (!pipe_layout::zero(bytes, pipe_layout::kUnused, kData)) return {};
-  const auto id = static_cast<std::uint32_t>(pipe_layout::load(bytes, pipe_layout::kId, 4));
+  const auto id = static_cast<std::uint32_t>(load_le(&bytes[pipe_layout::kId], 4));
   if (id <= kMaxCanId) return pipe_layout::decode_frame(bytes);
   if (bytes[pipe_layout::kSize] != 0) return {};
   if (id == pipe_layout::kEndOfTurn)
-    return {PipeRecord::Kind::end_of_turn, {}, pipe_layout::load(bytes, kData, 8)};
+    return {PipeRecord::Kind::end_of_turn, {}, load_le(&bytes[kData], 8)};
   if (id == pipe_layout::kQuit && pipe_layout::zero(bytes, kData, kPipeRecordBytes))
     return {PipeRecord::Kind::quit, {}, 0};
   return {};

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/units.hpp"
 #include "comp/machine/double3.hpp"
 
@@ -82,10 +82,7 @@ inline double root_of_mid_range(double x) {
 }
 
 inline double power_of_two(int exponent) {  // −1022…1023
-  const auto bits = static_cast<std::uint64_t>(exponent + 1023) << 52U;
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
+  return bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52U);
 }
 
 // √x for any finite x > 0: half the exponent, and the root of what is left, 1…4.
@@ -93,9 +90,7 @@ inline double root_of_any(double x) {
   constexpr double kTiny = 0x1p-1000;
   const bool tiny = x < kTiny;  // subnormal, perhaps
   const double normal = tiny ? x * 0x1p108 : x;
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &normal, sizeof bits);
-  const int exponent = static_cast<int>(bits >> 52U) - 1023;
+  const int exponent = static_cast<int>(bit_cast<std::uint64_t>(normal) >> 52U) - 1023;
   const int half = (exponent + 1024) / 2 - 512;
   const double root = root_of_mid_range(normal * power_of_two(-2 * half)) * power_of_two(half);
   return tiny ? root * 0x1p-54 : root;

@@ -2,8 +2,8 @@
 
 #include "comp/tables/image.hpp"
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/crc32.hpp"
-#include "comp/core/little_endian.hpp"
 #include "comp/tables/image_layout.hpp"
 
 namespace volcomp {

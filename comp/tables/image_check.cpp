@@ -1,7 +1,7 @@
 // The reading half: what a node does with an image. Nothing is copied but the machine description.
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/crc32.hpp"
-#include "comp/core/little_endian.hpp"
 #include "comp/machine/machine_limits.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/image_layout.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "comp/core/little_endian.hpp"
+#include "comp/core/bytes.hpp"
 
 namespace volcomp {
 

@@ -2,9 +2,9 @@
 // Clamp, slew and ramp: what stands between a computed correction and a drive.
 
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/inline.hpp"
 
 namespace volcomp {
@@ -60,18 +60,10 @@ class Magnitude {
   constexpr Magnitude() = default;
   explicit Magnitude(float most) : twice_(bits_of(most) << 1U) {}
 
-  [[nodiscard]] float value() const {
-    const std::uint32_t bits = twice_ >> 1U;
-    float most = 0.0F;
-    std::memcpy(&most, &bits, sizeof most);
-    return most;
-  }
+  [[nodiscard]] float value() const { return bit_cast<float>(twice_ >> 1U); }
   // The same magnitude with the sign of `x`.
   VOLCOMP_INLINE float signed_like(float x) const {
-    const std::uint32_t bits = (bits_of(x) & 0x80000000U) | twice_ >> 1U;
-    float most = 0.0F;
-    std::memcpy(&most, &bits, sizeof most);
-    return most;
+    return bit_cast<float>((bits_of(x) & 0x80000000U) | twice_ >> 1U);
   }
   // `x` if it does not exceed this, else signed_like(x). Not in the fast path: for size.
   [[nodiscard]] [[gnu::noinline]] float within(float x) const {
@@ -86,11 +78,7 @@ class Magnitude {
   VOLCOMP_INLINE static bool finite(float x) { return bits_of(x) << 1U < 0xFF00'0000U; }
 
  private:
-  VOLCOMP_INLINE static std::uint32_t bits_of(float x) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &x, sizeof bits);
-    return bits;
-  }
+  VOLCOMP_INLINE static std::uint32_t bits_of(float x) { return bit_cast<std::uint32_t>(x); }
 
   std::uint32_t twice_ = 0;
 };
@@ -98,10 +86,7 @@ class Magnitude {
 // Nearest integer, half to even, |x| < 2^22: adding 1.5·2^23 leaves the integer in the low mantissa
 // bits (conventions, section 5). No library call, the same on every target.
 VOLCOMP_INLINE std::int32_t round_half_even(float x) {
-  const float shifted = x + 12582912.0F;
-  std::int32_t bits = 0;
-  std::memcpy(&bits, &shifted, sizeof bits);
-  return bits - 0x4B400000;
+  return bit_cast<std::int32_t>(x + 12582912.0F) - 0x4B400000;
 }
 
 inline constexpr std::int32_t kMostRounded = 4'194'303;

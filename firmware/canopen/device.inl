@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/device.hpp"
 
 namespace volcomp::canopen {

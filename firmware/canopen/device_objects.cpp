@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/device_base.hpp"
 
 namespace volcomp::canopen {

@@ -1,6 +1,6 @@
 #include "firmware/canopen/emergency.hpp"
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 
 namespace volcomp::canopen {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 
 namespace volcomp::canopen {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 
 namespace volcomp::canopen {

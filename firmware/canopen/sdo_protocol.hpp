@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/object_access.hpp"
 
 namespace volcomp::canopen {

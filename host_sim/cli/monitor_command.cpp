@@ -1,6 +1,5 @@
 // volcomp monitor
 
-#include <csignal>
 #include <memory>
 #include <optional>
 

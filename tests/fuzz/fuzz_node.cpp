@@ -10,8 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include "comp/core/bytes.hpp"
 #include "comp/tables/image.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "firmware/node/node.hpp"
 
 namespace volcomp::node {

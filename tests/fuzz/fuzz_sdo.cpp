@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/sdo_server.hpp"
 
 namespace volcomp::canopen {

@@ -10,8 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/crc32.hpp"
-#include "comp/core/little_endian.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tables/image_layout.hpp"
 

@@ -30,7 +30,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "tests/system/bus_world.hpp"
 
@@ -335,7 +335,7 @@ TEST(BusFaults, FromAnotherOffsetTheWayBackIsSoft) {
   const auto other = static_cast<std::int32_t>(before[0] < 0 ? before[0] + far : before[0] - far);
   ASSERT_GT(far, 5 * limits.soft_rate);
   hal::CanFrame foreign{0x301, 4, {}};
-  canopen::store_le(foreign.data.data(), 4, static_cast<std::uint32_t>(other));
+  store_le(foreign.data.data(), 4, static_cast<std::uint32_t>(other));
   // It counts where it comes between the node's own offset and SYNC.
   std::uint64_t delay_ns = 0;
   world.bus().set_fault_hook([&](const hal::CanFrame& frame, const hal::LoopbackBus::Port&,

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/units.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "host_sim/sim/controller/straight_move.hpp"
 #include "tests/host_sim/sim/artefacts/plane.hpp"
@@ -63,7 +63,7 @@ class Grinder {
 
  private:
   void write_down(const hal::CanFrame& frame) {
-    const auto value = static_cast<std::int32_t>(canopen::load_le(frame.data.data(), 4));
+    const auto value = static_cast<std::int32_t>(load_le(frame.data.data(), 4));
     const std::uint16_t pdo = frame.id & 0x780U;
     if ((pdo == 0x280 || pdo == 0x380) && (frame.id & 0x7FU) <= 4) ++latch_frames_;
     if (frame.id == 0x182) {
@@ -71,8 +71,7 @@ class Grinder {
       after_ = value;
     }
     if (frame.id == 0x282) {
-      reports_.push_back(
-          {before_, after_, value, static_cast<double>(canopen::load_le(&frame.data[4], 4))});
+      reports_.push_back({before_, after_, value, static_cast<double>(load_le(&frame.data[4], 4))});
     }
   }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/node/object_handles.hpp"
 
 namespace volcomp::node {
@@ -94,7 +94,7 @@ void ProbePart::report_point() {
   const bool rejected_before = std::exchange(touch_rejected_, !accepted(point.verdict));
   if (touch_rejected_) {
     std::array<std::uint8_t, 4> number{};
-    canopen::store_le(number.data(), number.size(), point.sequence);
+    store_le(number.data(), number.size(), point.sequence);
     emergency.raise(ErrorCode::touch_rejected, static_cast<std::uint8_t>(point.verdict), number);
   } else if (rejected_before) {
     for (std::uint8_t verdict = 0; verdict < kTouchVerdicts; ++verdict)
@@ -107,7 +107,7 @@ void ProbePart::report_point() {
 AbortCode ProbePart::check_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
   if (object == kProbe) return switch_to(static_cast<ProbeCommand>(bytes[0]));
   const auto number = static_cast<std::uint32_t>(
-      canopen::load_le(bytes.data(), std::min(bytes.size(), sizeof(std::uint32_t))));
+      load_le(bytes.data(), std::min(bytes.size(), sizeof(std::uint32_t))));
   if (object == kRelease) return release_point(number);
   Reason why = Reason::ok;
   if (object == kGear) why = path_.load_gear(number);

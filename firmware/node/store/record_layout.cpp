@@ -1,7 +1,7 @@
 #include "firmware/node/store/record_layout.hpp"
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/crc32.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "hal/block_device.hpp"
 
 namespace volcomp::node {
@@ -10,10 +10,6 @@ namespace {
 constexpr std::uint64_t kMagic = 0x32504D4F434C4F56;  // "VOLCOMP2"
 constexpr std::size_t kFieldsAt = 8;
 constexpr std::size_t kHeaderCrcAt = kRecordHeaderBytes - 4;
-
-std::uint32_t load_u32(const RecordHeaderBytes& bytes, std::size_t at) {
-  return static_cast<std::uint32_t>(canopen::load_le(bytes.data() + at, 4));
-}
 
 // RFC 1982: half of the numbers are ahead of any other.
 bool is_newer(const RecordHeader& a, const RecordHeader& b) {
@@ -46,21 +42,21 @@ RecordHeaderBytes encode_record_header(const RecordHeader& header) {
                                             header.parameters.crc, header.image.size,
                                             header.image.crc};
   RecordHeaderBytes bytes{};
-  canopen::store_le(bytes.data(), 8, kMagic);
+  store_le(bytes.data(), 8, kMagic);
   for (std::size_t i = 0; i < fields.size(); ++i)
-    canopen::store_le(bytes.data() + kFieldsAt + 4 * i, 4, fields[i]);
-  canopen::store_le(bytes.data() + kHeaderCrcAt, 4, crc32c({bytes.data(), kHeaderCrcAt}));
+    store_le(bytes.data() + kFieldsAt + 4 * i, 4, fields[i]);
+  store_le(bytes.data() + kHeaderCrcAt, 4, crc32c({bytes.data(), kHeaderCrcAt}));
   return bytes;
 }
 
 Slot decode_record_header(const RecordHeaderBytes& bytes, std::size_t sector_bytes) {
   if (hal::is_erased(bytes)) return {SlotState::blank, {}, false};
-  if (canopen::load_le(bytes.data(), 8) != kMagic) return {SlotState::headless, {}, false};
-  if (load_u32(bytes, kHeaderCrcAt) != crc32c({bytes.data(), kHeaderCrcAt}))
+  if (load_le(bytes.data(), 8) != kMagic) return {SlotState::headless, {}, false};
+  if (load_u32(&bytes[kHeaderCrcAt]) != crc32c({bytes.data(), kHeaderCrcAt}))
     return {SlotState::headless, {}, false};
-  const RecordHeader header{load_u32(bytes, 8),
-                            {load_u32(bytes, 12), load_u32(bytes, 16)},
-                            {load_u32(bytes, 20), load_u32(bytes, 24)}};
+  const RecordHeader header{load_u32(&bytes[8]),
+                            {load_u32(&bytes[12]), load_u32(&bytes[16])},
+                            {load_u32(&bytes[20]), load_u32(&bytes[24])}};
   if (!record_fits(header.parameters.size, header.image.size, sector_bytes))
     return {SlotState::headless, {}, false};
   return {SlotState::valid, header, false};

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 
 namespace volcomp::node {
 
@@ -25,30 +25,30 @@ constexpr std::uint8_t kWholePdo = 0xFF;
 constexpr std::size_t kPdoBytes = 10 + 4 * canopen::kMostMapped;
 
 bool signed_with(Span<const std::uint8_t> signature, std::uint32_t word) {
-  return canopen::load_le(signature.data(), 4) == word;
+  return load_le(signature.data(), 4) == word;
 }
 
 std::array<std::uint8_t, kPdoBytes> pack(const PdoParameters& p) {
   std::array<std::uint8_t, kPdoBytes> bytes{};
-  canopen::store_le(bytes.data(), 4, p.cob_id);
+  store_le(bytes.data(), 4, p.cob_id);
   bytes[4] = p.type;
-  canopen::store_le(&bytes[5], 2, p.inhibit_100us);
-  canopen::store_le(&bytes[7], 2, p.event_timer_ms);
+  store_le(&bytes[5], 2, p.inhibit_100us);
+  store_le(&bytes[7], 2, p.event_timer_ms);
   bytes[9] = p.count;
   for (std::size_t i = 0; i < canopen::kMostMapped; ++i)
-    canopen::store_le(&bytes[10 + 4 * i], 4, p.mapping[i]);
+    store_le(&bytes[10 + 4 * i], 4, p.mapping[i]);
   return bytes;
 }
 
 PdoParameters unpack(const std::uint8_t* bytes) {
   PdoParameters p;
-  p.cob_id = static_cast<std::uint32_t>(canopen::load_le(bytes, 4));
+  p.cob_id = load_u32(bytes);
   p.type = bytes[4];
-  p.inhibit_100us = static_cast<std::uint16_t>(canopen::load_le(bytes + 5, 2));
-  p.event_timer_ms = static_cast<std::uint16_t>(canopen::load_le(bytes + 7, 2));
+  p.inhibit_100us = static_cast<std::uint16_t>(load_le(bytes + 5, 2));
+  p.event_timer_ms = static_cast<std::uint16_t>(load_le(bytes + 7, 2));
   p.count = static_cast<std::uint8_t>(std::min<std::size_t>(bytes[9], canopen::kMostMapped));
   for (std::size_t i = 0; i < canopen::kMostMapped; ++i)
-    p.mapping[i] = static_cast<std::uint32_t>(canopen::load_le(bytes + 10 + 4 * i, 4));
+    p.mapping[i] = load_u32(bytes + 10 + 4 * i);
   return p;
 }
 
@@ -62,7 +62,7 @@ class RecordWriter {
 
   void add(std::uint16_t index, std::uint8_t sub, Span<const std::uint8_t> value) {
     if (at_ + kRecordHeader + value.size() > out_.size()) return;
-    canopen::store_le(&out_[at_], 2, index);
+    store_le(&out_[at_], 2, index);
     out_[at_ + 2] = sub;
     out_[at_ + 3] = static_cast<std::uint8_t>(value.size());
     std::copy(value.begin(), value.end(), &out_[at_ + kRecordHeader]);
@@ -163,7 +163,7 @@ void StorePart::apply_parameters(Span<const std::uint8_t> stored, bool applicati
   std::size_t learned = 0;
   std::size_t at = 0;
   while (at + kRecordHeader <= stored.size()) {
-    const auto index = static_cast<std::uint16_t>(canopen::load_le(&stored[at], 2));
+    const auto index = static_cast<std::uint16_t>(load_le(&stored[at], 2));
     const std::uint8_t sub = stored[at + 2];
     const Span<const std::uint8_t> value{stored.data() + at + kRecordHeader, stored[at + 3]};
     at += kRecordHeader + value.size();

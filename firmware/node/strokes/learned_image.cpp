@@ -1,16 +1,11 @@
 #include "firmware/node/strokes/learned_image.hpp"
 
 #include <cmath>
-#include <cstring>
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/crc32.hpp"
-#include "firmware/canopen/bytes.hpp"
 
 namespace volcomp::node {
-
-using canopen::load_le;
-using canopen::load_le_signed;
-using canopen::store_le;
 
 namespace {
 
@@ -27,11 +22,11 @@ constexpr std::size_t kFeed = 28;
 LearnedLayout layout_of(Span<const std::uint8_t> image) {
   const std::uint8_t* const at = image.data();
   LearnedLayout layout;
-  layout.machine_id = static_cast<std::uint32_t>(load_le(at + kMachine, 4));
+  layout.machine_id = load_u32(at + kMachine);
   layout.nodes = static_cast<std::uint16_t>(load_le(at + kNodes, 2));
   layout.slots = static_cast<std::uint16_t>(load_le(at + kSlots, 2));
   layout.first_node_nm = load_le_signed(at + kFirst, 8);
-  layout.pitch_nm = static_cast<std::uint32_t>(load_le(at + kPitch, 4));
+  layout.pitch_nm = load_u32(at + kPitch);
   layout.feed_nm_per_s = static_cast<std::int32_t>(load_le_signed(at + kFeed, 4));
   return layout;
 }
@@ -64,10 +59,7 @@ Status fits(const LearnedLayout& its, const LearnedLayout& mine) {
 }  // namespace
 
 void store_real(std::uint8_t* at, double value) {
-  const auto narrow = static_cast<float>(value);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &narrow, sizeof bits);
-  store_le(at, sizeof bits, bits);
+  store_le(at, 4, bit_cast<std::uint32_t>(static_cast<float>(value)));
 }
 
 void encode_learned(const LearnedLayout& layout, const LearnedTables& tables,
@@ -110,10 +102,7 @@ Status check_learned(Span<const std::uint8_t> image, const LearnedLayout& mine,
 std::int32_t learned_feed(Span<const std::uint8_t> image) { return layout_of(image).feed_nm_per_s; }
 
 double learned_value(Span<const std::uint8_t> image, std::size_t index) {
-  const auto bits = static_cast<std::uint32_t>(load_le(&image[kLearnedHeader + 4 * index], 4));
-  float value = 0.0F;
-  std::memcpy(&value, &bits, sizeof value);
-  return static_cast<double>(value);
+  return static_cast<double>(load_f32(&image[kLearnedHeader + 4 * index]));
 }
 
 }  // namespace volcomp::node

@@ -1,7 +1,7 @@
 // Strokes on the bus: what the background makes of the passes.
 
+#include "comp/core/bytes.hpp"
 #include "comp/strokes/spectral_line.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "firmware/node/strokes/stroke_service.hpp"
 
 namespace volcomp::node {

@@ -1,7 +1,6 @@
 #pragma once
 // Places at which a machine of any axes is measured: along its diagonals and all over its travel.
 
-#include <string>
 #include <vector>
 
 #include "host_sim/sim/campaign/measured_diagonals.hpp"

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/crc32.hpp"
-#include "comp/core/little_endian.hpp"
 #include "comp/strokes/helix_instances.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
@@ -203,7 +203,7 @@ LearnedTables BusGrinder::tables() {
   const std::size_t body = image.size() - 4;
   if (crc32({image.data(), body}) != load_u32(&image[body])) throw damaged();
   const auto number_at = [&image](std::size_t at, std::size_t count) {
-    return canopen::load_le(&image[at], count);
+    return load_le(&image[at], count);
   };
   const auto nodes = static_cast<std::size_t>(number_at(12, 2));
   const auto slots = static_cast<std::size_t>(number_at(14, 2));

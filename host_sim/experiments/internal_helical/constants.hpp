@@ -7,8 +7,6 @@
 // the encoder. Neighbouring slots are ground in opposite directions, else learning C alone could
 // not raise f_p to 86 µm.
 
-#include <cstdint>
-
 #include "comp/core/units.hpp"
 
 namespace volcomp::internal_helical {

@@ -1,7 +1,6 @@
 #include "host_sim/experiments/internal_helical/figures.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
 #include "host_sim/experiments/l300g/inspection_plan.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "host_sim/host/io/user_error.hpp"

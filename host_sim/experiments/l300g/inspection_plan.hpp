@@ -2,7 +2,6 @@
 // What an inspection touches, in which order, and how the machine moves at each touch.
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "comp/metrology/gears/gear_deviations.hpp"

@@ -1,7 +1,6 @@
 #include "host_sim/experiments/l300g/machine_errors.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <map>
 
 #include "comp/core/units.hpp"

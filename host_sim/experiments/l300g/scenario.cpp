@@ -1,7 +1,6 @@
 #include "host_sim/experiments/l300g/scenario.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/volumetric.hpp"

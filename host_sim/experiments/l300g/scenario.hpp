@@ -3,7 +3,6 @@
 // paper's procedure, every touch through drives, bus and node (docs/papers/l300g.md).
 
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "hal/loopback/frame_bits.hpp"
@@ -23,7 +23,7 @@ constexpr std::uint64_t kFirstPatience_us = 2'000'000;
 // The number on the wire; nothing when the frame is too short.
 std::optional<std::int64_t> raw_of(const BusSignal& s, const hal::CanFrame& frame) {
   if (s.first_bit + s.bits > std::size_t{frame.size} * 8) return std::nullopt;
-  const std::uint64_t value = canopen::load_le(frame.data.data(), frame.size) >> s.first_bit;
+  const std::uint64_t value = load_le(frame.data.data(), frame.size) >> s.first_bit;
   const std::uint64_t mask = s.bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.bits) - 1;
   const std::uint64_t cut = value & mask;
   const bool negative = s.is_signed && (cut >> (s.bits - 1) & 1U) != 0;
@@ -182,10 +182,10 @@ void BusMonitor::take_heartbeat(std::uint8_t id, std::uint64_t time_us,
 void BusMonitor::take_emergency(std::uint8_t id, std::uint64_t time_us,
                                 const hal::CanFrame& frame) {
   if (id == 0 || frame.size != 8) return;
-  const unsigned code = frame.data[0] | unsigned{frame.data[1]} << 8U;
+  const auto code = static_cast<unsigned>(load_le(frame.data.data(), 2));
   std::string text;
   if (code == 0 && id == settings_.node) {
-    const unsigned gone = frame.data[4] | unsigned{frame.data[5]} << 8U;
+    const auto gone = static_cast<unsigned>(load_le(&frame.data[4], 2));
     text = "gone: " + describe_error(gone | std::uint32_t{frame.data[3]} << 16U);
   } else if (code == 0) {
     text = "an error is gone";

@@ -3,14 +3,13 @@
 // or a motion controller keeps per node.
 
 #include <algorithm>
-#include <cstring>
 #include <deque>
 #include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/sdo_client.hpp"
 #include "firmware/node/object_handles.hpp"
 #include "hal/can_port.hpp"
@@ -19,7 +18,7 @@ namespace volcomp::host {
 
 // An unsigned number from the bytes of an object.
 [[nodiscard]] inline std::uint64_t number(const std::vector<std::uint8_t>& bytes) {
-  return canopen::load_le(bytes.data(), bytes.size() < 8 ? bytes.size() : 8);
+  return load_le(bytes.data(), bytes.size() < 8 ? bytes.size() : 8);
 }
 
 // The value of a Handle<T> from its bytes; text up to its end.
@@ -27,13 +26,21 @@ template <class T>
 [[nodiscard]] auto value_of(const std::vector<std::uint8_t>& bytes) {
   if constexpr (std::is_same_v<T, char>) {
     return std::string(bytes.begin(), std::find(bytes.begin(), bytes.end(), 0));
-  } else if constexpr (std::is_floating_point_v<T>) {
-    T value = 0;
-    std::memcpy(&value, bytes.data(), std::min(bytes.size(), sizeof value));
-    return value;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return bit_cast<double>(number(bytes));
+  } else if constexpr (std::is_same_v<T, float>) {
+    return bit_cast<float>(static_cast<std::uint32_t>(number(bytes)));
   } else {
     return static_cast<T>(number(bytes));
   }
+}
+
+// The other way round, two's complement or IEEE 754.
+template <class T>
+[[nodiscard]] std::uint64_t bits_of(T value) {
+  if constexpr (std::is_same_v<T, double>) return bit_cast<std::uint64_t>(value);
+  if constexpr (std::is_same_v<T, float>) return bit_cast<std::uint32_t>(value);
+  return static_cast<std::uint64_t>(value);
 }
 
 class SdoChannel {
@@ -51,7 +58,7 @@ class SdoChannel {
   template <class T>
   void write_value(canopen::ObjectId object, T value, std::string what, OnDone done = {}) {
     Bytes bytes(sizeof(T));
-    canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
+    store_le(bytes.data(), sizeof(T), bits_of(value));
     write(object, std::move(bytes), std::move(what), std::move(done));
   }
   template <class T>

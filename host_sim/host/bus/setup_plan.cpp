@@ -115,7 +115,7 @@ void append(SetupPlan& plan, const SetupPlan& more) {
 
 SdoChannel::Bytes PlannedValue::bytes() const {
   SdoChannel::Bytes value(canopen::size_of(type));
-  canopen::store_le(value.data(), value.size(), bits);
+  store_le(value.data(), value.size(), bits);
   return value;
 }
 

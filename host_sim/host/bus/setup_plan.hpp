@@ -3,7 +3,6 @@
 // setup` carries the plan out, and the simulated controller follows it at every start.
 
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -32,10 +31,9 @@ using SetupPlan = std::vector<PlannedValue>;
 template <class T>
 void plan_value(SetupPlan& plan, canopen::ObjectId object, T value, std::string name,
                 std::string unit = {}) {
-  SdoChannel::Bytes bytes(sizeof(T));
-  std::memcpy(bytes.data(), &value, sizeof(T));
-  plan.push_back({object, canopen::object_lines::type_of<T>(), number(bytes), std::move(name),
-                  std::move(unit), false});
+  constexpr std::uint64_t kBits = UINT64_MAX >> (64 - 8 * sizeof(T));
+  plan.push_back({object, canopen::object_lines::type_of<T>(), bits_of(value) & kBits,
+                  std::move(name), std::move(unit), false});
 }
 
 // The same under the name that it has in the dictionary.

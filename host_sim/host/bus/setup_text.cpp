@@ -1,7 +1,6 @@
 // A set-up for people, as a table, and for programs.
 
 #include <algorithm>
-#include <cstring>
 
 #include <fmt/format.h>
 
@@ -11,12 +10,6 @@
 
 namespace volcomp::host {
 namespace {
-
-double real_of(std::uint64_t bits) {
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 std::int64_t signed_of(canopen::DataType type, std::uint64_t bits) {
   const std::size_t unused = 64 - 8 * canopen::size_of(type);
@@ -28,7 +21,7 @@ std::string object_name(canopen::ObjectId object) {
 }
 
 nlohmann::json value_json(const PlannedValue& v, std::uint64_t bits) {
-  if (v.type == canopen::DataType::real64) return real_of(bits);
+  if (v.type == canopen::DataType::real64) return bit_cast<double>(bits);
   if (canopen::is_signed(v.type)) return signed_of(v.type, bits);
   return bits;
 }

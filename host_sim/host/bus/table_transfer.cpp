@@ -1,7 +1,6 @@
 #include "host_sim/host/bus/table_transfer.hpp"
 
 #include <array>
-#include <iterator>
 
 #include <fmt/format.h>
 

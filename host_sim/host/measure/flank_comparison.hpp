@@ -6,7 +6,6 @@
 // What the paper's tables leave open is an option here and is printed with every result.
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,7 +2,6 @@
 // Predicts from the tables in a node what a diagonal shows once they compensate it.
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 

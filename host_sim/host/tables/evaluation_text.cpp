@@ -1,7 +1,6 @@
 #include "host_sim/host/tables/evaluation_text.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

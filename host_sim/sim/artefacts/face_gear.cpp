@@ -1,6 +1,5 @@
 #include "host_sim/sim/artefacts/face_gear.hpp"
 
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -1,6 +1,5 @@
 #include "host_sim/sim/campaign/simulated_measurement.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -89,7 +89,7 @@ void BusController::receive(const hal::CanFrame& frame, std::uint64_t now_us) {
       emergencies_.push_back(
           {now_us,
            node,
-           static_cast<std::uint16_t>(canopen::load_le(frame.data.data(), 2)),
+           static_cast<std::uint16_t>(load_le(frame.data.data(), 2)),
            frame.data[2],
            {frame.data[3], frame.data[4], frame.data[5], frame.data[6], frame.data[7]}});
       return;

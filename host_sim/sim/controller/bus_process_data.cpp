@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint8_t kCounterOverflow = 240;
 
 std::uint64_t le(const hal::CanFrame& frame, std::size_t at, std::size_t count) {
-  return canopen::load_le(&frame.data.at(at), count);
+  return load_le(&frame.data.at(at), count);
 }
 
 }  // namespace
@@ -76,9 +76,9 @@ void BusController::send_process_state(const host::ProcessState& state) {
   hal::CanFrame frame;
   frame.id = static_cast<std::uint16_t>(canopen::kTpdo1 + settings_.controller);
   frame.size = 8;
-  canopen::store_le(frame.data.data(), 2, state.slot);
-  canopen::store_le(&frame.data[2], 2, flags);
-  canopen::store_le(&frame.data[4], 4, static_cast<std::uint32_t>(state.feed_nm_per_s));
+  store_le(frame.data.data(), 2, state.slot);
+  store_le(&frame.data[2], 2, flags);
+  store_le(&frame.data[4], 4, static_cast<std::uint32_t>(state.feed_nm_per_s));
   send_latest(frame);
 }
 
@@ -91,7 +91,7 @@ void BusController::send_temperatures(const Temperatures& temperatures) {
     const bool known = std::isfinite(temperatures[i]);
     const auto hundredths = known ? static_cast<std::int16_t>(std::lround(100.0F * temperatures[i]))
                                   : TemperatureInput::kNone;
-    canopen::store_le(&frame.data.at(2 * i), 2, static_cast<std::uint16_t>(hundredths));
+    store_le(&frame.data.at(2 * i), 2, static_cast<std::uint16_t>(hundredths));
   }
   send_latest(frame);
 }
@@ -103,8 +103,8 @@ void BusController::send_time(std::int64_t unix_s) {
   hal::CanFrame frame;
   frame.id = canopen::kTime;
   frame.size = 6;
-  canopen::store_le(frame.data.data(), 4, static_cast<std::uint32_t>(unix_s % kDay_s * 1000));
-  canopen::store_le(&frame.data[4], 2, static_cast<std::uint16_t>(unix_s / kDay_s - kDaysTo1984));
+  store_le(frame.data.data(), 4, static_cast<std::uint32_t>(unix_s % kDay_s * 1000));
+  store_le(&frame.data[4], 2, static_cast<std::uint16_t>(unix_s / kDay_s - kDaysTo1984));
   send_latest(frame);
 }
 
@@ -115,8 +115,8 @@ void BusController::send_targets(const std::vector<std::int32_t>& path) {
     hal::CanFrame frame;
     frame.id = static_cast<std::uint16_t>(canopen::kRpdo1 + settings_.axes[a].drive);
     frame.size = 6;
-    canopen::store_le(frame.data.data(), 2, axis_[a].control_word());
-    canopen::store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()));
+    store_le(frame.data.data(), 2, axis_[a].control_word());
+    store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()));
     send_latest(frame);
   }
   set_modes();

@@ -1,6 +1,5 @@
 #include "host_sim/sim/controller/node_probe.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "comp/core/units.hpp"
@@ -12,7 +11,7 @@ namespace {
 std::uint32_t nm_of(double mm) { return static_cast<std::uint32_t>(std::llround(kNmPerMm * mm)); }
 
 double mm_at(const hal::CanFrame& frame, std::size_t at) {
-  return static_cast<double>(canopen::load_le_signed(&frame.data.at(at), 4)) / kNmPerMm;
+  return static_cast<double>(load_le_signed(&frame.data.at(at), 4)) / kNmPerMm;
 }
 
 }  // namespace
@@ -50,15 +49,15 @@ void PointReader::take(std::size_t number, const hal::CanFrame& frame) {
   if (frame.size != 8) return;
   if (number == 0) {
     next_ = {};
-    next_.sequence = static_cast<std::uint32_t>(canopen::load_le(frame.data.data(), 4));
+    next_.sequence = static_cast<std::uint32_t>(load_le(frame.data.data(), 4));
     next_.verdict = static_cast<TouchVerdict>(frame.data[4]);
     next_.axis = frame.data[5];
-    next_.feature = static_cast<std::uint16_t>(canopen::load_le(&frame.data[6], 2));
+    next_.feature = static_cast<std::uint16_t>(load_le(&frame.data[6], 2));
   } else if (number == 1) {
     next_.workpiece.head<2>() << mm_at(frame, 0), mm_at(frame, 4);
   } else {
     next_.workpiece.z() = mm_at(frame, 0);
-    next_.uncertainty = static_cast<double>(canopen::load_le(&frame.data[4], 4)) / kNmPerMm;
+    next_.uncertainty = static_cast<double>(load_le(&frame.data[4], 4)) / kNmPerMm;
     points_.push_back(next_);
   }
 }

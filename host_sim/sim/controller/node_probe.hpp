@@ -4,7 +4,6 @@
 //
 // The records of 2410h hold more, but 192 bytes in a burst leave no room on the bus for heartbeats.
 
-#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "host_sim/sim/controller/prober.hpp"
 
-#include <cstring>
-
 #include <fmt/format.h>
 
 #include "host_sim/host/io/user_error.hpp"
@@ -11,12 +9,6 @@ namespace {
 
 // Periods; a setting takes one to ten.
 constexpr int kLongestTransfer = 5000;
-
-host::SdoChannel::Bytes bytes_of(double value) {
-  host::SdoChannel::Bytes bytes(sizeof value);
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
-}
 
 }  // namespace
 
@@ -38,8 +30,8 @@ void Prober::announce(const Vec3& normal, const FlankFeature& flank) {
   host::SdoChannel& node = axes_.controller().node_objects();
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (normal(k) < normal_(k) || normal(k) > normal_(k))
-      node.write(volcomp::node::object::probe::normal[static_cast<std::size_t>(k)].id(),
-                 bytes_of(normal(k)), "normal");
+      node.write_value(volcomp::node::object::probe::normal[static_cast<std::size_t>(k)].id(),
+                       normal(k), "normal");
   }
   normal_ = normal;
   queue_flank(node, flank, flank_);

@@ -2,7 +2,6 @@
 // Everything on one simulated CAN bus, moved through time together.
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "firmware/canopen/exchange.hpp"

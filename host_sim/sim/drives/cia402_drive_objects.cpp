@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "host_sim/sim/drives/cia402_drive.hpp"
 #include "host_sim/sim/drives/cia402_touch_probe.hpp"
 
@@ -119,7 +119,7 @@ bool Cia402Drive::possible(canopen::ObjectId object, std::int64_t value) const {
 AbortCode Cia402Drive::before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
   const std::size_t size = bytes.size();
   if (size != 1 && size != 2) return AbortCode::none;  // as large as the choices are
-  const std::int64_t value = canopen::load_le_signed(bytes.data(), size);
+  const std::int64_t value = load_le_signed(bytes.data(), size);
   return possible(object, value) ? AbortCode::none : AbortCode::invalid_value;
 }
 

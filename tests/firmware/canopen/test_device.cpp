@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/device.inl"
 
 namespace volcomp::canopen::test {

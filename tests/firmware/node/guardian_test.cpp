@@ -1,6 +1,6 @@
 // The guardian: which context hangs, what happens to the corrections, and when the watchdog bites.
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "tests/firmware/node/task_bench.hpp"
 
 namespace volcomp::node {

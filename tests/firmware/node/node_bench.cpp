@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "comp/core/bytes.hpp"
 #include "comp/core/crc32.hpp"
 #include "comp/tables/image.hpp"
-#include "firmware/canopen/bytes.hpp"
 
 namespace volcomp::node {
 namespace {
@@ -29,10 +29,10 @@ void reseal(Bytes& image, const MachineTables& tables) {
   for (std::size_t a = 0; a < NodeBench::kDrives; ++a) {
     const std::size_t begin = axis_at(tables, a);
     const std::size_t end = image_value_offset(tables, a, 2, 0, 0);
-    canopen::store_le(&image[end], kCrc, crc32c({&image[begin], end - begin}));
+    store_le(&image[end], kCrc, crc32c({&image[begin], end - begin}));
   }
   const std::size_t end = image.size() - kCrc;
-  canopen::store_le(&image[end], kCrc, crc32({image.data(), end}));
+  store_le(&image[end], kCrc, crc32({image.data(), end}));
 }
 
 MachineTables bench_tables(std::uint64_t seed) {
@@ -73,7 +73,7 @@ bool BenchDevice::emergency(canopen::ErrorCode code, std::uint8_t source) const 
 void BenchDevice::hear(const hal::CanFrame& f, std::uint64_t now_us) {
   if (f.id == canopen::kSdoResponse + kBenchId) client_.response(f.data, now_us);
   if (f.id != canopen::kEmergency + kBenchId) return;
-  const auto code = static_cast<std::uint16_t>(canopen::load_le(f.data.data(), 2));
+  const auto code = static_cast<std::uint16_t>(load_le(f.data.data(), 2));
   emergencies.push_back({code, f.data[2], f.data[3]});
 }
 
@@ -107,8 +107,7 @@ void NodeBench::drain() {
     hear(f, now_us);
     if (f.id != canopen::kSdoResponse + kId) sent.push_back(f);
     for (std::size_t a = 0; a < kDrives; ++a) {
-      if (f.id == 0x301U + a)
-        drive[a].next = static_cast<std::int32_t>(canopen::load_le(f.data.data(), 4));
+      if (f.id == 0x301U + a) drive[a].next = static_cast<std::int32_t>(load_le(f.data.data(), 4));
     }
   }
 }
@@ -141,7 +140,7 @@ canopen::AbortCode NodeBench::read(canopen::ObjectId object, Bytes& value) {
 std::uint64_t NodeBench::number(std::uint16_t index, std::uint8_t sub) {
   Bytes value;
   EXPECT_EQ(read({index, sub}, value), canopen::AbortCode::none) << std::hex << index;
-  return canopen::load_le(value.data(), std::min<std::size_t>(value.size(), 8));
+  return load_le(value.data(), std::min<std::size_t>(value.size(), 8));
 }
 
 std::string NodeBench::text(std::uint16_t index, std::uint8_t sub) {
@@ -191,21 +190,21 @@ void NodeBench::sync() {
 void NodeBench::drive_data(std::size_t axis) {
   const BenchDrive& d = drive[axis];
   hal::CanFrame f = bench_frame(0x181U + static_cast<unsigned>(axis), 8);
-  canopen::store_le(f.data.data(), 4, static_cast<std::uint32_t>(d.target + d.held));
-  canopen::store_le(&f.data[4], 2, d.status);
+  store_le(f.data.data(), 4, static_cast<std::uint32_t>(d.target + d.held));
+  store_le(&f.data[4], 2, d.status);
   give(f);
 }
 
 void NodeBench::offset_report(std::size_t axis) {
   hal::CanFrame f = bench_frame(0x481U + static_cast<unsigned>(axis), 4);
-  canopen::store_le(f.data.data(), 4, static_cast<std::uint32_t>(drive[axis].held));
+  store_le(f.data.data(), 4, static_cast<std::uint32_t>(drive[axis].held));
   give(f);
 }
 
 void NodeBench::controller_data(std::size_t axis) {
   hal::CanFrame f = bench_frame(0x201U + static_cast<unsigned>(axis), 6);
-  canopen::store_le(f.data.data(), 2, 0x0F);
-  canopen::store_le(&f.data[2], 4, static_cast<std::uint32_t>(drive[axis].target));
+  store_le(f.data.data(), 2, 0x0F);
+  store_le(&f.data[2], 4, static_cast<std::uint32_t>(drive[axis].target));
   give(f);
 }
 

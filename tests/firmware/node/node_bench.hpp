@@ -54,7 +54,7 @@ class BenchDevice {
   template <class T>
   canopen::AbortCode set(std::uint16_t index, std::uint8_t sub, T value) {
     Bytes bytes(sizeof(T));
-    canopen::store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
+    store_le(bytes.data(), sizeof(T), static_cast<std::uint64_t>(value));
     return write({index, sub}, bytes);
   }
   canopen::AbortCode command(TableCommand command) {

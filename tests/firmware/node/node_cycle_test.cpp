@@ -1,7 +1,7 @@
 // The cycle of the node: its deadline, its own SYNC, its partners, its process data in another
 // order, drives that can not report.
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "tests/firmware/node/node_bench.hpp"
 
 namespace volcomp::node {
@@ -255,10 +255,10 @@ TEST(NodeProcessData, AnotherMappingMarksTheAxesAsFreshToo) {
     for (std::size_t a = 0; a < 3; ++a) {
       const auto target = static_cast<std::uint32_t>(bench.drive[a].target);
       hal::CanFrame command{static_cast<std::uint16_t>(0x201 + a), 6, {}};
-      canopen::store_le(command.data.data(), 4, target);
+      store_le(command.data.data(), 4, target);
       hal::CanFrame actual{static_cast<std::uint16_t>(0x181 + a), 6, {}};
-      canopen::store_le(actual.data.data(), 2, 0x0127);
-      canopen::store_le(&actual.data[2], 4, target);
+      store_le(actual.data.data(), 2, 0x0127);
+      store_le(&actual.data[2], 4, target);
       bench.give(actual);
       bench.offset_report(a);
       bench.give(command);

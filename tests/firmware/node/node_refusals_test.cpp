@@ -4,8 +4,8 @@
 
 #include <limits>
 
+#include "comp/core/bytes.hpp"
 #include "comp/tables/image.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "tests/firmware/node/node_bench.hpp"
 
 namespace volcomp::node {
@@ -16,7 +16,7 @@ using canopen::ErrorCode;
 using canopen::NmtCommand;
 
 void put(Bytes& image, std::size_t at, std::size_t count, std::uint64_t value) {
-  canopen::store_le(&image[at], count, value);
+  store_le(&image[at], count, value);
 }
 
 class NodeRefusals : public ::testing::Test {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/exchange.hpp"
 #include "tests/firmware/node/task_bench.hpp"
@@ -21,7 +21,7 @@ using Frames = std::vector<hal::CanFrame>;
 
 hal::CanFrame sdo_read(std::uint16_t index, std::uint8_t sub) {
   hal::CanFrame f{canopen::kSdoRequest + NodeBench::kId, 8, {0x40}};
-  canopen::store_le(&f.data[1], 2, index);
+  store_le(&f.data[1], 2, index);
   f.data[3] = sub;
   return f;
 }
@@ -29,7 +29,7 @@ hal::CanFrame sdo_read(std::uint16_t index, std::uint8_t sub) {
 hal::CanFrame sdo_write_u32(std::uint16_t index, std::uint8_t sub, std::uint32_t value) {
   hal::CanFrame f = sdo_read(index, sub);
   f.data[0] = 0x23;
-  canopen::store_le(&f.data[4], 4, value);
+  store_le(&f.data[4], 4, value);
   return f;
 }
 

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "tests/firmware/node/single_step.hpp"
 #include "tests/firmware/node/task_bench.hpp"

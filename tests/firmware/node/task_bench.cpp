@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 
 namespace volcomp::node {
 bool BenchPort::send(const hal::CanFrame& frame) {
@@ -48,13 +48,13 @@ std::vector<hal::CanFrame> BenchBus::turn() {
     if (d.silent) continue;
     const auto id = static_cast<unsigned>(a) + 1U;
     hal::CanFrame actual = bench_frame(0x180U + id, 8);
-    canopen::store_le(actual.data.data(), 4, static_cast<std::uint32_t>(d.target + d.held));
-    canopen::store_le(&actual.data[4], 2, d.status);
+    store_le(actual.data.data(), 4, static_cast<std::uint32_t>(d.target + d.held));
+    store_le(&actual.data[4], 2, d.status);
     hal::CanFrame held = bench_frame(0x480U + id, 4);
-    canopen::store_le(held.data.data(), 4, static_cast<std::uint32_t>(d.held));
+    store_le(held.data.data(), 4, static_cast<std::uint32_t>(d.held));
     hal::CanFrame target = bench_frame(0x200U + id, 6);
-    canopen::store_le(target.data.data(), 2, 0x0F);
-    canopen::store_le(&target.data[2], 4, static_cast<std::uint32_t>(d.target));
+    store_le(target.data.data(), 2, 0x0F);
+    store_le(&target.data[2], 4, static_cast<std::uint32_t>(d.target));
     frames.insert(frames.end(), {actual, held, target});
   }
   return frames;
@@ -69,8 +69,7 @@ void BenchBus::nmt(canopen::NmtCommand command) {
 
 void BenchBus::hear(const hal::CanFrame& f) {
   const std::size_t axis = f.id - 0x301U;
-  if (axis < drive.size())
-    drive[axis].next = static_cast<std::int32_t>(canopen::load_le(f.data.data(), 4));
+  if (axis < drive.size()) drive[axis].next = static_cast<std::int32_t>(load_le(f.data.data(), 4));
 }
 
 // --- task

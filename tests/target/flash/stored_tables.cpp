@@ -56,7 +56,7 @@ bool write(Node& node, volcomp::canopen::ObjectId object, Span<const std::uint8_
 template <class T>
 bool set(Node& node, volcomp::canopen::ObjectId object, T value) {
   std::array<std::uint8_t, sizeof(T)> bytes{};
-  volcomp::canopen::store_le(bytes.data(), sizeof(T), value);
+  volcomp::store_le(bytes.data(), sizeof(T), value);
   return write(node, object, bytes);
 }
 

@@ -1,14 +1,13 @@
 #include "host_sim/host/bus/device_files/eds_objects.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/node/node.hpp"
 
 namespace volcomp::host {
@@ -86,7 +85,7 @@ Bytes Twins::bytes(const node::Node& node, ObjectId object) {
     PdoTable::Value value;
     static_cast<void>(node.device().pdos().read(object, value));
     Bytes all(value.bytes);
-    canopen::store_le(all.data(), all.size(), value.value);
+    store_le(all.data(), all.size(), value.value);
     return all;
   }
   const canopen::ObjectDictionary::Found found = node.device().objects().find(object);
@@ -95,24 +94,16 @@ Bytes Twins::bytes(const node::Node& node, ObjectId object) {
   return {found.value, found.value + canopen::ObjectDictionary::size(*found.entry, found.value)};
 }
 
-template <class Real>
-std::string real_text(const Bytes& bytes) {
-  Real value = 0;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return fmt::format("{}", value);
-}
-
 std::optional<std::string> Twins::text(ObjectId object, DataType type) const {
   if (object.index == kErrorField && object.sub > 0) return std::nullopt;
   const Bytes mine = bytes(*first_, object);
   if (type == DataType::visible_string) return std::string(mine.begin(), mine.end());
   const std::size_t size = mine.size();
   if (size == 0) return std::nullopt;  // a domain
-  if (canopen::is_signed(type))
-    return fmt::format("{}", canopen::load_le_signed(mine.data(), size));
-  if (type == DataType::real32) return real_text<float>(mine);
-  if (type == DataType::real64) return real_text<double>(mine);
-  const std::uint64_t value = canopen::load_le(mine.data(), size);
+  if (canopen::is_signed(type)) return fmt::format("{}", load_le_signed(mine.data(), size));
+  const std::uint64_t value = load_le(mine.data(), size);
+  if (type == DataType::real32) return fmt::format("{}", load_f32(mine.data()));
+  if (type == DataType::real64) return fmt::format("{}", bit_cast<double>(value));
   if (mine != bytes(*second_, object)) return fmt::format("$NODEID+0x{:X}", value - kFirst);
   const bool identifier = object.index < 0x2000 && type == DataType::unsigned32;
   return identifier ? fmt::format("0x{:08X}", value) : fmt::format("{}", value);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/emergency.hpp"
 
@@ -138,7 +138,7 @@ void Comparison::take_answer(const LoggedFrame& logged, bool beside_sync) {
   const std::uint16_t id = logged.frame.id;
   last_cycle_ = now_.cycle;
   if (id == canopen::kEmergency + node_id_ && logged.frame.size == 8 &&
-      canopen::load_le(logged.frame.data.data(), 2) ==
+      load_le(logged.frame.data.data(), 2) ==
           static_cast<std::uint64_t>(canopen::ErrorCode::can_overrun))
     lacks("the node had not seen all frames that are in the log", UINT64_MAX);
   if (id == canopen::kHeartbeat + node_id_ || id == canopen::kEmergency + node_id_) return;
@@ -203,7 +203,7 @@ void Comparison::observe_timed() {
 
 // The first status frame shows the tables with which the node began.
 void Comparison::look_at_tables(const hal::CanFrame& status) {
-  const auto had = static_cast<std::uint32_t>(canopen::load_le(status.data.data(), 4));
+  const auto had = static_cast<std::uint32_t>(load_le(status.data.data(), 4));
   if (!status_seen_ && node_->active_crc() != had) result_.other_tables = had;
   status_seen_ = true;
 }

@@ -5,8 +5,6 @@
 // "What is written").
 
 #include <array>
-#include <string>
-#include <vector>
 
 #include "comp/metrology/tables/per_axis.hpp"
 #include "comp/metrology/tables/volumetric_model.hpp"

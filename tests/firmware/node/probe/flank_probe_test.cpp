@@ -190,7 +190,7 @@ TEST_F(FlankTouch, ABadRecordIsRefusedAndTheOldOneStays) {
                          Bad{7, 4, 0, Reason::bad_point}}) {
     stage();
     Bytes bytes(bad.size);
-    canopen::store_le(bytes.data(), bytes.size(), bad.value);
+    store_le(bytes.data(), bytes.size(), bad.value);
     ASSERT_EQ(bench.write({0x2313, bad.sub}, bytes), AbortCode::none);
     EXPECT_EQ(announce(), AbortCode::invalid_value) << +bad.sub;
     EXPECT_EQ(bench.number(0x2310, 5), static_cast<std::uint64_t>(bad.reason));

@@ -53,15 +53,15 @@ TEST_F(NodeProbe, ProcessDataTellTheLatestPoint) {
   const hal::CanFrame* xy = sent(0x3A0);
   const hal::CanFrame* z = sent(0x4A0);
   ASSERT_TRUE(number != nullptr && xy != nullptr && z != nullptr);
-  EXPECT_EQ(canopen::load_le(number->data.data(), 4), 1U);
+  EXPECT_EQ(load_le(number->data.data(), 4), 1U);
   EXPECT_EQ(number->data[4], static_cast<std::uint8_t>(TouchVerdict::point));
-  EXPECT_EQ(canopen::load_le(&number->data[6], 2), 0x3456U);
+  EXPECT_EQ(load_le(&number->data[6], 2), 0x3456U);
   const ReadPoint point = take();
   EXPECT_EQ(point.feature, 0x12'3456U);
-  EXPECT_EQ(canopen::load_le_signed(xy->data.data(), 4), point.workpiece[0]);
-  EXPECT_EQ(canopen::load_le_signed(&xy->data[4], 4), point.workpiece[1]);
-  EXPECT_EQ(canopen::load_le_signed(z->data.data(), 4), point.workpiece[2]);
-  EXPECT_EQ(canopen::load_le(&z->data[4], 4), 1235U);
+  EXPECT_EQ(load_le_signed(xy->data.data(), 4), point.workpiece[0]);
+  EXPECT_EQ(load_le_signed(&xy->data[4], 4), point.workpiece[1]);
+  EXPECT_EQ(load_le_signed(z->data.data(), 4), point.workpiece[2]);
+  EXPECT_EQ(load_le(&z->data[4], 4), 1235U);
 }
 
 TEST_F(NodeProbe, TheRadiusGoesAlongTheNormal) {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "comp/core/bytes.hpp"
 #include "comp/tick/touch.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "firmware/node/probe/point_fifo.hpp"
 #include "tests/firmware/node/node_bench.hpp"
 
@@ -97,13 +97,13 @@ class NodeProbe : public testing::Test {
   }
   void send(std::size_t id, std::uint32_t value, std::uint8_t size) {
     hal::CanFrame f = bench_frame(static_cast<unsigned>(id), size);
-    canopen::store_le(f.data.data(), size, value);
+    store_le(f.data.data(), size, value);
     bench.give(f);
   }
   void send_latch(std::size_t a) {
     hal::CanFrame f = bench_frame(static_cast<unsigned>(0x281U + a), 8);
-    canopen::store_le(f.data.data(), 4, static_cast<std::uint32_t>(position(a)));
-    canopen::store_le(&f.data[4], 4, kLatch_ns);
+    store_le(f.data.data(), 4, static_cast<std::uint32_t>(position(a)));
+    store_le(&f.data[4], 4, kLatch_ns);
     bench.give(f);
   }
   [[nodiscard]] std::int32_t position(std::size_t a) const {

@@ -47,7 +47,7 @@ class KeptBytes final : public Storage {
   std::uint8_t& value_of(std::uint16_t index, std::uint8_t sub) {
     std::size_t at = 0;
     while (at < parameters.size() &&
-           (canopen::load_le(&parameters[at], 2) != index || parameters[at + 2] != sub))
+           (load_le(&parameters[at], 2) != index || parameters[at + 2] != sub))
       at += 4U + parameters[at + 3];
     return parameters.at(at + 4);
   }
@@ -87,7 +87,7 @@ TEST_F(StoredValues, AnotherMappingOfAnOffsetIsLeftOut) {
   save();
   ASSERT_EQ(kept.value_of(0x1800, kWholePdo), 0x01);
   std::uint8_t* const mapping = &kept.value_of(0x1800, kWholePdo) + 10;
-  canopen::store_le(mapping, 4, 0x2112'0720);
+  store_le(mapping, 4, 0x2112'0720);
   bench.power_on();
   EXPECT_EQ(bench.number(0x1800, 2), 255U);
   EXPECT_EQ(bench.number(0x1A00, 1), 0x2020'0120U);
@@ -99,8 +99,8 @@ TEST_F(StoredValues, RemoteRequestsOfATpdoAreNotPromised) {
   const std::uint64_t cob_id = bench.number(kStatus, 1);
   save();
   std::uint8_t* const stored = &kept.value_of(kStatus, kWholePdo);
-  ASSERT_EQ(canopen::load_le(stored, 4), cob_id);
-  canopen::store_le(stored, 4, cob_id & ~std::uint64_t{canopen::kPdoNoRtr});
+  ASSERT_EQ(load_le(stored, 4), cob_id);
+  store_le(stored, 4, cob_id & ~std::uint64_t{canopen::kPdoNoRtr});
   bench.power_on();
   EXPECT_EQ(bench.number(kStatus, 5), 500U);
   EXPECT_EQ(bench.number(kStatus, 1), cob_id);

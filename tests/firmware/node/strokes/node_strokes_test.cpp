@@ -222,7 +222,7 @@ class LearnedTablesOfANode : public NodeStrokes {
     Bytes bytes = image;
     std::memcpy(&bytes[at], &value, sizeof value);
     const std::size_t end = bytes.size() - 4;
-    canopen::store_le(&bytes[end], 4, crc32({bytes.data(), end}));
+    store_le(&bytes[end], 4, crc32({bytes.data(), end}));
     return bytes;
   }
   void expect_refused(const Bytes& bytes, Reason why) {

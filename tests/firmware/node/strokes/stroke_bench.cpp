@@ -105,11 +105,11 @@ void StrokeBench::cycle(std::int32_t z_nm, std::uint16_t slot, bool up, bool end
   const bool lost = process_state_lost && process_state_lost(slot, up, z_nm * 1e-6);
   if (!lost) {
     hal::CanFrame f = bench_frame(0x1FF, 8);
-    canopen::store_le(f.data.data(), 2, slot);
+    store_le(f.data.data(), 2, slot);
     const unsigned flags = (now_.in_face ? kInFace : 0U) | (end ? kStrokeEnd : 0U) |
                            (up ? kStrokeForward : kStrokeBackward);
-    canopen::store_le(&f.data[2], 2, flags);
-    canopen::store_le(&f.data[4], 4, static_cast<std::uint32_t>(feed_nm_per_s));
+    store_le(&f.data[2], 2, flags);
+    store_le(&f.data[4], 4, static_cast<std::uint32_t>(feed_nm_per_s));
     bench.give(f);
   }
   for (std::size_t a = 0; a < 3; ++a) {

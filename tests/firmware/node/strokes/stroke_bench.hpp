@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "tests/firmware/node/node_bench.hpp"
 
 namespace volcomp::node {

@@ -244,9 +244,9 @@ class ForeignLearnedTables : public StrokeRefusals {
     image = grinder.image();
   }
   Bytes with(std::size_t at, std::size_t size, std::uint64_t value) {
-    canopen::store_le(&image[at], size, value);
+    store_le(&image[at], size, value);
     const std::size_t end = image.size() - 4;
-    canopen::store_le(&image[end], 4, crc32({image.data(), end}));
+    store_le(&image[end], 4, crc32({image.data(), end}));
     return image;
   }
   AbortCode download(const Bytes& bytes) { return grinder.bench.write({0x2526, 1}, bytes); }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "tests/firmware/node/node_bench.hpp"
 
 namespace volcomp::node {
@@ -34,15 +34,14 @@ class NodeThermal : public ::testing::Test {
     hal::CanFrame f = bench_frame(0x2FF, 8);
     const std::array<double, 4> celsius{first, second, third, fourth};
     for (std::size_t i = 0; i < 4; ++i)
-      canopen::store_le(&f.data[2 * i], 2,
-                        static_cast<std::uint16_t>(std::lround(100.0 * celsius[i])));
+      store_le(&f.data[2 * i], 2, static_cast<std::uint16_t>(std::lround(100.0 * celsius[i])));
     bench.give(f);
   }
   // CANopen TIME.
   void time(std::uint32_t midnight_ms, std::uint16_t days) {
     hal::CanFrame f = bench_frame(0x100, 6);
-    canopen::store_le(f.data.data(), 4, midnight_ms);
-    canopen::store_le(&f.data[4], 2, days);
+    store_le(f.data.data(), 4, midnight_ms);
+    store_le(&f.data[4], 2, days);
     bench.give(f);
   }
   // Long enough for the node to look, to fold and to ramp.

@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "comp/core/bytes.hpp"
 #include "comp/tables/image.hpp"
-#include "firmware/canopen/bytes.hpp"
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/node/store/record_storage.hpp"
 #include "host_sim/host/bus/bus_load.hpp"
@@ -40,7 +40,7 @@ std::string text_of(Call&& call) {
 
 // An image ends with the number that names it.
 std::uint32_t crc_of(const std::vector<std::uint8_t>& image) {
-  return static_cast<std::uint32_t>(canopen::load_le(&image[image.size() - 4], 4));
+  return static_cast<std::uint32_t>(load_le(&image[image.size() - 4], 4));
 }
 
 // --- objects

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -12,12 +12,12 @@ constexpr std::array<std::uint16_t, 4> kWayUp{0x06, 0x07, 0x0F, 0x0F};
 
 std::vector<std::uint8_t> little_endian(std::uint64_t value, std::size_t bytes) {
   std::vector<std::uint8_t> out(bytes);
-  canopen::store_le(out.data(), bytes, value);
+  store_le(out.data(), bytes, value);
   return out;
 }
 
 std::uint32_t payload(const hal::CanFrame& response) {
-  return static_cast<std::uint32_t>(canopen::load_le(&response.data[4], 4));
+  return static_cast<std::uint32_t>(load_le(&response.data[4], 4));
 }
 
 }  // namespace
