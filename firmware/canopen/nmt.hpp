@@ -7,10 +7,8 @@ namespace volcomp::canopen {
 
 // As in the heartbeat message.
 enum class NmtState : std::uint8_t {
-  boot_up = 0,
-  stopped = 4,
-  operational = 5,
-  pre_operational = 127,
+#define NMT_STATE(number, name, title, words) name = (number),
+#include "firmware/canopen/codes.def"
 };
 
 enum class NmtCommand : std::uint8_t {

@@ -37,23 +37,14 @@ inline constexpr std::size_t kMostReasonText = 160;  // bytes of 2112h:06
 
 // 2112h:01.
 enum class TableState : std::uint8_t {
-  empty = 0,
-  receiving = 1,  // a download is under way or was broken off
-  received = 2,   // complete, unchecked
-  valid = 3,
-  armed = 4,
-  active = 5,   // the staged image is the one behind the active tables
-  refused = 6,  // 2112h:02 says why
+#define TABLE_STATE(number, name, words) name = (number),
+#include "firmware/node/states.def"
 };
 
 // 2600h:01.
 enum class NodeState : std::uint8_t {
-  idle = 0,          // not OPERATIONAL
-  no_tables = 1,     // nothing to compensate with
-  waiting = 2,       // for a drive to report the offset it holds
-  compensating = 3,  // every axis
-  degraded = 4,      // at least one axis is held, ramped down or not answered: 2601h
-  overdue = 5,       // the background hangs: every axis is ramped down before the watchdog bites
+#define NODE_STATE(number, name, title, words) name = (number),
+#include "firmware/node/states.def"
 };
 
 struct NodeObjects {

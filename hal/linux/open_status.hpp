@@ -2,6 +2,8 @@
 // Why something of the operating system could not be opened. The error number (errno) is stored
 // beside the reason, 0 where the system reported none.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <system_error>
@@ -9,16 +11,8 @@
 namespace volcomp::hal {
 
 enum class OpenResult : std::uint8_t {
-  ok,
-  failed,  // reason in error_number
-  no_can_in_kernel,
-  no_such_interface,
-  not_a_can_interface,
-  interface_down,
-  no_such_folder,
-  not_a_pipe,
-  wrong_size,
-  in_use,
+#define OPEN_RESULT(name, sentence) name,
+#include "hal/linux/open_results.def"
 };
 
 struct [[nodiscard]] OpenStatus {
@@ -30,7 +24,13 @@ struct [[nodiscard]] OpenStatus {
 
 // Half a sentence for a person, to stand after the name of what was opened: "can0: no such
 // interface".
-[[nodiscard]] const char* sentence(OpenResult result);
+[[nodiscard]] inline const char* sentence(OpenResult result) {
+  static constexpr std::array kSentences{
+#define OPEN_RESULT(name, sentence) sentence,
+#include "hal/linux/open_results.def"
+  };
+  return kSentences[static_cast<std::size_t>(result)];
+}
 // The same with the message of the system where only it knows the reason: "the operating system
 // refused: Permission denied". For programs of the host: inline, so that the library itself stays
 // without a heap.

@@ -10,13 +10,8 @@ namespace volcomp::node {
 // How a store answers; a node reports the value of its start in 2600h:0B and the last answer to
 // 1010h or 1011h in 2600h:0C.
 enum class [[nodiscard]] StoreResult : std::uint8_t{
-    nothing_stored = 0, loaded = 1,
-    loaded_older = 2,  // the other slot may have been a newer record
-    damaged = 3,       // there was something, none of it can be used
-    done = 4,          // saved, read or erased
-    too_large = 5,      buffer_too_small = 6, read_failed = 7, erase_failed = 8, write_failed = 9,
-    verify_failed = 10,  // what was read back is not what was written
-    read_only = 11,      // nothing can be written, see Storage::writable()
+#define STORE_RESULT(number, name, sentence) name = (number),
+#include "firmware/node/states.def"
 };
 
 inline constexpr std::uint8_t kStoreResults = 12;

@@ -6,16 +6,20 @@
 
 namespace volcomp::host {
 
-enum class PowerState : std::uint8_t {
-  not_ready_to_switch_on,
-  switch_on_disabled,
-  ready_to_switch_on,
-  switched_on,
-  operation_enabled,
-  quick_stop_active,
-  fault_reaction_active,
-  fault,
+// Each is its pattern, bits 0…3, 5 and 6 of the statusword.
+enum class PowerState : std::uint16_t {
+  not_ready_to_switch_on = 0x0000,
+  switch_on_disabled = 0x0040,
+  ready_to_switch_on = 0x0021,
+  switched_on = 0x0023,
+  operation_enabled = 0x0027,
+  quick_stop_active = 0x0007,
+  fault_reaction_active = 0x000F,
+  fault = 0x0008,
 };
+constexpr std::uint16_t status_pattern(PowerState state) {
+  return static_cast<std::uint16_t>(state);
+}
 
 // Bits of 6041h that do not belong to the state.
 enum DriveStatusBit : std::uint16_t {
@@ -28,8 +32,5 @@ enum DriveStatusBit : std::uint16_t {
   kStatusHomingAttained = 1U << 12U,  // homing
   kStatusFollowingError = 1U << 13U,  // cyclic synchronous position
 };
-
-// Bits 0…3, 5 and 6 of the statusword.
-[[nodiscard]] std::uint16_t status_pattern(PowerState state);
 
 }  // namespace volcomp::host

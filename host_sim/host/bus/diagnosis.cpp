@@ -27,35 +27,25 @@ constexpr double kUmPerNm = 1e-3;
 
 // By NodeState.
 constexpr std::array kNodeStates{
-    "idle",
-    "has no tables to compensate with",
-    "waits for the drives to report the offsets they hold",
-    "compensates every axis",
-    "compensates, but not every axis as it should",
-    "is about to restart, its background hangs; corrections are ramped to zero"};
+#define NODE_STATE(number, name, title, words) words,
+#include "firmware/node/states.def"
+};
 
 // By TableState.
-constexpr std::array kTableStates{"nothing was sent",
-                                  "being sent, or broken off",
-                                  "complete, not yet checked",
-                                  "checked and good, not active",
-                                  "ready to be activated",
-                                  "active",
-                                  "refused"};
+constexpr std::array kTableStates{
+#define TABLE_STATE(number, name, words) words,
+#include "firmware/node/states.def"
+};
 
 constexpr std::array kBegan{object::began_0, object::began_1, object::began_2, object::began_3,
                             object::began_4};
 
 const char* words(NmtState state) {
   switch (state) {
-    case NmtState::boot_up:
-      return "starting";
-    case NmtState::stopped:
-      return "STOPPED";
-    case NmtState::operational:
-      return "OPERATIONAL";
-    case NmtState::pre_operational:
-      return "PRE-OPERATIONAL, waits to be started";
+#define NMT_STATE(number, name, title, words) \
+  case NmtState::name:                        \
+    return words;
+#include "firmware/canopen/codes.def"
   }
   return "unknown";
 }

@@ -35,26 +35,27 @@ std::string describe_status(std::uint16_t status) {
 }
 
 std::string describe_drive(std::uint16_t status_word) {
-  static constexpr std::array<std::pair<PowerState, const char*>, 8> kStates{{
-      {PowerState::not_ready_to_switch_on, "starting"},
-      {PowerState::switch_on_disabled, "switched off, switching on disabled"},
-      {PowerState::ready_to_switch_on, "ready to switch on"},
-      {PowerState::switched_on, "switched on, not enabled"},
-      {PowerState::operation_enabled, "enabled"},
-      {PowerState::quick_stop_active, "quick stop"},
-      {PowerState::fault_reaction_active, "stopping because of a fault"},
-      {PowerState::fault, "fault"},
-  }};
-  // Quick stop (bit 5) means nothing where the pattern of the state leaves it open.
   constexpr std::uint16_t kState = 0x006F;
-  constexpr std::uint16_t kStateWithoutQuickStop = 0x004F;
-  for (const auto& [state, name] : kStates) {
-    const bool open = state == PowerState::not_ready_to_switch_on ||
-                      state == PowerState::switch_on_disabled ||
-                      state == PowerState::fault_reaction_active || state == PowerState::fault;
-    const std::uint16_t mask = open ? kStateWithoutQuickStop : kState;
-    if ((status_word & mask) == (status_pattern(state) & mask))
-      return fmt::format("{} (6041h = {:04X}h)", name, status_word);
+  // Quick stop (bit 5) means nothing where the pattern of the state leaves it open.
+  constexpr std::uint16_t kOpen = 0x004F;
+  struct State {
+    PowerState state;
+    std::uint16_t mask;
+    const char* name;
+  };
+  static constexpr std::array<State, 8> kStates{{
+      {PowerState::not_ready_to_switch_on, kOpen, "starting"},
+      {PowerState::switch_on_disabled, kOpen, "switched off, switching on disabled"},
+      {PowerState::ready_to_switch_on, kState, "ready to switch on"},
+      {PowerState::switched_on, kState, "switched on, not enabled"},
+      {PowerState::operation_enabled, kState, "enabled"},
+      {PowerState::quick_stop_active, kState, "quick stop"},
+      {PowerState::fault_reaction_active, kOpen, "stopping because of a fault"},
+      {PowerState::fault, kOpen, "fault"},
+  }};
+  for (const State& s : kStates) {
+    if ((status_word & s.mask) == (status_pattern(s.state) & s.mask))
+      return fmt::format("{} (6041h = {:04X}h)", s.name, status_word);
   }
   return fmt::format("in no state of CiA 402 (6041h = {:04X}h)", status_word);
 }

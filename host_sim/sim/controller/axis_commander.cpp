@@ -14,14 +14,18 @@ constexpr std::uint16_t kFaultReset = 0x80;
 
 constexpr std::uint16_t kRetry = 50;  // cycles between two attempts that need a rising edge
 
+host::PowerState state_of(std::uint16_t status) {
+  return static_cast<host::PowerState>(status & 0x6FU);
+}
+
 // The control word that leads one state further towards operation enabled (CiA 402-2, table 33).
 std::uint16_t next_control(std::uint16_t status) {
-  switch (status & 0x6FU) {
-    case 0x21:
-      return kSwitchOn;  // ready to switch on
-    case 0x23:           // switched on
-    case 0x27:
-      return kEnable;  // operation enabled
+  switch (state_of(status)) {
+    case host::PowerState::ready_to_switch_on:
+      return kSwitchOn;
+    case host::PowerState::switched_on:
+    case host::PowerState::operation_enabled:
+      return kEnable;
     default:
       return kShutdown;
   }
@@ -44,8 +48,8 @@ void AxisCommander::step(std::int32_t path) {
     control_ = 0;
     return;
   }
-  const bool enabled = (status_ & 0x6FU) == 0x27U;
-  const bool fault = (status_ & 0x4FU) == 0x08U;
+  const bool enabled = state_of(status_) == host::PowerState::operation_enabled;
+  const bool fault = (status_ & 0x4FU) == status_pattern(host::PowerState::fault);
   const bool referenced = (status_ & host::kStatusReferenced) != 0;
   if (fault) {
     // Reset works on a rising edge.

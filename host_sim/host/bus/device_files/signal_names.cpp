@@ -81,10 +81,10 @@ const SignalText& signal_text(canopen::ObjectId object) {
 }
 
 ValueNames nmt_states() {
-  using canopen::NmtState;
-  return {named(NmtState::boot_up, "boot-up"), named(NmtState::stopped, "stopped"),
-          named(NmtState::operational, "operational"),
-          named(NmtState::pre_operational, "pre-operational")};
+  return {
+#define NMT_STATE(number, name, title, words) {number, title},
+#include "firmware/canopen/codes.def"
+  };
 }
 
 ValueNames nmt_commands() {
@@ -96,13 +96,10 @@ ValueNames nmt_commands() {
 }
 
 ValueNames node_states() {
-  using node::NodeState;
-  return {named(NodeState::idle, "idle"),
-          named(NodeState::no_tables, "no tables"),
-          named(NodeState::waiting, "waiting for drives"),
-          named(NodeState::compensating, "compensating"),
-          named(NodeState::degraded, "degraded"),
-          named(NodeState::overdue, "background overdue")};
+  return {
+#define NODE_STATE(number, name, title, words) {number, title},
+#include "firmware/node/states.def"
+  };
 }
 
 ValueNames touch_verdicts() {
