@@ -2,6 +2,8 @@
 // What an SDO server does with the objects of its device: whole values in, whole values out. Both
 // directions work on bytes in place; a domain (table image) is never copied.
 
+#include <cstdint>
+
 #include "comp/core/span.hpp"
 
 namespace volcomp::canopen {
