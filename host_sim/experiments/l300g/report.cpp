@@ -8,6 +8,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/experiments/l300g/figures.hpp"
 #include "host_sim/experiments/l300g/gear_charts.hpp"
+#include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/before_after.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/error_functions.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware/canopen/bytes.hpp"
+#include "comp/core/bytes.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::sim {
@@ -119,7 +119,7 @@ void DriveProfile::fill(host::Cia402Objects& objects, const Entry& row,
     std::memset(value, 0, row.extra);
     std::copy_n(text.begin(), std::min<std::size_t>(text.size(), row.extra), value);
   } else if (const auto number = eds_.number(id_of(row), node_id)) {
-    canopen::store_le(value, row.size(), *number);
+    store_le(value, row.size(), *number);
   }
 }
 

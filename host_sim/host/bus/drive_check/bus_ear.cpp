@@ -36,17 +36,13 @@ void take(HeardNodes& heard, const hal::CanFrame& frame) {
     one.state = static_cast<canopen::NmtState>(frame.data[0] & 0x7FU);
 }
 
-const char* words(const std::optional<canopen::NmtState>& state) {
+const char* title(const std::optional<canopen::NmtState>& state) {
   if (!state) return "unknown";
   switch (*state) {
-    case canopen::NmtState::boot_up:
-      return "starting";
-    case canopen::NmtState::stopped:
-      return "STOPPED";
-    case canopen::NmtState::operational:
-      return "OPERATIONAL";
-    case canopen::NmtState::pre_operational:
-      return "PRE-OPERATIONAL";
+#define NMT_STATE(number, name, title, words) \
+  case canopen::NmtState::name:               \
+    return title;
+#include "firmware/canopen/codes.def"
   }
   return "unknown";
 }
@@ -87,7 +83,7 @@ void ask_all(const std::shared_ptr<FrameLink>& link, HeardNodes& heard,
     NodeClient client(node, LinkPump(link));
     client.set_timeout_us(kTimeout_us);
     try {
-      const auto type = client.read_value<std::uint32_t>({0x1000, 0}, "Device type");
+      const auto type = client.read(canopen::object::device_type);
       heard[node].device_type = type;
     } catch (const NodeRefused&) {
       heard[node].device_type = 0;
@@ -100,7 +96,7 @@ std::string describe(const HeardNodes& heard) {
   if (heard.empty()) return "nobody was heard\n";
   nlohmann::json rows = nlohmann::json::array();
   for (const auto& [id, node] : heard)
-    rows.push_back({id, words(node.state), node.frames, device_text(node)});
+    rows.push_back({id, title(node.state), node.frames, device_text(node)});
   return text_of_section(table_section(
       "",
       {plain_column("node"), plain_column("state"), plain_column("frames"), plain_column("device")},
@@ -111,7 +107,7 @@ nlohmann::json to_json(const HeardNodes& heard) {
   nlohmann::json nodes = nlohmann::json::array();
   for (const auto& [id, node] : heard) {
     nlohmann::json one{{"node", id},
-                       {"state", words(node.state)},
+                       {"state", title(node.state)},
                        {"frames", node.frames},
                        {"sdo_in_use", node.sdo_in_use}};
     if (node.device_type) {
