@@ -49,7 +49,7 @@ if chrt -f 45 true 2> /dev/null; then
   expect 'the node has its priority' grep -q 'priority: 45' <(chrt -p "$node_process")
   expect 'the node has its policy' grep -q 'SCHED_FIFO' <(chrt -p "$node_process")
   expect 'the node stays on its processor' grep -q ': 0$' <(taskset -pc "$node_process")
-  expect 'its memory is locked' grep -qE '^VmLck: *[1-9][0-9]{3,} kB' "/proc/$node_process/status"
+  expect 'its memory is locked' grep -qE '^VmLck:[[:space:]]*[1-9][0-9]{3,} kB' "/proc/$node_process/status"
   stop_node
 fi
 # refused OPTION...: in one sentence, with 2.
