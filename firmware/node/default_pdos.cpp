@@ -93,7 +93,7 @@ canopen::PdoParameters default_receive_pdo(std::size_t number, const NodeObjects
     if (number == kProcessStatePdo) return {};  // of nodes without strokes: off
   }
   const std::size_t axis = number % kNodeAxes;
-  const bool unwanted = number - kFirstHeldPdo < kNodeAxes && objects.drives_report == 0;
+  const bool unwanted = number - kFirstHeldPdo < kNodeAxes && objects.confirms[axis] == 0;
   return axis_pdo(kHeard[number / kNodeAxes], axis, objects.drive[axis],
                   unwanted ? canopen::kPdoInvalid : 0);
 }

@@ -44,6 +44,8 @@ struct NodeCore {
   [[nodiscard]] bool corrects(std::size_t axis) const { return (correcting & bit(axis)) != 0; }
   // Those of 2010h.
   [[nodiscard]] std::uint32_t used_axes() const;
+  // Those whose drives report the offsets they hold.
+  [[nodiscard]] std::uint32_t confirming_axes() const;
   // The compensator has another machine.
   void note_machine();
 

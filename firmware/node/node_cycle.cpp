@@ -43,6 +43,7 @@ void NodeCycle::restart(bool operational) {
   core_.objects.state = static_cast<std::uint8_t>(NodeState::idle);
   if (!operational) return;
   used_ = core_.used_axes();
+  confirming_ = used_ & core_.confirming_axes();
   report(core_.configure(), core_.objects);
 }
 
@@ -65,7 +66,7 @@ void NodeCycle::note_start(std::uint8_t sub) {
 void NodeCycle::start_at_given_offsets() {
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     OffsetGate& gate = core_.gate[a];
-    const bool given = core_.objects.drives_report == 0 && (start_given_ & bit(a)) != 0;
+    const bool given = core_.objects.confirms[a] == 0 && (start_given_ & bit(a)) != 0;
     if (given) gate.start_at(offset_to_wire(core_.objects.start_offset[a], gate.scale()));
   }
   start_given_ = 0;
@@ -135,7 +136,7 @@ bool NodeCycle::complete() const {
   const std::uint32_t arrived = core_.arrived;
   const std::uint32_t moved =
       axes_of(arrived, Arrival::kTarget) & axes_of(arrived, Arrival::kActual);
-  const std::uint32_t held = core_.objects.drives_report != 0 ? used_ & core_.correcting : 0U;
+  const std::uint32_t held = confirming_ & core_.correcting;
   return ((used_ & ~moved) | (held & ~axes_of(arrived, Arrival::kHeld))) == 0;
 }
 

@@ -70,6 +70,7 @@ class NodeCycle : public NodePart {
   TickOutput<kNodeAxes> output_{};
   std::uint64_t deadline_us_ = 0;
   std::uint32_t used_ = 0;                 // axes, while OPERATIONAL
+  std::uint32_t confirming_ = 0;           // of these, whose drives report their offsets
   std::uint32_t start_given_ = 0;          // 2206h written since the last start, a bit per axis
   PerAxis<std::uint16_t> clean_cycles_{};  // without trouble, per axis
   std::uint16_t clean_syncs_ = 0;          // since the last bad SYNC

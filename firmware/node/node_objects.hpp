@@ -85,7 +85,7 @@ inline constexpr std::size_t kTransmitPdos = kFirstPointPdo + kPointPdos;
 inline constexpr std::size_t kFirstHeldPdo = 2 * kNodeAxes;
 
 // Default parameters of the PDOs for the drives of 2010h; those of absent drives are invalid, and
-// those of held offsets where drives do not report (2200h:05).
+// those of held offsets where drives do not report (2207h).
 [[nodiscard]] canopen::PdoParameters default_receive_pdo(std::size_t number,
                                                          const NodeObjects& objects);
 [[nodiscard]] canopen::PdoParameters default_transmit_pdo(std::size_t number,

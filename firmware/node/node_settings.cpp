@@ -38,6 +38,13 @@ std::uint32_t NodeCore::used_axes() const {
   return used;
 }
 
+std::uint32_t NodeCore::confirming_axes() const {
+  std::uint32_t confirming = 0;
+  for (std::size_t a = 0; a < kNodeAxes; ++a)
+    confirming |= objects.confirms[a] != 0 ? bit(a) : 0U;
+  return confirming;
+}
+
 void NodeCore::note_machine() {
   const RuntimeChain& chain = compensator.machine().chain;
   correcting = 0;
@@ -76,7 +83,7 @@ void NodeCore::configure_gates() {
     bounds.slew = step_to_wire(objects.slew[a], bounds.scale);
     bounds.soft = std::max<std::int32_t>(1, step_to_wire(objects.soft_rate[a], bounds.scale));
     bounds.late = objects.late_cycles;
-    bounds.reports = objects.drives_report;
+    bounds.reports = objects.confirms[a];
     gate[a].configure(bounds);
   }
 }

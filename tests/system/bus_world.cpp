@@ -62,7 +62,9 @@ const BusMachine& bus_machine() {
 
 host::BusSettings bus_machine_settings(Drives drives) {
   host::BusSettings settings = host::bus_settings(bus_machine().file, kBusCycle_hz);
-  settings.drives_report_offsets = drives == Drives::confirm;
+  for (host::BusAxis& axis : settings.axes)
+    axis.reports_offset = drives != Drives::trust;
+  if (drives == Drives::trust_first) settings.axes[0].reports_offset = false;
   return settings;
 }
 

@@ -24,7 +24,8 @@ struct BusMachine {
   std::vector<std::uint8_t> other_image;
 };
 [[nodiscard]] const BusMachine& bus_machine();
-enum class Drives : std::uint8_t { confirm, trust };  // whether they report the offset they hold
+// Whether they report the offset they hold: all, none, all but the first.
+enum class Drives : std::uint8_t { confirm, trust, trust_first };
 [[nodiscard]] host::BusSettings bus_machine_settings(Drives drives = Drives::confirm);
 
 // Another participant on the bus: an SDO client to the compensation node, and single frames.

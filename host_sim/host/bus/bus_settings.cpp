@@ -26,6 +26,7 @@ BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
     a.drive = drive.node;
     a.rotary = kinds.rotary[i];
     a.scale_numerator = drive.scale_numerator;
+    a.reports_offset = drive.reports_offset;
     a.scale_denominator = drive.scale_denominator;
     if (drive.software_limits_mm) {
       const auto units = [&a](double mm) {

@@ -25,6 +25,8 @@ struct BusAxis {
   std::uint32_t scale_denominator = 1;
   std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
   std::int32_t highest = 0;
+  // 60B0h by TPDO. Otherwise a client writes the held offset to 2206h when the node starts.
+  bool reports_offset = true;
   std::int64_t latch_delay_ns = 0;  // of the touch probe input
   // The units of the drive where they differ from those of the controller.
   std::optional<DriveScale> counts_otherwise;
@@ -43,8 +45,6 @@ struct BusSettings {
   // A controller that was given no tables waits until the node compensates with those it has
   // itself, stored or from a service tool; a node without any is accepted, too.
   bool node_brings_tables = false;
-  // By TPDO. Otherwise a client writes the held offsets to 2206h when the node starts.
-  bool drives_report_offsets = true;
   bool probes = false;  // the drives latch the rising edges of a touch probe and report them
   CompensatorSettings<LoadedCompensator::kAxes> limits{};  // per cycle of this period
   std::optional<WatchedStrokes> strokes;  // the axes X, Z and C grind a helical gear

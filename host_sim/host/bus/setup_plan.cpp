@@ -90,6 +90,7 @@ void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
   set(node::object::rotary, static_cast<std::uint8_t>(a.rotary));
   set(node::object::homed_mask, kStatusReferenced);
   plan.back().hexadecimal = true;
+  if (!a.reports_offset) set(node::object::confirms, std::uint8_t{0});
   set(node::object::limit, l.limit, offset);
   set(node::object::slew, l.rate, offset);
   set(node::object::soft_rate, l.soft_rate, offset);
@@ -145,7 +146,6 @@ SetupPlan node_plan(const BusSettings& settings) {
   plan_value(plan, node::object::ramp_cycles, settings.limits.ramp_ticks);
   plan_value(plan, node::object::drop_cycles, settings.limits.stale_drop_ticks);
   plan_value(plan, node::object::deadline_us, settings.deadline_us);
-  if (!settings.drives_report_offsets) plan_value(plan, node::object::drives_report, 0);
   for (std::size_t i = 0; i < settings.axes.size(); ++i)
     plan_axis(plan, settings, i);
   if (settings.status_every_cycle) plan_status_every_cycle(plan, settings);
@@ -165,6 +165,7 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
     plan_value(plan, node::object::drive[i], 0);
     plan.back().name += fmt::format(" (no axis {})", i + 1);
   }
+  plan_value(plan, node::object::drives_report, 1);  // an earlier set-up may have said otherwise
   append(plan, node_plan(settings));
   if (probe != nullptr)
     append(plan, probe_plan(*probe));

@@ -64,6 +64,13 @@ long TomlSection::integer_or(const std::string& key, long fallback, long lo, lon
   return has(key) ? integer(key, lo, hi) : fallback;
 }
 
+bool TomlSection::truth_or(const std::string& key, bool fallback) const {
+  if (!has(key)) return fallback;
+  const Value& v = need(key);
+  if (!v.is_boolean()) fail(v, fmt::format("'{}' must be true or false", key));
+  return v.as_boolean();
+}
+
 std::string TomlSection::text(const std::string& key) const {
   const Value& v = need(key);
   if (!v.is_string() || v.as_string().str.empty()) fail(v, fmt::format("'{}' must be a text", key));

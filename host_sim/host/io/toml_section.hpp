@@ -25,6 +25,7 @@ class TomlSection {
   [[nodiscard]] double number_or(const std::string& key, double fallback) const;
   [[nodiscard]] long integer(const std::string& key, long lo, long hi) const;
   [[nodiscard]] long integer_or(const std::string& key, long fallback, long lo, long hi) const;
+  [[nodiscard]] bool truth_or(const std::string& key, bool fallback) const;  // true or false
   [[nodiscard]] std::string text(const std::string& key) const;
   // One of the given words, by position.
   [[nodiscard]] std::size_t choice(const std::string& key,

@@ -82,7 +82,7 @@ double read_cycle(const TomlSection& s) {
 
 const std::vector<std::string>& drive_fields() {
   static const std::vector<std::string> kFields{"node_id", "units_per_mm", "units_per_turn",
-                                                "software_limits_mm"};
+                                                "software_limits_mm", "reports_offset"};
   return kFields;
 }
 
@@ -90,6 +90,7 @@ DriveFile read_drive(const TomlSection& s, const AxisFile& axis, std::size_t num
   DriveFile drive;
   drive.node = static_cast<std::uint8_t>(
       s.integer_or("node_id", static_cast<long>(number) + 1, 1, kLastNode));
+  drive.reports_offset = s.truth_or("reports_offset", true);
   if (axis.rotary) {
     for (const char* const key : {"units_per_mm", "software_limits_mm"}) {
       if (s.has(key)) s.complain(key, fmt::format("'{}' is for linear axes", key));

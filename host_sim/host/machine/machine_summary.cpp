@@ -86,6 +86,7 @@ json axis_facts(const MachineFile& m) {
              {"scale", {axis.drive.scale_numerator, axis.drive.scale_denominator}},
              {"error_motions", motion_errors(axis.letter)},
              {"location_errors", location_errors(m.chain.axis(a))}};
+    if (!axis.drive.reports_offset) one["reports_offset"] = false;
     if (axis.drive.software_limits_mm) one["software_limits_mm"] = *axis.drive.software_limits_mm;
     axes.push_back(one);
   }
@@ -169,6 +170,7 @@ std::string axes_text(const json& facts) {
         a[rotary ? "units_per_turn" : "units_per_mm"], rotary ? "turn" : "mm");
     if (a.contains("software_limits_mm"))
       text += fmt::format(", software limits {}", a["software_limits_mm"].dump());
+    if (a.contains("reports_offset")) text += ", cannot report its offset";
     text += fmt::format("\n        errors {}; location {}\n", words(a["error_motions"]),
                         words(a["location_errors"]));
   }

@@ -104,6 +104,53 @@ TEST(NodeGatePdo, OfReportsIsOffWhereDrivesDoNotReport) {
   EXPECT_EQ(bench.number(kHeldOfX, 1), 0x487U);
 }
 
+// 2207h says it axis by axis, 2200h:05 for all.
+TEST(NodeGatePdo, OfReportsIsThatOfItsAxis) {
+  constexpr std::uint16_t kHeldOfX = 0x1400 + kFirstHeldPdo;
+  NodeBench bench;
+  bench.configure();
+  ASSERT_EQ(bench.set<std::uint8_t>(0x2207, kSourceX, 0), AbortCode::none);
+  EXPECT_EQ(bench.number(kHeldOfX, 1), 0x8000'0481U);
+  EXPECT_EQ(bench.number(kHeldOfX + 1, 1), 0x482U);
+  ASSERT_EQ(bench.set<std::uint8_t>(0x2200, 5, 0), AbortCode::none);
+  for (std::uint8_t a = 1; a <= kNodeAxes; ++a)
+    EXPECT_EQ(bench.number(0x2207, a), 0U);
+  ASSERT_EQ(bench.set<std::uint8_t>(0x2200, 5, 1), AbortCode::none);
+  EXPECT_EQ(bench.number(0x2207, kSourceX), 1U);
+  EXPECT_EQ(bench.number(kHeldOfX, 1), 0x481U);
+  EXPECT_EQ(bench.set<std::uint8_t>(0x2207, kSourceX, 2), AbortCode::value_too_high);
+}
+
+// X cannot report: its start is given, the others report theirs; nobody waits for X.
+TEST(NodeGateMixed, EachAxisStartsAsItsDriveCan) {
+  NodeBench bench;
+  bench.configure();
+  ASSERT_EQ(bench.set<std::uint8_t>(0x2207, kSourceX, 0), AbortCode::none);
+  bench.load(bench_tables());
+  for (BenchDrive& d : bench.drive)
+    d.held = d.next = 500;
+  bench.nmt(NmtCommand::start);
+  const auto cycle = [&bench] {
+    bench.sync();
+    for (std::size_t a = 0; a < 3; ++a) {
+      bench.drive_data(a);
+      if (a != 0) bench.offset_report(a);
+      bench.controller_data(a);
+    }
+    bench.wait(NodeBench::kPeriod_us);
+  };
+  for (int i = 0; i < 20; ++i)
+    cycle();
+  EXPECT_EQ(bench.state(), NodeState::waiting) << "for the start of X";
+  ASSERT_EQ(bench.set<std::int32_t>(0x2206, kSourceX, 500), AbortCode::none);
+  bench.largest_step = 0;
+  for (int i = 0; i < 300; ++i)
+    cycle();
+  EXPECT_EQ(bench.state(), NodeState::compensating);
+  EXPECT_LE(bench.largest_step, 20'000) << "2202h";
+  EXPECT_EQ(bench.node->objects().deadline_missed, 0U) << "no cycle waits for a report of X";
+}
+
 // A drive that has come back with 0 and is as enabled as before: the compensator stands where it
 // stood.
 TEST_P(NodeGate, FromWhatADriveHoldsTheWayIsSoft) {

@@ -35,6 +35,13 @@ BusAxis axis_of(const std::string& text, std::size_t a) {
   return bus_settings(parse_machine(text, "m.toml"), sim::kBusCycleOfFive_hz).axes.at(a);
 }
 
+TEST(MachineBus, ADriveThatCannotReportIsSaid) {
+  EXPECT_TRUE(axis_of(trunnion_with("X", ""), 0).reports_offset);
+  EXPECT_FALSE(axis_of(trunnion_with("X", "reports_offset = false"), 0).reports_offset);
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "reports_offset = 0")),
+              HasSubstr("'reports_offset' must be true or false"));
+}
+
 TEST(MachineBus, UnitsAreExactRationals) {
   // 1 um: 1000 nm a unit.
   const BusAxis micrometre = axis_of(trunnion_with("X", "units_per_mm = 1000", "units_per_mm"), 0);
