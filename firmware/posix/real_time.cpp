@@ -27,7 +27,7 @@ std::string failure(const std::string& what, const char* missing) {
 
 [[gnu::noinline]] void touch_stack() {
   constexpr std::size_t kPage = 4096;
-  std::array<std::uint8_t, kStackBytes> stack;
+  std::array<std::uint8_t, kStackBytes> stack{};
   volatile std::uint8_t* const bytes = stack.data();
   for (std::size_t at = 0; at < kStackBytes; at += kPage)
     bytes[at] = 0;

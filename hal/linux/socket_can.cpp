@@ -157,7 +157,7 @@ bool SocketCan::take(can_frame& raw) {
   return true;
 }
 
-bool SocketCan::hear_only(Span<const std::uint16_t> ids) {
+bool SocketCan::hear_only(Span<const std::uint16_t> ids) const {
   if (ids.size() > kMostFilters) return false;
   std::array<can_filter, kMostFilters> filters{};
   for (std::size_t i = 0; i < ids.size(); ++i)

@@ -47,7 +47,7 @@ class SocketCan {
   // From now on only frames with these identifiers (11 bits, at most kMostFilters) arrive, and the
   // reports of the controller: no other frame wakes the process. False: the kernel refuses, and all
   // arrive as before.
-  bool hear_only(Span<const std::uint16_t> ids);
+  bool hear_only(Span<const std::uint16_t> ids) const;
   // Frames that the kernel has dropped since the last call because the receive buffer was full.
   // Known only with the next frame that arrives.
   [[nodiscard]] std::uint32_t take_losses();
