@@ -22,7 +22,7 @@ struct DriveFile {
   std::uint32_t scale_numerator = 1;  // run-time units (nm or 2^-40 turn) per unit of the drive
   std::uint32_t scale_denominator = 1;
   std::optional<std::array<double, 2>> software_limits_mm;  // 607Dh
-  bool reports_offset = true;  // 60B0h in a TPDO
+  bool reports_offset = true;                               // 60B0h in a TPDO
 };
 
 // The other devices on the bus.
