@@ -157,9 +157,12 @@ AbortCode Node::before_write(canopen::ObjectId object, Span<const std::uint8_t> 
 void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
   const bool names_controller = (kWatchesStrokes || kFollowsTemperature) && object == kController;
   if (object.index == object::drive.index || names_controller) core_.set_default_pdos();
-  if (object == kDrivesReport) core_.objects.confirms.fill(core_.objects.drives_report);
-  if (object == kDrivesReport || object.index == object::confirms.index)
+  if (object == kDrivesReport) {
+    core_.objects.confirms.fill(core_.objects.drives_report);
     core_.set_default_receive_pdos(kFirstHeldPdo, kFirstHeldPdo + kNodeAxes);
+  }
+  if (object.index == object::confirms.index)
+    core_.set_default_receive_pdos(kFirstHeldPdo + object.sub - 1U, kFirstHeldPdo + object.sub);
   each_part([object](auto& part) { part.written(object); });
 }
 

@@ -18,9 +18,9 @@ class ProbePart : public NodePart {
   // Makes a point of the next touch.
   void background(std::uint64_t now_us);
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
-    constexpr std::uint16_t kFirst = object::probe::command.index;
+    constexpr std::uint16_t kOwn = object::probe::command.index;
     constexpr std::uint16_t kBehind = object::stroke::command.index;
-    const bool own = object.index >= kFirst && object.index < kBehind;
+    const bool own = object.index >= kOwn && object.index < kBehind;
     return own ? check_write(object, bytes) : canopen::AbortCode::none;
   }
   static bool owns_domain(canopen::ObjectId object) {

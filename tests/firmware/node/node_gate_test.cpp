@@ -109,9 +109,10 @@ TEST(NodeGatePdo, OfReportsIsThatOfItsAxis) {
   constexpr std::uint16_t kHeldOfX = 0x1400 + kFirstHeldPdo;
   NodeBench bench;
   bench.configure();
+  ASSERT_EQ(bench.set<std::uint32_t>(kHeldOfX + 1, 1, 0x8000'0482U), AbortCode::none);
   ASSERT_EQ(bench.set<std::uint8_t>(0x2207, kSourceX, 0), AbortCode::none);
   EXPECT_EQ(bench.number(kHeldOfX, 1), 0x8000'0481U);
-  EXPECT_EQ(bench.number(kHeldOfX + 1, 1), 0x482U);
+  EXPECT_EQ(bench.number(kHeldOfX + 1, 1), 0x8000'0482U) << "that of Y stays as it was set";
   ASSERT_EQ(bench.set<std::uint8_t>(0x2200, 5, 0), AbortCode::none);
   for (std::uint8_t a = 1; a <= kNodeAxes; ++a)
     EXPECT_EQ(bench.number(0x2207, a), 0U);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -154,11 +155,7 @@ const EdsFileObject* EdsFile::find(canopen::ObjectId object) const {
 std::optional<std::uint64_t> EdsFile::number(canopen::ObjectId object, std::uint8_t node_id) const {
   const EdsFileObject* const found = find(object);
   if (found == nullptr || found->value.empty()) return std::nullopt;
-  const auto value = number_in(found->value, node_id);
-  if (!value)
-    throw UserError(fmt::format("{}: {:04X}h:{:02X} holds \"{}\", which is no number", file_,
-                                object.index, object.sub, found->value));
-  return value;
+  return number_in(found->value, node_id);
 }
 
 canopen::PdoParameters EdsFile::pdo(std::uint16_t communication, std::uint16_t mapping,
@@ -199,8 +196,10 @@ EdsFile find_drive_eds(const std::string& name_or_path) {
   const std::vector<std::string> names = bundled_drives();
   if (std::find(names.begin(), names.end(), name_or_path) != names.end())
     return read_eds_file(path_of(kDrives, name_or_path).string());
-  const bool is_path =
-      name_or_path == kStandardStream || name_or_path.find_first_of("./") != std::string::npos;
+  std::error_code ignored;
+  const bool is_path = name_or_path == kStandardStream ||
+                       name_or_path.find_first_of("./") != std::string::npos ||
+                       std::filesystem::exists(name_or_path, ignored);
   if (!is_path)
     throw UserError(fmt::format("{}: no such drive; there are {}, or give the path of an EDS file",
                                 name_or_path, fmt::join(names, ", ")));

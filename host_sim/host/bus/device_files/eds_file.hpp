@@ -27,8 +27,8 @@ class EdsFile {
  public:
   static constexpr std::size_t kLargest = std::size_t{4} << 20U;
 
-  // Throws UserError naming the file and what is wrong: a line that is no INI, no object at all, a
-  // number that is none. An object whose section says nothing usable is left out.
+  // Throws UserError naming the file and what is wrong: a line that is no INI, no object at all. An
+  // object whose section says nothing usable is left out.
   EdsFile(const std::string& text, const std::string& file);
 
   [[nodiscard]] const std::string& file() const { return file_; }
@@ -39,11 +39,12 @@ class EdsFile {
   using Key = std::pair<std::uint16_t, std::uint8_t>;
   [[nodiscard]] const std::map<Key, EdsFileObject>& objects() const { return objects_; }
   [[nodiscard]] const EdsFileObject* find(canopen::ObjectId object) const;
-  // The value of a number, "$NODEID" replaced; nothing when none is given. Throws UserError.
+  // The value of an integer, "$NODEID" replaced; nothing when none is given, or something else (a
+  // real number, a word): vendors write many things.
   [[nodiscard]] std::optional<std::uint64_t> number(canopen::ObjectId object,
                                                     std::uint8_t node_id) const;
   // A PDO after power-on, by the indices of its two records. Where the EDS tells no count, as many
-  // entries as have a value. Throws UserError.
+  // entries as have a value.
   [[nodiscard]] canopen::PdoParameters pdo(std::uint16_t communication, std::uint16_t mapping,
                                            std::uint8_t node_id) const;
   // Types that may fill an RPDO without being taken, CiA 306-1 [DummyUsage].

@@ -63,7 +63,7 @@ using ReadProgress = std::function<void(std::size_t done, std::size_t most)>;
 
 // Throws UserError when the drive does not answer, or stops answering.
 [[nodiscard]] ForeignDrive read_drive(NodeClient& client, const ReadProgress& progress = {});
-// As it is after power-on. Throws UserError for a number that is none.
+// As it is after power-on.
 [[nodiscard]] ForeignDrive read_drive(EdsFile eds, std::uint8_t node_id);
 
 }  // namespace volcomp::host

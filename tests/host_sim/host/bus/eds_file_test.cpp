@@ -105,11 +105,8 @@ TEST(EdsFile, WhatIsNoEdsIsRefusedWithItsName) {
   EXPECT_EQ(complaint_of([] { return file_of(""); }), "drive.eds: describes no object");
   EXPECT_EQ(complaint_of([] { return file_of("[DeviceInfo]\nVendorName=x\n"); }),
             "drive.eds: describes no object");
-  const EdsFile eds = file_of(object("2000", "DefaultValue=many"));
-  EXPECT_EQ(complaint_of([&] {
-              return eds.number({0x2000, 0}, 1).value_or(0);
-            }),
-            "drive.eds: 2000h:00 holds \"many\", which is no number");
+  EXPECT_EQ(file_of(object("2000", "DefaultValue=many")).number({0x2000, 0}, 1), std::nullopt);
+  EXPECT_EQ(file_of(object("2000", "DefaultValue=0.5")).number({0x2000, 0}, 1), std::nullopt);
   EXPECT_THAT(complaint_of([] { return find_drive_eds("elmo"); }),
               HasSubstr("elmo: no such drive; there are elmo_gold"));
   EXPECT_THAT(complaint_of([] { return find_drive_eds("./none.eds"); }),
