@@ -13,8 +13,8 @@
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/progress_bar.hpp"
-#include "host_sim/host/bus/drive_check/bus_ear.hpp"
 #include "host_sim/host/bus/drive_check/drive_check.hpp"
+#include "host_sim/host/bus/drive_check/heard_nodes.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::cli {
@@ -51,11 +51,9 @@ host::ForeignDrive read_from_bus(const DriveArguments& a) {
   host::NodeClient client(node, host::LinkPump(link));
   client.set_timeout_us(static_cast<std::uint64_t>(a.timeout_ms * 1000.0));
   ProgressBar bar;
-  host::ForeignDrive drive = host::read_drive(client, [&](std::size_t done, std::size_t most) {
+  return host::read_drive(client, [&](std::size_t done, std::size_t most) {
     bar.show(static_cast<double>(done) / static_cast<double>(most), "reading objects");
   });
-  drive.state = heard[node].state;
-  return drive;
 }
 
 // Data sheets that come with the program are no files of the user.

@@ -66,12 +66,12 @@ std::vector<canopen::PdoParameters> list_of(const std::array<canopen::PdoParamet
 }
 
 std::vector<canopen::PdoParameters> receive_pdos_of(const Cia402Drive::Settings& settings) {
-  return settings.profile ? settings.profile->receive_pdos(settings.node_id)
+  return settings.profile ? settings.profile->pdos(canopen::PdoKind::receive, settings.node_id)
                           : list_of(host::cia402_receive_pdos(settings.node_id));
 }
 
 std::vector<canopen::PdoParameters> transmit_pdos_of(const Cia402Drive::Settings& settings) {
-  return settings.profile ? settings.profile->transmit_pdos(settings.node_id)
+  return settings.profile ? settings.profile->pdos(canopen::PdoKind::transmit, settings.node_id)
                           : list_of(host::cia402_transmit_pdos(settings.node_id));
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 using canopen::DataType;
 using canopen::Entry;
-using canopen::PdoParameters;
 using canopen::PdoTable;
 
 constexpr std::uint16_t kFirstOfApplication = 0x2000;
@@ -49,18 +48,6 @@ Entry alone(const Entry& row, std::uint8_t sub) {
   one.first_sub = one.last_sub = sub;
   one.offset = (row.offset + row.size() * (sub - row.first_sub)) & 0x1FFFU;
   return one;
-}
-
-std::vector<PdoParameters> pdos_of(const host::EdsFile& eds, std::uint8_t node_id,
-                                   std::uint16_t communication, std::uint16_t mapping) {
-  std::vector<PdoParameters> pdos;
-  for (std::uint16_t n = 0; n < DriveProfile::kMostPdos; ++n) {
-    const auto index = static_cast<std::uint16_t>(communication + n);
-    if (eds.find({index, 1}) == nullptr) continue;
-    pdos.resize(n + std::size_t{1});
-    pdos.back() = eds.pdo(index, static_cast<std::uint16_t>(mapping + n), node_id);
-  }
-  return pdos;
 }
 
 }  // namespace
@@ -101,14 +88,6 @@ void DriveProfile::add_row(const host::EdsFile::Key& key, const host::EdsFileObj
   const unsigned transmit = object.to_tpdo ? canopen::kTransmit : canopen::kPlain;
   row.traits = (receive | transmit) & 0xFU;
   rows_.push_back(row);
-}
-
-std::vector<PdoParameters> DriveProfile::receive_pdos(std::uint8_t node_id) const {
-  return pdos_of(eds_, node_id, PdoTable::kReceiveCommunication, PdoTable::kReceiveMapping);
-}
-
-std::vector<PdoParameters> DriveProfile::transmit_pdos(std::uint8_t node_id) const {
-  return pdos_of(eds_, node_id, PdoTable::kTransmitCommunication, PdoTable::kTransmitMapping);
 }
 
 void DriveProfile::fill(host::Cia402Objects& objects, const Entry& row,

@@ -14,17 +14,16 @@ namespace volcomp::sim {
 
 class DriveProfile {
  public:
-  static constexpr std::size_t kMostPdos = 8;  // of each kind; further ones are left out
-
   // Throws UserError naming the file when it describes no drive: 1000h, 6040h or 6041h is missing.
   explicit DriveProfile(host::EdsFile eds);
 
-  [[nodiscard]] const host::EdsFile& eds() const { return eds_; }
   [[nodiscard]] canopen::Dictionary dictionary() const {
     return {{rows_.data(), rows_.size()}, host::cia402_dictionary().ranges};
   }
-  [[nodiscard]] std::vector<canopen::PdoParameters> receive_pdos(std::uint8_t node_id) const;
-  [[nodiscard]] std::vector<canopen::PdoParameters> transmit_pdos(std::uint8_t node_id) const;
+  [[nodiscard]] std::vector<canopen::PdoParameters> pdos(canopen::PdoKind kind,
+                                                         std::uint8_t node_id) const {
+    return eds_.pdos(kind, node_id);
+  }
 
   // Values after power-on where the EDS gives them. The application area keeps what the axis
   // determines: positions, limits, the cycle.

@@ -51,6 +51,8 @@ if chrt -f 45 true 2> /dev/null; then
   expect 'the node stays on its processor' grep -q ': 0$' <(taskset -pc "$node_process")
   expect 'its memory is locked' grep -qE '^VmLck:[[:space:]]*[1-9][0-9]{3,} kB' "/proc/$node_process/status"
   stop_node
+else
+  echo 'skipped: this system grants no real-time priority'
 fi
 # refused OPTION...: in one sentence, with 2.
 refused() {
@@ -66,6 +68,8 @@ unprivileged=(prlimit --rtprio=0 --memlock=65536 setpriv --bounding-set=-all --i
 if "${unprivileged[@]}" true; then
   refused --priority 45
   expect 'what is missing is named' grep -qE 'CAP_IPC_LOCK|CAP_SYS_NICE' "$work/said.txt"
+else
+  echo 'skipped: no process here may have fewer rights'
 fi
 
 # --- a service manager: ready, alive, not alive while it hangs, ending

@@ -123,10 +123,7 @@ EdsFile::EdsFile(const std::string& text, const std::string& file) : file_(file)
 
 void EdsFile::take(const std::string& section, const Section& keys) {
   if (section == "deviceinfo") {
-    vendor_ = value_of(keys, "vendorname");
     product_ = value_of(keys, "productname");
-  } else if (section == "dummyusage") {
-    dummies_ = keys;
   } else if (const auto key = key_of(section)) {
     const std::string value = value_of(keys, "parametervalue");
     EdsFileObject object;
@@ -177,9 +174,21 @@ canopen::PdoParameters EdsFile::pdo(std::uint16_t communication, std::uint16_t m
   return p;
 }
 
-bool EdsFile::dummy(std::uint16_t type) const {
-  const std::string used = value_of(dummies_, fmt::format("dummy{:04x}", type).c_str());
-  return number_in(used).value_or(0) != 0;
+std::vector<canopen::PdoParameters> EdsFile::pdos(canopen::PdoKind kind,
+                                                  std::uint8_t node_id) const {
+  using canopen::PdoTable;
+  const bool receive = kind == canopen::PdoKind::receive;
+  const std::size_t communication =
+      receive ? PdoTable::kReceiveCommunication : PdoTable::kTransmitCommunication;
+  const std::size_t mapping = receive ? PdoTable::kReceiveMapping : PdoTable::kTransmitMapping;
+  std::vector<canopen::PdoParameters> pdos;
+  for (std::size_t n = 0; n < kMostPdos; ++n) {
+    const auto index = static_cast<std::uint16_t>(communication + n);
+    if (find({index, 1}) == nullptr) continue;
+    pdos.resize(n + 1);
+    pdos.back() = pdo(index, static_cast<std::uint16_t>(mapping + n), node_id);
+  }
+  return pdos;
 }
 
 EdsFile read_eds_file(const std::string& path) {

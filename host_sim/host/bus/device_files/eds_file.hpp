@@ -32,7 +32,6 @@ class EdsFile {
   EdsFile(const std::string& text, const std::string& file);
 
   [[nodiscard]] const std::string& file() const { return file_; }
-  [[nodiscard]] const std::string& vendor() const { return vendor_; }
   [[nodiscard]] const std::string& product() const { return product_; }
 
   // Objects by index and sub-index; of arrays and records their sub-indices only.
@@ -43,22 +42,21 @@ class EdsFile {
   // real number, a word): vendors write many things.
   [[nodiscard]] std::optional<std::uint64_t> number(canopen::ObjectId object,
                                                     std::uint8_t node_id) const;
-  // A PDO after power-on, by the indices of its two records. Where the EDS tells no count, as many
-  // entries as have a value.
-  [[nodiscard]] canopen::PdoParameters pdo(std::uint16_t communication, std::uint16_t mapping,
-                                           std::uint8_t node_id) const;
-  // Types that may fill an RPDO without being taken, CiA 306-1 [DummyUsage].
-  [[nodiscard]] bool dummy(std::uint16_t type) const;
+  // The PDOs after power-on, the first eight; one that is missing between others is invalid. Where
+  // the EDS tells no count of a mapping, as many entries as have a value.
+  static constexpr std::size_t kMostPdos = 8;
+  [[nodiscard]] std::vector<canopen::PdoParameters> pdos(canopen::PdoKind kind,
+                                                         std::uint8_t node_id) const;
 
  private:
   using Section = std::map<std::string, std::string>;  // keys in lower case
   void take(const std::string& section, const Section& keys);
+  [[nodiscard]] canopen::PdoParameters pdo(std::uint16_t communication, std::uint16_t mapping,
+                                           std::uint8_t node_id) const;
 
   std::string file_;
-  std::string vendor_;
   std::string product_;
   std::map<Key, EdsFileObject> objects_;
-  Section dummies_;
 };
 
 // Throws UserError, also when it cannot be read.

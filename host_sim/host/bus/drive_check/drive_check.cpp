@@ -160,10 +160,10 @@ class Checker {
       check_.best_is_sure = to_drive_;
       check_.confirmed = from_drive_;
     } else {
-      const bool target = drive_.may_map(PdoKind::receive, kTarget).value_or(false);
-      check_.best =
-          target && drive_.receive.size() >= 2 ? Way::forwarded_target : Way::controller_adds;
-      check_.best_is_sure = true;
+      const bool two = drive_.receive.size() >= 2;
+      const std::optional<bool> target = two ? drive_.may_map(PdoKind::receive, kTarget) : false;
+      check_.best = target != false ? Way::forwarded_target : Way::controller_adds;
+      check_.best_is_sure = target ? std::optional(true) : std::nullopt;
       miss(drive_.has(kOffset) ? "60B0h cannot be mapped into an RPDO"
                                : "60B0h, the position offset, is absent");
     }

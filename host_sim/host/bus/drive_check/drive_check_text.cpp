@@ -25,7 +25,8 @@ std::string way_text(const DriveCheck& check) {
   std::string text = fmt::format("way {} ({})", static_cast<int>(check.best), words(check.best));
   if (check.best == Way::offset && check.confirmed)
     text += *check.confirmed ? ", confirmed" : ", unconfirmed";
-  if (!check.best_is_sure) text += " fits if a PDO takes 60B0h";
+  if (!check.best_is_sure)
+    text += fmt::format(" fits if a PDO takes {}h", check.best == Way::offset ? "60B0" : "607A");
   if (check.best != kWayOfNode) text += ", which this node does not know yet";
   return text;
 }

@@ -109,16 +109,12 @@ std::optional<std::uint64_t> as_sent(std::optional<std::uint64_t> number, std::s
   return number;
 }
 
-std::vector<ForeignPdo> pdos_of(const EdsFile& eds, std::uint8_t node, std::uint16_t communication,
-                                std::uint16_t mapping) {
+std::vector<ForeignPdo> pdos_of(const std::vector<canopen::PdoParameters>& parameters) {
   std::vector<ForeignPdo> pdos;
-  for (std::uint16_t n = 0; n < kMostPdos; ++n) {
-    const auto index = static_cast<std::uint16_t>(communication + n);
-    if (eds.find({index, 1}) == nullptr) continue;
-    const canopen::PdoParameters p = eds.pdo(index, static_cast<std::uint16_t>(mapping + n), node);
+  pdos.reserve(parameters.size());
+  for (const canopen::PdoParameters& p : parameters)
     pdos.push_back(
-        {n + std::size_t{1}, p.cob_id, p.type, {p.mapping.begin(), p.mapping.begin() + p.count}});
-  }
+        {pdos.size() + 1, p.cob_id, p.type, {p.mapping.begin(), p.mapping.begin() + p.count}});
   return pdos;
 }
 
@@ -133,7 +129,7 @@ bool ForeignPdo::maps(std::uint16_t index) const {
 // Some EDS leave 1000h to the drive: then its statusword tells what it is.
 bool ForeignDrive::is_cia402() const {
   const auto type = number(0x1000);
-  return type ? (*type & 0xFFFFU) == 402 : has(0x6041);
+  return type ? host::is_cia402(*type) : has(0x6041);
 }
 
 bool ForeignDrive::has(std::uint16_t index, std::uint8_t sub) const {
@@ -170,7 +166,6 @@ std::size_t ForeignDrive::heartbeat_consumers() const {
 ForeignDrive read_drive(NodeClient& client, const ReadProgress& progress) {
   ForeignDrive drive;
   drive.node = client.node_id();
-  drive.source = fmt::format("node {}", client.node_id());
   Reader reader(client, progress);
   const auto take = [&](ObjectId object, std::size_t most) {
     if (auto value = reader.value(object, most))
@@ -191,7 +186,6 @@ ForeignDrive read_drive(NodeClient& client, const ReadProgress& progress) {
 ForeignDrive read_drive(EdsFile eds, std::uint8_t node_id) {
   ForeignDrive drive;
   drive.node = node_id;
-  drive.source = eds.file();
   for (const auto& [key, object] : eds.objects()) {
     if (PdoTable::owns(key.first)) continue;
     const auto type = static_cast<canopen::DataType>(object.type);
@@ -202,9 +196,8 @@ ForeignDrive read_drive(EdsFile eds, std::uint8_t node_id) {
       value.number = as_sent(eds.number({key.first, key.second}, node_id), value.bytes);
     drive.objects[key] = std::move(value);
   }
-  drive.receive = pdos_of(eds, node_id, PdoTable::kReceiveCommunication, PdoTable::kReceiveMapping);
-  drive.transmit =
-      pdos_of(eds, node_id, PdoTable::kTransmitCommunication, PdoTable::kTransmitMapping);
+  drive.receive = pdos_of(eds.pdos(canopen::PdoKind::receive, node_id));
+  drive.transmit = pdos_of(eds.pdos(canopen::PdoKind::transmit, node_id));
   drive.rules = std::move(eds);
   return drive;
 }

@@ -15,6 +15,11 @@
 
 namespace volcomp::host {
 
+// 1000h: the device profile stands in the lower half.
+[[nodiscard]] constexpr bool is_cia402(std::uint64_t device_type) {
+  return (device_type & 0xFFFFU) == 402;
+}
+
 struct ForeignValue {
   // Of the object; nothing: it is there, but what it holds was not given or could not be read.
   std::optional<std::uint64_t> number;
@@ -38,13 +43,11 @@ struct ForeignPdo {
 
 struct ForeignDrive {
   std::uint8_t node = 1;
-  std::string source;  // for people: "node 3", "elmo_gold.eds"
   std::map<EdsFile::Key, ForeignValue> objects;
   std::vector<ForeignPdo> receive;
   std::vector<ForeignPdo> transmit;
   // Who knows where an object may be mapped; over SDO nobody says without trying.
   std::optional<EdsFile> rules;
-  std::optional<canopen::NmtState> state;  // heard on the bus
 
   // Whether the low half of 1000h says so; of another device nothing more is read over SDO.
   [[nodiscard]] bool is_cia402() const;

@@ -1,8 +1,9 @@
-#include "host_sim/host/bus/drive_check/bus_ear.hpp"
+#include "host_sim/host/bus/drive_check/heard_nodes.hpp"
 
 #include <fmt/format.h>
 
 #include "firmware/canopen/cob_id.hpp"
+#include "host_sim/host/bus/drive_check/foreign_drive.hpp"
 #include "host_sim/host/bus/node_client.hpp"
 #include "host_sim/host/io/interruption.hpp"
 #include "host_sim/host/io/user_error.hpp"
@@ -13,7 +14,6 @@ namespace volcomp::host {
 namespace {
 
 constexpr std::uint16_t kIdBits = 0x7F;
-constexpr std::uint16_t kDriveProfile = 402;
 
 // EMCY, TPDOs, SDO answers and heartbeats come from the node whose id they carry.
 bool comes_from_its_node(std::uint16_t function) {
@@ -49,8 +49,8 @@ const char* title(const std::optional<canopen::NmtState>& state) {
 
 std::string device_text(const HeardNode& node) {
   if (!node.device_type) return node.sdo_in_use ? "not asked: its SDO server is in use" : "";
-  const std::uint32_t profile = *node.device_type & 0xFFFFU;
-  return profile == kDriveProfile ? "CiA 402 drive" : fmt::format("profile {}", profile);
+  return is_cia402(*node.device_type) ? "CiA 402 drive"
+                                      : fmt::format("profile {}", *node.device_type & 0xFFFFU);
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ nlohmann::json to_json(const HeardNodes& heard) {
                        {"sdo_in_use", node.sdo_in_use}};
     if (node.device_type) {
       one["device_type"] = *node.device_type;
-      one["drive"] = (*node.device_type & 0xFFFFU) == kDriveProfile;
+      one["drive"] = is_cia402(*node.device_type);
     }
     nodes.push_back(std::move(one));
   }
