@@ -81,6 +81,16 @@ class Compensator {
   // beyond ±2^30 units (1.07 m): no drive stands there.
   [[gnu::cold]] Status start_from(const std::array<std::int32_t, kAxes>& offsets);
 
+  // The drive of this axis takes no offset at present and will begin with none: the output is 0 at
+  // once, then it follows by soft_rate. Between two ticks, in the context of the tick.
+  [[gnu::cold]] void begin_at_zero(std::size_t axis) {
+    AxisState& s = axis_[axis];
+    s.output = 0;
+    s.ramp_from = 0.0F;
+    s.soft = true;
+    guarded_axes_ |= 1U << axis;
+  }
+
   // Folds tables for a functional point and axes as grown as in the view into the spare buffer.
   // Used for new tables, for a change of the tool and for axes that have become warmer alike. On
   // refusal the active tables go on. `image_crc` is what diagnostics will report. Not while a

@@ -184,6 +184,7 @@ void Device<Application>::watch_heartbeats(std::uint64_t now_us) {
 
 template <class Application>
 void Device<Application>::taken(std::uint64_t now_us) {
+  now_us_ = now_us;
   switch (offered_) {
     case Offered::boot_up:
       boot_up_due_ = false;

@@ -113,7 +113,7 @@ bool DeviceBase::accept(std::size_t receive_pdo, const hal::CanFrame& frame, std
 void DeviceBase::run_own_timers(std::uint64_t now_us) {
   const std::uint64_t period_us = 1000U * std::uint64_t{values_.producer_heartbeat_ms};
   if (period_us != 0 && now_us - last_heartbeat_us_ >= period_us) {
-    heartbeat_due_ = true;
+    heartbeat_due_ = !heartbeat_held_;
     last_heartbeat_us_ = now_us;
   }
 }

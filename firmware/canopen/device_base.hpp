@@ -56,6 +56,11 @@ class DeviceBase {
   [[nodiscard]] const PdoTable& pdos() const { return pdos_; }
   [[nodiscard]] const ObjectDictionary& objects() const { return objects_; }
 
+  // Of the call that is being served.
+  [[nodiscard]] std::uint64_t now_us() const { return now_us_; }
+  // While held the device produces no heartbeat: for others it is lost.
+  void hold_heartbeat(bool held) { heartbeat_held_ = held; }
+
   // Marks an event-driven TPDO (type 254, 255, or 0: at the next SYNC) as due.
   void trigger(std::size_t transmit_pdo);
   // The same for what happened before the last SYNC and is known only now: type 0 is sent at once,
@@ -122,6 +127,7 @@ class DeviceBase {
   Offered offered_ = Offered::none;
   bool boot_up_due_ = false;
   bool heartbeat_due_ = false;
+  bool heartbeat_held_ = false;
   bool sdo_waiting_ = false;
   bool sync_waiting_ = false;
   std::uint32_t pending_ = 0;   // TPDOs to send, a bit each

@@ -12,7 +12,10 @@ std::uint8_t Sync::steps(std::uint8_t from, std::uint8_t to) const {
 SyncVerdict Sync::received(const hal::CanFrame& frame) {
   const std::uint8_t overflow = objects_.sync_counter_overflow;
   if (frame.size != (overflow == 0 ? 0 : 1)) return SyncVerdict::wrong_length;
-  if (overflow == 0) return SyncVerdict::good;
+  if (overflow == 0) {  // counted here, so that what repeats the counter shows every cycle
+    counter_ = static_cast<std::uint8_t>(counter_ % kMostCount + 1);
+    return SyncVerdict::good;
+  }
   const std::uint8_t count = frame.data[0];
   if (count == 0 || count > overflow) return SyncVerdict::wrong_length;
   const std::uint8_t ahead = steps(counter_, count);

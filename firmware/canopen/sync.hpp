@@ -30,7 +30,8 @@ class Sync {
 
   void reset();
 
-  [[nodiscard]] std::uint8_t counter() const { return counter_; }  // of the last good one
+  // Of the last good one; without counter on the bus one of our own, 1…240.
+  [[nodiscard]] std::uint8_t counter() const { return counter_; }
   [[nodiscard]] std::uint16_t id() const {
     return static_cast<std::uint16_t>(objects_.sync_cob_id & hal::kMaxCanId);
   }
@@ -40,6 +41,7 @@ class Sync {
   static constexpr std::uint32_t kProduce = 1U << 30U;  // 1005h
 
  private:
+  static constexpr std::uint8_t kMostCount = 240;
   static constexpr std::uint8_t kMostMissed = 3;
   static constexpr std::uint8_t kRestart = 3;
   [[nodiscard]] std::uint8_t steps(std::uint8_t from, std::uint8_t to) const;

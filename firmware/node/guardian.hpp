@@ -44,8 +44,9 @@ class Guardian {
 
   // --- interrupt
 
-  // Once per tick. `at_rest`: no drive holds a correction any more.
-  State check(std::uint64_t now_us, bool at_rest) {
+  // Once per tick. `at_rest`: no drive holds a correction any more. `needed`: a drive follows what
+  // the tick sends and would stop with it, so the watchdog waits until none does.
+  State check(std::uint64_t now_us, bool at_rest, bool needed = false) {
     if (take_token(now_us)) {
       if (state_ == State::ramping) state_ = State::trusting;
       return state_;
@@ -53,7 +54,7 @@ class Guardian {
     if (state_ == State::trusting && now_us - fresh_us_ > patience_us()) {
       state_ = State::ramping;
       ramping_since_us_ = now_us;
-    } else if (state_ == State::ramping &&
+    } else if (state_ == State::ramping && !needed &&
                (at_rest || now_us - ramping_since_us_ > settings_.ramp_us)) {
       state_ = State::starving;
     }

@@ -81,10 +81,10 @@ void Node::state_changed(NmtState state, std::uint64_t /*now_us*/) {
   if (operational) cycle_.begin();
 }
 
-void Node::received(const canopen::Pdo& pdo, std::uint64_t /*now_us*/) {
+void Node::received(const canopen::Pdo& pdo, std::uint64_t now_us) {
   const std::uint32_t bits = pdo.arrivals();
   thermal_.arrived(bits);
-  cycle_.arrived(bits);
+  cycle_.arrived(bits, now_us);
 }
 
 // --- background
@@ -107,6 +107,7 @@ void Node::frames_lost(std::uint32_t count) {
   if (count == 0) return core_.emergency().clear(ErrorCode::can_overrun, 0);
   const std::uint32_t room = UINT32_MAX - core_.objects.frames_lost;
   core_.objects.frames_lost += count < room ? count : room;
+  cycle_.end_forwarding();  // how many targets were among them nobody knows
   core_.emergency().raise(ErrorCode::can_overrun, 0);
 }
 
@@ -116,6 +117,7 @@ void Node::bus_state(hal::CanBusState state) {
   const bool off = state == hal::CanBusState::off;
   const bool recovered = bus_off_ && !off;
   bus_off_ = off;
+  if (off) cycle_.end_forwarding();
   if (recovered) emergency.raise(ErrorCode::bus_off_recovered, 0);
   if (state == hal::CanBusState::passive) emergency.raise(ErrorCode::can_passive, 0);
   if (off || recovered || state == hal::CanBusState::passive) return;
@@ -138,7 +140,8 @@ void Node::background_overdue(bool overdue) {
 // --- other nodes
 
 bool Node::heartbeat(std::uint8_t node, canopen::HeartbeatEvent event, std::uint64_t /*now_us*/) {
-  if (event != canopen::HeartbeatEvent::back) cycle_.forget_drive(node);
+  if (event != canopen::HeartbeatEvent::back)
+    cycle_.drive_gone(node, event == canopen::HeartbeatEvent::booted);
   return node == core_.objects.controller;
 }
 
@@ -155,8 +158,8 @@ AbortCode Node::before_write(canopen::ObjectId object, Span<const std::uint8_t> 
 }
 
 void Node::written(canopen::ObjectId object, std::uint64_t /*now_us*/) {
-  const bool names_controller = (kWatchesStrokes || kFollowsTemperature) && object == kController;
-  if (object.index == object::drive.index || names_controller) core_.set_default_pdos();
+  if (object.index == object::drive.index || object == kController) core_.set_default_pdos();
+  if (object.index == object::way.index) core_.set_default_axis_pdos(object.sub - 1U);
   if (object == kDrivesReport) {
     core_.objects.confirms.fill(core_.objects.drives_report);
     core_.set_default_receive_pdos(kFirstHeldPdo, kFirstHeldPdo + kNodeAxes);

@@ -73,6 +73,8 @@ class Node final {
   // again. Or it is back.
   void background_overdue(bool overdue);
   [[nodiscard]] bool at_rest() const { return core_.booting() || cycle_.at_rest(); }
+  // A drive moves by the targets that this node forwards: it stops when the node does.
+  [[nodiscard]] bool drives_follow() const { return !core_.booting() && cycle_.drives_follow(); }
 
  private:
   // --- handlers of the device

@@ -44,6 +44,7 @@ struct NodeCore {
   [[nodiscard]] bool corrects(std::size_t axis) const { return (correcting & bit(axis)) != 0; }
   // Those of 2010h.
   [[nodiscard]] std::uint32_t used_axes() const;
+  [[nodiscard]] Way way(std::size_t axis) const { return static_cast<Way>(objects.way[axis]); }
   // Those whose drives report the offsets they hold.
   [[nodiscard]] std::uint32_t confirming_axes() const;
   // The compensator has another machine.
@@ -54,9 +55,18 @@ struct NodeCore {
   Status configure();
   void set_default_pdos();
   void set_default_receive_pdos(std::size_t first, std::size_t end);
+  // 2034h: those of one axis, and all that carry offsets.
+  void set_default_axis_pdos(std::size_t axis);
+  // Refuses no_way: the machine corrects an axis whose drive takes nothing.
+  [[nodiscard]] Status check_way_of(const RuntimeChain& chain) const;
+  // Refuses bad_setting and no_way, with the axis.
+  [[nodiscard]] Status check_ways() const;
 
  private:
   void configure_gates();
+  [[nodiscard]] bool hears(canopen::ObjectId object) const;
+  void set_default_transmit_pdos(std::size_t end);
+  [[nodiscard]] bool can_forward(std::size_t axis) const;
 };
 
 // Writes a refusal (or its absence) to 2112h:02…06.

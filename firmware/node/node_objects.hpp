@@ -15,6 +15,7 @@
 #include "firmware/node/strokes/stroke_objects.hpp"
 #include "firmware/node/tables/node_compensator.hpp"
 #include "firmware/node/thermal/thermal_objects.hpp"
+#include "firmware/node/ways.hpp"
 
 namespace volcomp::node {
 
@@ -85,11 +86,14 @@ inline constexpr std::size_t kTransmitPdos = kFirstPointPdo + kPointPdos;
 inline constexpr std::size_t kFirstHeldPdo = 2 * kNodeAxes;
 
 // Default parameters of the PDOs for the drives of 2010h; those of absent drives are invalid, and
-// those of held offsets where drives do not report (2207h).
+// those of held offsets where drives do not report (2207h) or take none (2034h).
 [[nodiscard]] canopen::PdoParameters default_receive_pdo(std::size_t number,
                                                          const NodeObjects& objects);
 [[nodiscard]] canopen::PdoParameters default_transmit_pdo(std::size_t number,
-                                                          const PerAxis<std::uint8_t>& drives,
+                                                          const NodeObjects& objects,
                                                           std::uint8_t node_id);
+// The transmit PDO that carries the offset of an axis. What the controller adds goes to it in
+// pairs: both are in that of the first of the pair.
+[[nodiscard]] std::size_t offset_pdo(const NodeObjects& objects, std::size_t axis);
 
 }  // namespace volcomp::node

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "firmware/node/node_core.hpp"
+#include "firmware/node/object_handles.hpp"
 
 namespace volcomp::node {
 
@@ -41,20 +42,27 @@ std::uint32_t NodeCore::used_axes() const {
 std::uint32_t NodeCore::confirming_axes() const {
   std::uint32_t confirming = 0;
   for (std::size_t a = 0; a < kNodeAxes; ++a)
-    confirming |= objects.confirms[a] != 0 ? bit(a) : 0U;
+    confirming |= objects.confirms[a] != 0 && way(a) == Way::offset ? bit(a) : 0U;
   return confirming;
 }
 
-void NodeCore::note_machine() {
-  const RuntimeChain& chain = compensator.machine().chain;
-  correcting = 0;
+namespace {
+
+// Those that take offsets of any kind, a bit each.
+std::uint32_t correcting_axes(const RuntimeChain& chain) {
+  std::uint32_t correcting = 0;
   for (std::size_t c = 0; c < chain.correcting_count; ++c)
     correcting |= bit(chain.correcting[c]);
   if constexpr (kOrientsTool) {
     for (std::size_t o = 0; o < chain.orienting_count; ++o)
       correcting |= bit(chain.orienting[o]);
   }
+  return correcting;
 }
+
+}  // namespace
+
+void NodeCore::note_machine() { correcting = correcting_axes(compensator.machine().chain); }
 
 // The machine id is checked at load time, because it may be changed while stopped.
 Status NodeCore::configure() {
@@ -78,12 +86,12 @@ void NodeCore::configure_gates() {
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     GateBounds bounds;
     bounds.scale = {objects.scale_numerator[a], objects.scale_denominator[a],
-                    objects.rotary[a] != 0};
+                    objects.rotary[a] != 0, objects.rotary[a] != 0 ? objects.units_per_turn[a] : 0};
     bounds.limit = offset_to_wire(objects.limit[a], bounds.scale);
     bounds.slew = step_to_wire(objects.slew[a], bounds.scale);
     bounds.soft = std::max<std::int32_t>(1, step_to_wire(objects.soft_rate[a], bounds.scale));
     bounds.late = objects.late_cycles;
-    bounds.reports = objects.confirms[a];
+    bounds.reports = way(a) == Way::offset ? objects.confirms[a] : std::uint8_t{0};
     gate[a].configure(bounds);
   }
 }
@@ -96,13 +104,82 @@ void NodeCore::set_default_receive_pdos(std::size_t first, std::size_t end) {
   }
 }
 
+void NodeCore::set_default_transmit_pdos(std::size_t end) {
+  for (std::size_t i = 0; i < end; ++i) {
+    static_cast<void>(transmit[i].configure(default_transmit_pdo(i, objects, device.node_id()),
+                                            canopen::PdoKind::transmit, device.objects()));
+  }
+}
+
 void NodeCore::set_default_pdos() {
   set_default_receive_pdos(0, kReceivePdos);
-  for (std::size_t i = 0; i < kTransmitPdos; ++i) {
-    static_cast<void>(
-        transmit[i].configure(default_transmit_pdo(i, objects.drive, device.node_id()),
-                              canopen::PdoKind::transmit, device.objects()));
+  set_default_transmit_pdos(kTransmitPdos);
+}
+
+void NodeCore::set_default_axis_pdos(std::size_t axis) {
+  for (std::size_t i = axis; i < kProcessStatePdo; i += kNodeAxes)
+    set_default_receive_pdos(i, i + 1);
+  set_default_transmit_pdos(kNodeAxes);
+}
+
+// --- ways
+
+// Whether a frame with this object is taken at once: a synchronous one waits for the next SYNC.
+bool NodeCore::hears(canopen::ObjectId object) const {
+  for (const canopen::Pdo& pdo : receive) {
+    if (!pdo.valid() || pdo.synchronous()) continue;
+    for (std::size_t i = 0; i < pdo.parameters().count; ++i) {
+      if (canopen::object_of(pdo.parameters().mapping[i]) == object) return true;
+    }
   }
+  return false;
+}
+
+// A target must be heard and be sent in its cycle, and no other time may send an old one. The mode
+// tells whether the drive follows targets at all. 1029h = 1: a heartbeat of the controller that is
+// only late must not stop the axis.
+bool NodeCore::can_forward(std::size_t axis) const {
+  const bool hears_all = hears(object::target[axis].id()) && hears(object::control[axis].id()) &&
+                         hears(object::drive_status[axis].id()) &&
+                         hears(object::drive_mode[axis].id());
+  const canopen::Pdo& out = transmit[axis];
+  const canopen::PdoParameters& p = out.parameters();
+  const bool in_time =
+      out.valid() && !out.synchronous() && p.inhibit_100us == 0 && p.event_timer_ms == 0;
+  const auto same = std::count(objects.drive.begin(), objects.drive.end(), objects.drive[axis]);
+  return hears_all && in_time && same == 1 &&
+         objects.communication.error_behaviour ==
+             static_cast<std::uint8_t>(canopen::ErrorBehaviour::no_change);
+}
+
+namespace {
+
+Status refuse_axis(Reason reason, std::size_t axis, const RuntimeChain& chain) {
+  Where where;
+  where.index = static_cast<int>(axis);
+  where.axis = chain.letter[axis];
+  return refuse(reason, where);
+}
+
+}  // namespace
+
+Status NodeCore::check_way_of(const RuntimeChain& chain) const {
+  const std::uint32_t corrected = correcting_axes(chain);
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    const bool drive = objects.drive[a] != 0;
+    if (drive && way(a) == Way::none && (corrected & bit(a)) != 0)
+      return refuse_axis(Reason::no_way, a, chain);
+  }
+  return {};
+}
+
+Status NodeCore::check_ways() const {
+  const RuntimeChain& chain = compensator.machine().chain;
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    const bool forwards = objects.drive[a] != 0 && way(a) == Way::forwarded_target;
+    if (forwards && !can_forward(a)) return refuse_axis(Reason::bad_setting, a, chain);
+  }
+  return check_way_of(chain);
 }
 
 }  // namespace volcomp::node

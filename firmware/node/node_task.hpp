@@ -186,7 +186,7 @@ class NodeTask final : private Preemption {
 
   void watch(std::uint64_t now_us) {
     const Guardian::State before = guardian_.state();
-    const Guardian::State state = guardian_.check(now_us, node_.at_rest());
+    const Guardian::State state = guardian_.check(now_us, node_.at_rest(), node_.drives_follow());
     if (state == before) return;
     if (state == Guardian::State::ramping) node_.background_overdue(true);
     if (state == Guardian::State::trusting) node_.background_overdue(false);
@@ -215,7 +215,7 @@ class NodeTask final : private Preemption {
     hal::CanFrame frame;
     for (int i = 0; i < kMostSent; ++i) {
       if (!node_.device().offer(frame, now_us) || !board_.port.send(frame)) return;
-      node_.device().taken(now_us);
+      node_.device().taken(board_.clock.now_us());  // when it was handed over: 2620h
     }
   }
 

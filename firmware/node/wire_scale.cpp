@@ -35,28 +35,47 @@ std::int32_t saturated(std::int64_t value) {
 }
 
 constexpr std::int64_t kOffsetToPosition = 256;  // 2^-32 turn in 2^-40 turn
+constexpr std::int64_t kOffsetsPerTurn = std::int64_t{1} << 32;
 
-// In a `denominator`th of the units of a position.
-std::int64_t parts_of(std::int32_t offset, const WireScale& scale) {
-  return std::int64_t{offset} * (scale.rotary ? kOffsetToPosition : 1) * scale.denominator;
+// The same length in both: `wire` of a unit of the drive, `offset` of one of an offset.
+struct Parts {
+  std::int64_t offset;
+  std::int64_t wire;
+};
+
+Parts parts_of(const WireScale& scale) {
+  if (scale.per_turn != 0) return {scale.per_turn, kOffsetsPerTurn};
+  return {std::int64_t{scale.denominator} * (scale.rotary ? kOffsetToPosition : 1),
+          scale.numerator};
 }
 
 }  // namespace
 
 std::int32_t offset_to_wire(std::int32_t offset, const WireScale& scale) {
-  return saturated(divide_half_even(parts_of(offset, scale), scale.numerator));
+  const Parts parts = parts_of(scale);
+  return saturated(divide_half_even(offset * parts.offset, parts.wire));
 }
 
 std::int32_t step_to_wire(std::int32_t step, const WireScale& scale) {
+  const Parts parts = parts_of(scale);
   const std::int32_t nearest = offset_to_wire(step, scale);
-  const bool more = std::int64_t{nearest} * scale.numerator > parts_of(step, scale);
-  return nearest - (more ? 1 : 0);
+  return nearest - (nearest * parts.wire > step * parts.offset ? 1 : 0);
 }
 
 std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale) {
-  const std::int64_t divisor =
-      std::int64_t{scale.denominator} * (scale.rotary ? kOffsetToPosition : 1);
-  return saturated(divide_half_even(std::int64_t{wire} * scale.numerator, divisor));
+  const Parts parts = parts_of(scale);
+  return saturated(divide_half_even(wire * parts.wire, parts.offset));
+}
+
+// A turn has 2^40 units: in two steps of 20 bits, as one product would overflow.
+std::uint64_t WirePosition::advance(std::int32_t moved, std::uint32_t per_turn) {
+  constexpr unsigned kStep = 20;
+  constexpr std::int64_t kFactor = std::int64_t{1} << kStep;
+  const Division high = divide(moved * kFactor, per_turn);
+  const Division low = divide(high.remainder * kFactor + rest_, per_turn);
+  rest_ = low.remainder;
+  return (static_cast<std::uint64_t>(high.quotient) << kStep) +
+         static_cast<std::uint64_t>(low.quotient);
 }
 
 std::int64_t WirePosition::update(std::int32_t wire, const WireScale& scale) {
@@ -70,7 +89,14 @@ std::int64_t WirePosition::update(std::int32_t wire, const WireScale& scale) {
   // Wraps by design: the difference of two unsigned counters.
   const auto moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(wire) -
                                                static_cast<std::uint32_t>(last_));
+  const bool wrapped = std::int64_t{wire} - last_ != moved;
   last_ = wire;
+  if (scale.per_turn != 0) {
+    const bool whole_turns = (scale.per_turn & (scale.per_turn - 1U)) == 0;
+    lost_ = lost_ || (wrapped && !whole_turns);
+    whole_ += advance(moved, scale.per_turn);
+    return static_cast<std::int64_t>(whole_);
+  }
   const Division d = divide(rest_ + std::int64_t{moved} * scale.numerator, scale.denominator);
   whole_ += static_cast<std::uint64_t>(d.quotient);
   rest_ = d.remainder;

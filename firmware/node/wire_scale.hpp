@@ -1,7 +1,7 @@
 #pragma once
 // Position units of a drive to run-time units and back, exactly: an axis has numerator/denominator
-// run-time units per wire unit (conventions, section 5). Run-time units of a position: nm or
-// 2^-40 turn; of an offset: nm or 2^-32 turn.
+// run-time units per wire unit (conventions, section 5), or so many wire units per turn. Run-time
+// units of a position: nm or 2^-40 turn; of an offset: nm or 2^-32 turn.
 
 #include <cstdint>
 
@@ -13,6 +13,7 @@ struct WireScale {
   std::uint32_t numerator = 1;    // 1…kMostScale
   std::uint32_t denominator = 1;  // 1…kMostScale
   bool rotary = false;
+  std::uint32_t per_turn = 0;  // rotary: wire units, instead of the fraction; 0: the fraction holds
 };
 
 // Offset of the run time in wire units, half to even, saturating.
@@ -27,13 +28,19 @@ struct WireScale {
 class WirePosition {
  public:
   std::int64_t update(std::int32_t wire, const WireScale& scale);
-  void reset() { started_ = false; }
+  void reset() { started_ = lost_ = false; }
+  // The wire has wrapped, and its range is no whole number of turns: this counts on, but after a
+  // restart nobody would know in which turn the axis is.
+  [[nodiscard]] bool lost() const { return lost_; }
 
  private:
+  std::uint64_t advance(std::int32_t moved, std::uint32_t per_turn);
+
   std::uint64_t whole_ = 0;  // wraps after a whole number of turns
   std::int64_t rest_ = 0;    // 0 ≤ rest < denominator
   std::int32_t last_ = 0;
   bool started_ = false;
+  bool lost_ = false;
 };
 
 }  // namespace volcomp::node

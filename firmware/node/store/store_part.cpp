@@ -152,7 +152,7 @@ std::size_t StorePart::collect_parameters() {
   for (std::size_t i = 0; i < kTransmitPdos; ++i) {
     writer.add_pdo(static_cast<std::uint16_t>(canopen::PdoTable::kTransmitCommunication + i),
                    core_.transmit[i],
-                   default_transmit_pdo(i, core_.objects.drive, core_.device.node_id()));
+                   default_transmit_pdo(i, core_.objects, core_.device.node_id()));
   }
   writer.add_learned(strokes_.learned_image());
   return writer.size();

@@ -20,7 +20,7 @@ class WatchedStrokes : public NodePart {
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes);
   void before_read(canopen::ObjectId object);
   static bool owns_domain(canopen::ObjectId object) {
-    return object.index >= object::stroke::command.index;
+    return object.index >= object::stroke::command.index && object.index < object::state.index;
   }
   canopen::AbortCode read_domain(canopen::ObjectId object, Span<const std::uint8_t>& source);
   canopen::AbortCode begin_domain(std::size_t announced, Span<std::uint8_t>& sink);

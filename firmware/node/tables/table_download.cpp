@@ -100,6 +100,8 @@ Status TableDownload::stage() {
   const RuntimeChain& own = core_.compensator.machine().chain;
   const NodeMachine machine = this->machine();
   if (machine.chain.axes > kNodeAxes) return refuse(Reason::too_many_axes);
+  const Status way = core_.check_way_of(machine.chain);
+  if (!way.ok()) return way;
   const Status status = stage(core_.running ? own : machine.chain);
   if (!status.ok() || same_chain(machine.chain, own)) return status;
   if (core_.running) return stage(own);  // started meanwhile: refused
