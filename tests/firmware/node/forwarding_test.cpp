@@ -99,10 +99,11 @@ TEST_F(NodeForwarding, GoesOnWithoutHeartbeatOfTheDrive) {
   bus.bench.load(bench_tables());
   bus.confirm_mapping();
   bus.start();
-  bus.bench.give({0x701, 1, {5}});
   bus.cycles(20);
   bus.enable(true);
   bus.cycles(500);
+  bus.bench.give({0x701, 1, {5}});
+  bus.cycles(100);
   EXPECT_TRUE(bus.bench.emergency(ErrorCode::heartbeat, kX));
   EXPECT_EQ(bus.frames(), 3);
   EXPECT_NE(bus.drive[0].taken->offset(), 0);
@@ -135,6 +136,23 @@ TEST_F(NodeForwarding, SendsNothingWhereTheControllerIsSilent) {
   bus.controller_speaks = true;
   bus.cycles(2);
   EXPECT_EQ(bus.frames(), 3) << "that was not a gap of the node";
+}
+
+// The offset is ramped down meanwhile, but the drive holds what it was sent last.
+TEST_F(NodeForwarding, GoesOnFromTheOffsetThatWasSentLast) {
+  bus.slew = 700;
+  bus.soft_rate = 700;
+  bus.bring_up();
+  bus.enable(true);
+  bus.cycles(1000);
+  const std::int32_t held = bus.drive[0].taken->offset();
+  ASSERT_GT(std::abs(held), 10 * bus.slew);
+  bus.controller_speaks = false;
+  bus.cycles(300);
+  ASSERT_NE(bus.bench.number(0x2601, kX) & kDropped, 0U);
+  bus.controller_speaks = true;
+  bus.cycles(1000);  // judged by the bench
+  EXPECT_EQ(bus.drive[0].taken->offset(), held);
 }
 
 // Homing in the drive: "operation enabled", but the mode is another. Nothing is added meanwhile,
