@@ -75,11 +75,15 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
                       "Folder for the learned tables as files of controllers");
   add_output_options(*helical, *a);
   add_can_option(*helical, a->node);
+  CLI::Option* drives = add_drive_option(*helical, a->node);
   helical
       ->add_option("--log", a->node.log_file,
                    "Write all frames to this file, as candump -L does (-: standard output)")
       ->needs("--can");
-  helical->callback([a, &code] { code = run_experiment(*a, {}, internal_helical_outcome); });
+  helical->callback([a, drives, &code] {
+    require_node({drives}, a->node, "--can");
+    code = run_experiment(*a, {}, internal_helical_outcome);
+  });
 }
 
 }  // namespace volcomp::cli

@@ -9,6 +9,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/output.hpp"
+#include "host_sim/host/bus/bus_settings.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/io/whole_file.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
@@ -29,7 +30,7 @@ using Describe = std::function<std::string(const host::MachineFile&)>;
 
 int describe_machine(const MachineArguments& a, const Describe& describe) {
   Results results({a.json_file}, {a.path});
-  const host::MachineFile machine = host::read_machine_file(a.path);
+  const host::MachineFile machine = host::with_drives_settled(host::read_machine_file(a.path));
   const std::string text = describe(machine);
   results.add(a.json_file, json_text(host::summary_of(machine)));
   results.write();

@@ -1,8 +1,10 @@
 #include "host_sim/cli/run_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host_sim/cli/number_check.hpp"
+#include "host_sim/host/bus/device_files/eds_file.hpp"
 #include "host_sim/host/bus/links/frame_link.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/machine_bus.hpp"
@@ -51,6 +53,16 @@ void add_can_option(CLI::App& scenario, NodePlace& node) {
   if (!node.integrated()) can->capture_default_str();
 }
 
+CLI::Option* add_drive_option(CLI::App& scenario, NodePlace& node) {
+  return scenario
+      .add_option("--drive-profile", node.drives,
+                  fmt::format("Drives as their data sheets have them: one for all axes, or one for "
+                              "each ({}, or an EDS file)",
+                              fmt::join(host::bundled_drives(), ", ")))
+      ->delimiter(',')
+      ->type_name("NAME[,NAME...]");
+}
+
 std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node) {
   CLI::Option* cycle = scenario.add_option("--cycle-hz", node.cycle_hz, "Cycle on the bus")
                            ->check(number_between(host::kLeastCycle_hz, host::kMostCycle_hz))
@@ -58,7 +70,7 @@ std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node) {
   CLI::Option* log = scenario.add_option("--log", node.log_file,
                                          "Write all frames to this file, as candump -L does (-: "
                                          "standard output)");
-  return {cycle, log};
+  return {cycle, log, add_drive_option(scenario, node)};
 }
 
 void require_node(const std::vector<CLI::Option*>& options, const NodePlace& node,

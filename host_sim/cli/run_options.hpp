@@ -32,6 +32,8 @@ struct RunArguments {
 CLI::Option* add_output_options(CLI::App& scenario, RunArguments& arguments);
 // --can; where `node` is not integrated, its bus is the default.
 void add_can_option(CLI::App& scenario, NodePlace& node);
+// --drive-profile: only for a node on a bus.
+CLI::Option* add_drive_option(CLI::App& scenario, NodePlace& node);
 // Cycle and log: only for a node on a bus.
 std::vector<CLI::Option*> add_bus_options(CLI::App& scenario, NodePlace& node);
 // Throws CLI::RequiresError for one of these options without a node; `place`: the options that

@@ -1,9 +1,11 @@
 #include "host_sim/cli/scenario_bus.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/canopen/nmt.hpp"
+#include "host_sim/host/bus/drive_model.hpp"
 
 namespace volcomp::cli {
 
@@ -16,7 +18,9 @@ std::string describe(const NodePlace& place) {
                        place.cycle_hz);
   }
   const char* const how = place.can == "loopback" ? "node in this process" : "lock step";
-  return fmt::format("CAN {}, {:g} Hz, {}", place.can, place.cycle_hz, how);
+  return fmt::format(
+      "CAN {}, {:g} Hz, {}{}", place.can, place.cycle_hz, how,
+      place.drives.empty() ? "" : fmt::format(", drives {}", fmt::join(place.drives, ",")));
 }
 
 std::size_t knots_at(const NodePlace& place) {
@@ -24,7 +28,9 @@ std::size_t knots_at(const NodePlace& place) {
 }
 
 ScenarioBus::ScenarioBus(const NodePlace& place, sim::MachineWatch* watch)
-    : cycle_hz_(place.cycle_hz), watch_(watch) {
+    : cycle_hz_(place.cycle_hz), drives_(place.drives), watch_(watch) {
+  for (const std::string& name : drives_)
+    static_cast<void>(host::find_drive_model(name));
   join(place);
   if (place.log_file.empty()) return;
   const std::string name = place.firmware.chosen() ? place.firmware.board : place.can;
@@ -49,6 +55,7 @@ void ScenarioBus::join(const NodePlace& place) {
 
 sim::BusAxesFactory ScenarioBus::axes() {
   sim::BusAxesFactory make = gateway_ ? sim::gateway_axes(*gateway_) : sim::loopback_axes();
+  if (!drives_.empty()) make = sim::with_drives(std::move(make), drives_);
   if (recorder_) make = sim::recorded(std::move(make), *recorder_);
   return watch_ != nullptr ? sim::watched(std::move(make), *watch_) : make;
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "host_sim/cli/firmware_options.hpp"
 #include "host_sim/sim/boards/emulated_node.hpp"
@@ -14,6 +15,8 @@ struct NodePlace {
   std::string can;          // loopback or a link; empty: integrated, or firmware
   FirmwareChoice firmware;  // instead of `can`, or joined to it by a CAN controller of its own
   std::string log_file;     // empty: none
+  std::vector<std::string>
+      drives;  // data sheets: one for all axes or one for each; none: as the file says
   double cycle_hz = sim::kBusCycle_hz;
 
   [[nodiscard]] bool integrated() const { return can.empty() && !firmware.chosen(); }
@@ -50,6 +53,7 @@ class ScenarioBus {
   void join(const NodePlace& place);
 
   double cycle_hz_;
+  std::vector<std::string> drives_;
   sim::MachineWatch* watch_;
   std::unique_ptr<sim::EmulatedNode> board_;
   std::unique_ptr<host::FrameLink> opened_;

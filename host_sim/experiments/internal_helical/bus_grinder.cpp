@@ -28,6 +28,8 @@ constexpr std::array<Direction, 2> kDirections{Direction::forward, Direction::ba
 // Longer than the longest transfer takes: 1.2 KB in segments.
 constexpr int kMostWaiting = 5000;
 
+constexpr std::int64_t kFiner = 512;  // 2^-40 turn
+
 // A machine that is as it was drawn.
 std::vector<std::uint8_t> image_without_errors(const host::MachineFile& machine) {
   host::Identification nothing;
@@ -94,17 +96,16 @@ BusGrinder::BusGrinder(std::unique_ptr<sim::BusAxes> axes, const StrokeStep& sta
   axes_->stand_at({static_cast<double>(standing.x) / kNmPerMm,
                    static_cast<double>(standing.z) / kNmPerMm,
                    static_cast<double>(standing.c) / kWirePerRad});
-  axes_->drive(kX).couple({[&plant] { return plant.read_x(); },
-                           [&plant](std::int64_t demand) { plant.follow_x(demand); }});
-  axes_->drive(kZ).couple({[&plant] { return plant.read_z(); },
-                           [&plant](std::int64_t demand) { plant.follow_z(demand); }});
-  axes_->drive(kC).couple({[&plant] { return plant.read_c(); },
-                           [&plant](std::int64_t demand) { plant.follow_c(demand); }});
+  axes_->couple(kX, {[&plant] { return plant.read_x(); },
+                     [&plant](std::int64_t demand) { plant.follow_x(demand); }});
+  axes_->couple(kZ, {[&plant] { return plant.read_z(); },
+                     [&plant](std::int64_t demand) { plant.follow_z(demand); }});
+  axes_->couple(kC, {[&plant] { return plant.read_c(); },
+                     [&plant](std::int64_t demand) { plant.follow_c(demand); }});
   axes_->bring_up();
 }
 
 void BusGrinder::cycle(const StrokeStep& step) {
-  constexpr std::int64_t kFiner = 512;  // 2^-40 turn
   last_ = step;
   axes_->controller().send_process_state(step);
   axes_->cycle({step.x, step.z, kFiner * step.c});
@@ -115,8 +116,7 @@ void BusGrinder::rest_until_answered() {
   StrokeStep rest = last_;
   rest.in_face = rest.stroke_end = false;
   host::SdoChannel& sdo = axes_->controller().node_objects();
-  const std::vector<std::int32_t> path{sim::wrapped(rest.x), sim::wrapped(rest.z),
-                                       sim::wrapped(rest.c)};
+  const std::vector<std::int32_t> path = axes_->on_wire({rest.x, rest.z, kFiner * rest.c});
   for (int i = 0; i < kMostWaiting && !sdo.idle() && sdo.failure().empty(); ++i) {
     axes_->controller().send_process_state(rest);
     axes_->run_cycle(path);

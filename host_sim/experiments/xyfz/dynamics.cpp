@@ -64,6 +64,7 @@ void run_line(sim::MotionCell& cell, const host::MachineFile& machine,
     return closed.model.first_order(host::pose_of(q), travels, Beyond::stand_at_end);
   };
   cell.place(line.start);
+  out.unit_nm = cell.axes().largest_unit_nm();
   std::vector<double> path;
   std::vector<Vec3> deviation;
   std::size_t tick = 0;

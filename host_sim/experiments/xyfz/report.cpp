@@ -146,7 +146,7 @@ host::Origins origins(const XyfzResult& r) {
 
 host::Verdict xyfz_verdict(const XyfzResult& r) {
   host::Verdict v;
-  v.ok = r.rate(3) >= 98.0 && r.dynamics.line_worst_nm <= 2.0 && r.tick_max_error_nm < 1.0;
+  v.ok = r.rate(3) >= 98.0 && r.dynamics.line_is_good() && r.tick_max_error_nm < 1.0;
   v.text =
       fmt::format("PNP diagonal {:.2f} µm before, {:.2f} µm after ({:.1f} % less, noise-free).",
                   r.mode[0].body[2].max_abs_um, r.mode[3].body[2].max_abs_um, r.rate(3));

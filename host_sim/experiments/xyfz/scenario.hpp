@@ -66,10 +66,14 @@ struct Trace {
 struct Dynamics {
   Trace line_offset_error_nm;  // applied − wanted offset, largest component, over mm of path
   double line_worst_nm = 0.0;
+  double unit_nm = 1.0;         // of the drives: offsets are rounded to it
   Trace line_deviation_um;      // distance from the line, compensated
   Trace line_deviation_raw_um;  // uncompensated
   Trace circle_um;              // radial deviation over degrees, compensated
   Trace circle_raw_um;
+
+  // As good as rounding allows.
+  [[nodiscard]] bool line_is_good() const { return line_worst_nm <= 1.5 + 0.5 * unit_nm; }
 };
 
 struct PerAxisRemainder {

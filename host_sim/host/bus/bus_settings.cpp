@@ -3,10 +3,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "comp/core/units.hpp"
+#include "host_sim/host/bus/drive_model.hpp"
+#include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/compensator_settings.hpp"
 
 namespace volcomp::host {
+namespace {
+
+void take_drive(const MachineFile& machine, const DriveFile& drive, BusAxis& axis) {
+  axis.way = drive.way;
+  if (!drive.model.empty()) {
+    try {
+      const auto folder = std::filesystem::path(machine.path).parent_path();
+      put_model(axis, find_drive_model(drive.model, folder));
+    } catch (const UserError& why) {
+      throw UserError(fmt::format("{}: {}", machine.path, why.what()));
+    }
+  }
+  if (drive.reports_offset) axis.reports_offset = *drive.reports_offset;
+}
+
+}  // namespace
+
+std::uint8_t sync_counter_overflow(const BusSettings& settings) {
+  constexpr std::uint8_t kUsual = 240;
+  const bool all = std::all_of(settings.axes.begin(), settings.axes.end(), [](const BusAxis& axis) {
+    return axis.model == nullptr || axis.model->counts_sync();
+  });
+  return all ? kUsual : 0;
+}
 
 BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
   BusSettings b;
@@ -26,7 +54,6 @@ BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
     a.drive = drive.node;
     a.rotary = kinds.rotary[i];
     a.scale_numerator = drive.scale_numerator;
-    a.reports_offset = drive.reports_offset;
     a.scale_denominator = drive.scale_denominator;
     if (drive.software_limits_mm) {
       const auto units = [&a](double mm) {
@@ -37,10 +64,21 @@ BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
       a.lowest = units((*drive.software_limits_mm)[0]);
       a.highest = units((*drive.software_limits_mm)[1]);
     }
+    take_drive(machine, drive, a);
     a.latch_delay_ns = std::llround(1000.0 * machine.axes[i].latch_delay_us);
     b.axes.push_back(a);
   }
+  require_latches(b);
   return b;
+}
+
+MachineFile with_drives_settled(MachineFile machine) {
+  const BusSettings bus = bus_settings(machine, machine.correction.tick_hz);
+  for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    DriveFile& drive = machine.axes[i].drive;
+    if (!drive.model.empty()) drive.reports_offset = bus.axes[i].reports_offset;
+  }
+  return machine;
 }
 
 }  // namespace volcomp::host

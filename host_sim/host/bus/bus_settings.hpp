@@ -2,6 +2,7 @@
 // The CAN bus of a machine: node ids, units of the drives, cycle rate.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,6 +18,8 @@ struct DriveScale {
   std::uint32_t denominator = 1;
 };
 
+class DriveModel;
+
 struct BusAxis {
   char letter = '\0';
   std::uint8_t drive = 0;  // node id
@@ -25,6 +28,9 @@ struct BusAxis {
   std::uint32_t scale_denominator = 1;
   std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
   std::int32_t highest = 0;
+  DriveWay way = DriveWay::offset;
+  // Nothing: every object and the PDOs of host_sim/host/bus/cia402.def.
+  std::shared_ptr<const DriveModel> model;
   // 60B0h by TPDO. Otherwise a client writes the held offset to 2206h when the node starts.
   bool reports_offset = true;
   std::int64_t latch_delay_ns = 0;  // of the touch probe input
@@ -50,7 +56,13 @@ struct BusSettings {
   std::optional<WatchedStrokes> strokes;  // the axes X, Z and C grind a helical gear
 };
 
-// Node ids, units and software limits from the machine file.
+// 1019h of all devices: 240, or 0 where a drive of the machine cannot count.
+[[nodiscard]] std::uint8_t sync_counter_overflow(const BusSettings& settings);
+
+// Node ids, units, software limits and drives from the machine file. Throws UserError where its
+// `drive` cannot be read, or cannot do what is asked of it.
 [[nodiscard]] BusSettings bus_settings(const MachineFile& machine, double cycle_hz);
+// The same file, with `reports_offset` of every axis whose `drive` is given. Throws the same.
+[[nodiscard]] MachineFile with_drives_settled(MachineFile machine);
 
 }  // namespace volcomp::host

@@ -7,6 +7,7 @@
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "host_sim/host/bus/cia402_status.hpp"
+#include "host_sim/host/bus/drive_plan.hpp"
 #include "host_sim/host/bus/probe_setup.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
@@ -125,7 +126,7 @@ SetupPlan common_plan(const BusSettings& settings) {
   // The counter may change only while there is no period (CiA 301, 7.5.2.22).
   plan_value(plan, node::object::cycle_period_us, 0, "us");
   plan.back().name += ", for the next value";
-  plan_value(plan, node::object::sync_counter_overflow, 240);
+  plan_value(plan, node::object::sync_counter_overflow, sync_counter_overflow(settings));
   plan_value(plan, node::object::cycle_period_us, settings.period_us, "us");
   plan_value(plan, node::object::producer_heartbeat_ms, settings.heartbeat_ms, "ms");
   plan_bits<std::uint32_t>(plan, node::object::consumer_heartbeat.id(),
@@ -148,6 +149,8 @@ SetupPlan node_plan(const BusSettings& settings) {
   plan_value(plan, node::object::deadline_us, settings.deadline_us);
   for (std::size_t i = 0; i < settings.axes.size(); ++i)
     plan_axis(plan, settings, i);
+  for (std::size_t i = 0; i < settings.axes.size(); ++i)
+    append(plan, heard_plan(settings, i));
   if (settings.status_every_cycle) plan_status_every_cycle(plan, settings);
   if (settings.strokes) append(plan, stroke_plan(settings, *settings.strokes));
   return plan;

@@ -1,5 +1,6 @@
 #include "host_sim/host/machine/machine_bus.hpp"
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -70,6 +71,18 @@ void read_software_limits(const TomlSection& s, const AxisFile& axis, DriveFile&
   drive.software_limits_mm = limits;
 }
 
+// Refuses a way that no node here knows.
+DriveWay read_way(const TomlSection& s) {
+  constexpr std::array kWays{DriveWay::offset, DriveWay::forwarded, DriveWay::controller,
+                             DriveWay::none};
+  const std::size_t chosen = s.choice("way", {"offset", "forwarded", "controller", "none"});
+  const DriveWay way = kWays.at(chosen);
+  if (!node_knows(way))
+    s.complain("way", fmt::format("'way' is \"{}\": the compensation node cannot do that yet",
+                                  words(way)));
+  return way;
+}
+
 double read_cycle(const TomlSection& s) {
   const double hz = s.number("cycle_hz");
   if (!(hz >= kLeastCycle_hz && hz <= kMostCycle_hz))
@@ -80,9 +93,26 @@ double read_cycle(const TomlSection& s) {
 
 }  // namespace
 
+const char* words(DriveWay way) {
+  switch (way) {
+    case DriveWay::offset:
+      return "offset";
+    case DriveWay::forwarded:
+      return "forwarded";
+    case DriveWay::controller:
+      return "controller";
+    case DriveWay::none:
+      break;
+  }
+  return "none";
+}
+
+bool node_knows(DriveWay way) { return way == DriveWay::offset; }
+
 const std::vector<std::string>& drive_fields() {
-  static const std::vector<std::string> kFields{"node_id", "units_per_mm", "units_per_turn",
-                                                "software_limits_mm", "reports_offset"};
+  static const std::vector<std::string> kFields{
+      "node_id", "units_per_mm", "units_per_turn", "software_limits_mm", "reports_offset",
+      "drive",   "way"};
   return kFields;
 }
 
@@ -90,7 +120,9 @@ DriveFile read_drive(const TomlSection& s, const AxisFile& axis, std::size_t num
   DriveFile drive;
   drive.node = static_cast<std::uint8_t>(
       s.integer_or("node_id", static_cast<long>(number) + 1, 1, kLastNode));
-  drive.reports_offset = s.truth_or("reports_offset", true);
+  if (s.has("reports_offset")) drive.reports_offset = s.truth_or("reports_offset", true);
+  if (s.has("drive")) drive.model = s.text("drive");
+  if (s.has("way")) drive.way = read_way(s);
   if (axis.rotary) {
     for (const char* const key : {"units_per_mm", "software_limits_mm"}) {
       if (s.has(key)) s.complain(key, fmt::format("'{}' is for linear axes", key));

@@ -16,13 +16,23 @@
 
 namespace volcomp::host {
 
+// How a correction reaches an axis: 2034h of the node.
+enum class DriveWay : std::uint8_t {
+  offset = 0,      // 60B0h of the drive, from the node
+  forwarded = 1,   // 607Ah of the drive, from the node
+  controller = 3,  // the controller adds it to its targets
+  none = 4,
+};
+
 // The drive of an axis on the bus.
 struct DriveFile {
   std::uint8_t node = 0;
   std::uint32_t scale_numerator = 1;  // run-time units (nm or 2^-40 turn) per unit of the drive
   std::uint32_t scale_denominator = 1;
   std::optional<std::array<double, 2>> software_limits_mm;  // 607Dh
-  bool reports_offset = true;                               // 60B0h in a TPDO
+  std::string model;  // name of a data sheet that comes with the program, or path; empty: not said
+  DriveWay way = DriveWay::offset;
+  std::optional<bool> reports_offset;  // 60B0h in a TPDO; not said: as the model, or it does
 };
 
 // The other devices on the bus.

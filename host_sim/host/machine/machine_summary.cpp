@@ -7,6 +7,7 @@
 #include "comp/machine/inverse.hpp"
 #include "comp/tick/compensator.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/machine/machine_bus.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
 #include "host_sim/host/report/json_format.hpp"
 #include "host_sim/host/report/report_parts.hpp"
@@ -86,7 +87,10 @@ json axis_facts(const MachineFile& m) {
              {"scale", {axis.drive.scale_numerator, axis.drive.scale_denominator}},
              {"error_motions", motion_errors(axis.letter)},
              {"location_errors", location_errors(m.chain.axis(a))}};
-    if (!axis.drive.reports_offset) one["reports_offset"] = false;
+    if (axis.drive.reports_offset == false) one["reports_offset"] = false;
+    if (!axis.drive.model.empty()) one["drive"] = axis.drive.model;
+    if (!axis.drive.model.empty() || axis.drive.way != DriveWay::offset)
+      one["way"] = words(axis.drive.way);
     if (axis.drive.software_limits_mm) one["software_limits_mm"] = *axis.drive.software_limits_mm;
     axes.push_back(one);
   }
@@ -170,6 +174,8 @@ std::string axes_text(const json& facts) {
         a[rotary ? "units_per_turn" : "units_per_mm"], rotary ? "turn" : "mm");
     if (a.contains("software_limits_mm"))
       text += fmt::format(", software limits {}", a["software_limits_mm"].dump());
+    if (a.contains("drive")) text += ", " + a["drive"].get<std::string>();
+    if (a.contains("way")) text += fmt::format(", way \"{}\"", a["way"].get<std::string>());
     if (a.contains("reports_offset")) text += ", cannot report its offset";
     text += fmt::format("\n        errors {}; location {}\n", words(a["error_motions"]),
                         words(a["location_errors"]));

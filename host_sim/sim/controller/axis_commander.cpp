@@ -6,6 +6,7 @@ namespace volcomp::sim {
 namespace {
 
 // Control words (CiA 402-2, table 28).
+constexpr std::uint16_t kDisableVoltage = 0x00;
 constexpr std::uint16_t kShutdown = 0x06;
 constexpr std::uint16_t kSwitchOn = 0x07;
 constexpr std::uint16_t kEnable = 0x0F;
@@ -57,6 +58,9 @@ void AxisCommander::step(std::int32_t path) {
   } else {
     control_ = next_control(status_);
   }
+  // A drive whose 605Ah says so stays in quick stop active: its axis stands, so it may let go.
+  if (state_of(status_) == host::PowerState::quick_stop_active && at_rest_ > kRetry)
+    control_ = kDisableVoltage;
   const bool was_following = following_;
   following_ = enabled && referenced && mode_ == kCyclicPosition;
   if (enabled && !following_) {

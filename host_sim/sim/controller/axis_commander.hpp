@@ -3,6 +3,7 @@
 // operation enabled, references it, then lets it follow the path in cyclic synchronous position
 // mode.
 
+#include <algorithm>
 #include <cstdint>
 
 namespace volcomp::sim {
@@ -15,6 +16,7 @@ class AxisCommander {
  public:
   // --- reports of the drive
   void actual(std::int32_t position, std::uint16_t status_word) {
+    at_rest_ = position == actual_ ? static_cast<std::uint16_t>(std::min(at_rest_ + 1, 1000)) : 0;
     actual_ = position;
     status_ = status_word;
     heard_ = true;
@@ -43,6 +45,7 @@ class AxisCommander {
   std::uint16_t status_ = 0;
   std::uint16_t control_ = 0;
   std::uint16_t waited_ = 0;
+  std::uint16_t at_rest_ = 0;  // cycles
   std::int8_t mode_ = 0;
   std::int8_t wanted_mode_ = 0;
   bool heard_ = false;

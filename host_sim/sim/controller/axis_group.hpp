@@ -38,6 +38,8 @@ class AxisGroup {
   [[nodiscard]] virtual Approach approach() const = 0;
   // Largest distance between an axis and its target plus offset: nm, or 2^-31 turn.
   [[nodiscard]] virtual double following_error() const = 0;
+  // What targets and offsets of a linear axis are rounded to, the largest of them.
+  [[nodiscard]] virtual double largest_unit_nm() const { return 1.0; }
   // None where no probe is mounted.
   [[nodiscard]] virtual Latches latches() const { return {}; }
   // A ramp of the compensation is running: offsets change while the targets stand still.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
+#include "host_sim/host/bus/drive_model.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 
@@ -16,6 +17,7 @@ constexpr std::uint64_t kSyncPhase_ns = 300'000;  // after SYNC, before the targ
 constexpr std::size_t kGatewayMailboxes = 4096;
 constexpr std::uint64_t kAnswerTimeout_us = 5'000'000;
 constexpr std::uint32_t kWait_us = 200;
+constexpr std::int64_t kWireUnit = 512;  // 2^-31 turn in run-time units
 
 host::AxisKinds kinds_of(const host::BusSettings& settings) {
   host::AxisKinds kinds;
@@ -35,6 +37,7 @@ std::uint32_t position_unit(double nm) {
 
 // Converts the settings of a drive to the units of this axis; the machine stays the same.
 void apply_drive_units(const host::BusAxis& axis, Cia402Drive::Settings& s) {
+  s.scaled_for_axis = s.profile != nullptr;
   const host::DriveScale scale = axis.counts_otherwise.value_or(
       host::DriveScale{axis.scale_numerator, axis.scale_denominator});
   const std::uint32_t usual = axis.rotary ? 512 : 1;
@@ -51,7 +54,8 @@ void apply_drive_units(const host::BusAxis& axis, Cia402Drive::Settings& s) {
     s.units.units_per_turn *= more;
   } else {
     s.units.mm_per_unit = size / kNmPerMm;
-    s.units.position_unit = position_unit(size);
+    s.units.position_unit = s.profile ? host::kIncrement : position_unit(size);
+    if (s.profile) s.feed_per_turn = scaled(s.feed_per_turn);
   }
 }
 
@@ -95,6 +99,7 @@ void BusAxes::build(const host::BusSettings& settings) {
     s.period_s = period_s();
     s.time_constant_s = kDriveTimeConstant_s;
     s.latch_delay_ns = axis.latch_delay_ns;
+    if (axis.model) s.profile = std::make_shared<const DriveProfile>(axis.model->eds());
     apply_drive_units(axis, s);
     attach(s, fmt::format("drive {}", axis.letter));
   }
@@ -131,6 +136,19 @@ std::vector<std::int32_t> BusAxes::on_wire(const host::Targets& target) const {
     wire.push_back(wrapped(units));
   }
   return wire;
+}
+
+void BusAxes::couple(std::size_t a, ForeignMechanics mechanics) {
+  const host::BusAxis& axis = controller_.settings().axes.at(a);
+  const std::int64_t finer = axis.rotary ? kWireUnit : 1;
+  const double size = static_cast<double>(axis.scale_numerator) / axis.scale_denominator /
+                      static_cast<double>(finer);
+  drive_.at(a)->couple({[this, a, finer, read = std::move(mechanics.read)] {
+                          return drive_units(a, finer * read());
+                        },
+                        [size, follow = std::move(mechanics.follow)](std::int64_t demand) {
+                          follow(std::llround(static_cast<double>(demand) * size));
+                        }});
 }
 
 void BusAxes::stand_at(const Pose& pose) {
@@ -222,9 +240,7 @@ void BusAxes::await_node() {
     gateway_->exchange(*gateway_port_);
     bus_.run_until_quiet();
     const std::uint64_t passed_us = gateway_->now_us() - begin_us;
-    if (answers ? controller_.report().sync_counter == controller_.sync_counter()
-                : passed_us >= period_us)
-      return;
+    if (answers ? controller_.sync_answered() : passed_us >= period_us) return;
     if (passed_us > kAnswerTimeout_us)
       throw host::UserError("the compensation node does not answer any more");
     gateway_->wait(kWait_us);
@@ -257,8 +273,8 @@ host::Offsets BusAxes::offset() const {
   host::Offsets offsets{};
   for (std::size_t a = 0; a < drive_.size(); ++a) {
     const host::BusAxis& axis = controller_.settings().axes[a];
-    offsets[a] =
-        std::int64_t{drive_[a]->offset_taken()} * axis.scale_numerator / axis.scale_denominator;
+    const double units = drive_[a]->offset_taken();
+    offsets[a] = std::llround(units * axis.scale_numerator / axis.scale_denominator);
   }
   return offsets;
 }
@@ -281,11 +297,23 @@ Approach BusAxes::approach() const {
 
 double BusAxes::following_error() const {
   double worst = 0.0;
-  for (const auto& drive : drive_) {
-    worst =
-        std::max(worst, std::abs(static_cast<double>(drive->demand()) - drive->position_units()));
+  for (std::size_t a = 0; a < drive_.size(); ++a) {
+    const host::BusAxis& axis = controller_.settings().axes[a];
+    const double units =
+        std::abs(static_cast<double>(drive_[a]->demand()) - drive_[a]->position_units());
+    worst = std::max(worst, units * axis.scale_numerator / axis.scale_denominator /
+                                (axis.rotary ? double{kWireUnit} : 1.0));
   }
   return worst;
+}
+
+double BusAxes::largest_unit_nm() const {
+  double largest = 0.0;
+  for (const host::BusAxis& axis : controller_.settings().axes) {
+    const double nm = static_cast<double>(axis.scale_numerator) / axis.scale_denominator;
+    if (!axis.rotary) largest = std::max(largest, nm);
+  }
+  return largest;
 }
 
 bool BusAxes::ramping() const { return (controller_.report().any_status & kRamping) != 0; }
@@ -299,6 +327,13 @@ BusAxesFactory loopback_axes() {
 BusAxesFactory gateway_axes(CanGateway& gateway) {
   return [&gateway](const host::BusSettings& settings, const std::vector<std::uint8_t>& image) {
     return std::make_unique<BusAxes>(settings, image, gateway);
+  };
+}
+
+BusAxesFactory with_drives(BusAxesFactory make_axes, std::vector<std::string> names) {
+  return [make_axes = std::move(make_axes), names = std::move(names)](
+             const host::BusSettings& settings, const std::vector<std::uint8_t>& image) {
+    return make_axes(host::with_models(settings, names), image);
   };
 }
 

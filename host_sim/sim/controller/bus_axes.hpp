@@ -40,6 +40,7 @@ class BusAxes final : public AxisGroup {
   [[nodiscard]] Pose position() const override;
   [[nodiscard]] Approach approach() const override;
   [[nodiscard]] double following_error() const override;
+  [[nodiscard]] double largest_unit_nm() const override;
   [[nodiscard]] Latches latches() const override;
   [[nodiscard]] bool ramping() const override;
   using AxisGroup::watch;
@@ -51,6 +52,13 @@ class BusAxes final : public AxisGroup {
   [[nodiscard]] Cia402Drive& drive(std::size_t a) { return *drive_.at(a); }
   // The node in this process; nullptr when it is elsewhere.
   [[nodiscard]] const node::Node* node() const { return node_.get(); }
+
+  // The mechanics of an axis are others from now on. They count in nm or 2^-31 turn, whatever the
+  // drive does.
+  void couple(std::size_t a, ForeignMechanics mechanics);
+  // Targets as the drives are sent them: in their units. Throws UserError where 32 bits are too
+  // few.
+  [[nodiscard]] std::vector<std::int32_t> on_wire(const host::Targets& target) const;
 
   // Puts a probe on the tool, instead of any other; its signal reaches every drive. The drives
   // latch it only when the settings have `probes`.
@@ -79,7 +87,6 @@ class BusAxes final : public AxisGroup {
   void serve_drives(std::uint64_t now_us);
   void feel();
   [[nodiscard]] std::int64_t drive_units(std::size_t a, std::int64_t run_time_units) const;
-  [[nodiscard]] std::vector<std::int32_t> on_wire(const host::Targets& target) const;
 
   double period_us_;
   SimulatedBus bus_;
@@ -108,6 +115,8 @@ using BusAxesFactory = std::function<std::unique_ptr<BusAxes>(
     const host::BusSettings& settings, const std::vector<std::uint8_t>& image)>;
 [[nodiscard]] BusAxesFactory loopback_axes();
 [[nodiscard]] BusAxesFactory gateway_axes(CanGateway& gateway);  // must outlive the axes
+// Axes with drives as people own them: host::with_models().
+[[nodiscard]] BusAxesFactory with_drives(BusAxesFactory make_axes, std::vector<std::string> names);
 // Axes that are looked at from their first cycle; `watch` must outlive them.
 [[nodiscard]] BusAxesFactory watched(BusAxesFactory make_axes, MachineWatch& watch);
 

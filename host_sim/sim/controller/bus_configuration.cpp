@@ -11,7 +11,10 @@
 #include "comp/core/units.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/object_handles.hpp"
+#include "firmware/node/wire_scale.hpp"
 #include "host_sim/host/bus/cia402_objects.hpp"
+#include "host_sim/host/bus/drive_model.hpp"
+#include "host_sim/host/bus/drive_plan.hpp"
 #include "host_sim/host/bus/setup_plan.hpp"
 #include "host_sim/sim/controller/bus_controller.hpp"
 
@@ -31,10 +34,9 @@ bool may_count_in(std::uint32_t unit, const host::BusAxis& axis) {
   return std::abs(nm / std::pow(10.0, prefix + 9) - 1.0) < 1e-12;
 }
 
-// Every rising edge is latched; position and instant, then count and following error, go out at the
-// SYNC after it and at no other.
-void arm_probe(host::SdoChannel& sdo, std::uint8_t drive) {
-  constexpr std::uint16_t kRisingContinuously = 0x0013;
+// Position and instant, then count and following error, go out at the SYNC after an edge and at no
+// other.
+void set_latch_pdos(host::SdoChannel& sdo, std::uint8_t drive) {
   constexpr std::uint8_t kAtNextSync = 0;
   const auto report = [&sdo](std::size_t number, std::uint32_t id, const std::string& name) {
     const auto pdo = static_cast<std::uint16_t>(canopen::PdoTable::kTransmitCommunication + number);
@@ -45,6 +47,11 @@ void arm_probe(host::SdoChannel& sdo, std::uint8_t drive) {
   const std::uint32_t base = canopen::kPdoNoRtr | drive;
   report(host::kLatchPdo, base | canopen::kTpdo2, "latch PDO");
   report(host::kEdgePdo, base | canopen::kTpdo3, "edge counter PDO");
+}
+
+// Every rising edge is latched.
+void arm_probe(host::SdoChannel& sdo) {
+  constexpr std::uint16_t kRisingContinuously = 0x0013;
   sdo.write(host::cia402::function, 0);
   sdo.write(host::cia402::function, kRisingContinuously);
 }
@@ -69,9 +76,12 @@ void BusController::configure(Station& s) {
 }
 
 // Checks the units of the drive against the machine file: 60A8h for a linear axis, position units
-// per revolution (6092h through the gear 6091h) for a rotary one.
+// per revolution (6092h through the gear 6091h) for a rotary one. A drive may have neither.
 void BusController::check_scaling(Station& s, std::size_t axis) {
   const host::BusAxis& a = settings_.axes[axis];
+  if (a.model != nullptr &&
+      !a.model->has(a.rotary ? host::cia402::feed.id() : host::cia402::position_unit.id()))
+    return;
   const auto differ = [&s, letter = a.letter](const std::string& what) {
     s.refused = true;
     s.refusal = fmt::format("{}: axis {} has other units than the machine file says: {}", s.name,
@@ -105,22 +115,43 @@ void BusController::check_scaling(Station& s, std::size_t axis) {
 void BusController::configure_drive(Station& s, std::size_t axis) {
   const host::BusAxis& a = settings_.axes[axis];
   host::SdoChannel& sdo = s.channel;
-  host::queue_plan(sdo, host::common_plan(settings_));
+  host::queue_plan(sdo, host::drive_plan(settings_, axis));
   check_scaling(s, axis);
-  sdo.write(canopen::object::consumer_heartbeat[1],
-            std::uint32_t{settings_.node} << 16U | settings_.heartbeat_timeout_ms);
   if (a.lowest != a.highest) {
     sdo.write(host::cia402::software_limit[0], a.lowest);
     sdo.write(host::cia402::software_limit[1], a.highest);
   }
   set_mode(sdo, axis, kHomingMode);
-  if (settings_.probes) arm_probe(sdo, a.drive);
+  if (!settings_.probes) return;
+  if (a.model == nullptr) set_latch_pdos(sdo, a.drive);
+  arm_probe(sdo);
 }
 
 void BusController::configure_node(host::SdoChannel& sdo) {
   host::queue_plan(sdo, host::node_plan(settings_));
   if (node_probe_) host::queue_plan(sdo, host::probe_plan(*node_probe_));
   if (!image_.empty()) queue_tables(sdo);
+}
+
+// A drive that cannot report its offset is asked for it over SDO, and the node told (2206h): it
+// sends nothing before. Drives without a data sheet leave that to whoever knows them.
+void BusController::tell_held_offset(std::size_t axis) {
+  const host::BusAxis& a = settings_.axes[axis];
+  Station& drive = stations_[axis];
+  Station& node = stations_.back();
+  if (a.model == nullptr || a.reports_offset || a.way != host::DriveWay::offset) return;
+  if (drive.phase != Station::Phase::running || node.phase != Station::Phase::running) return;
+  const node::WireScale scale{a.scale_numerator, a.scale_denominator, a.rotary};
+  drive.channel.read(host::cia402::offset, [&node, axis, scale](std::int32_t wire) {
+    node.channel.write(node::object::start_offset[axis], node::offset_from_wire(wire, scale));
+  });
+}
+
+// Once a drive or the node runs: of that drive, or of all of them.
+void BusController::tell_held_offsets(const Station& started) {
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    if (!is_drive(started) || &started == &stations_[a]) tell_held_offset(a);
+  }
 }
 
 // Takes the reason of a refusal. For tables the node gives more than an abort code (2112h:06); an

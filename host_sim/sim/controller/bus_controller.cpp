@@ -113,6 +113,7 @@ void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t
     s.phase = Station::Phase::running;
     s.not_started = 0;
     s.retry_us = 0;
+    tell_held_offsets(s);
   }
   const bool heeds = s.phase != Station::Phase::running || s.state == NmtState::operational;
   s.not_started = heeds ? 0 : s.not_started + 1;
@@ -158,6 +159,7 @@ void BusController::supervise(Station& s, std::uint64_t now_us) {
     s.phase = Station::Phase::running;
     s.refusal.clear();
     command(NmtCommand::start, s.id);
+    tell_held_offsets(s);
   } else if (s.phase == Station::Phase::failed && now_us >= s.retry_us) {
     configure(s);
   } else if (s.phase == Station::Phase::running && !is_drive(s)) {

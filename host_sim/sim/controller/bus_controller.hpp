@@ -110,6 +110,10 @@ class BusController {
 
   [[nodiscard]] std::uint8_t sync_counter() const { return counter_; }
   [[nodiscard]] const NodeReport& report() const { return report_; }
+  // The node has reported since the last SYNC: by its counter where SYNC has one.
+  [[nodiscard]] bool sync_answered() const {
+    return counter_ == 0 ? report_.count != reports_at_sync_ : report_.sync_counter == counter_;
+  }
   [[nodiscard]] const AxisCommander& axis(std::size_t a) const { return axis_.at(a); }
   [[nodiscard]] const ProbeReport& probe(std::size_t a) const { return probe_.at(a); }
   [[nodiscard]] const Station& node() const { return stations_.back(); }
@@ -132,6 +136,8 @@ class BusController {
   void check_scaling(Station& s, std::size_t axis);
   void configure_drive(Station& s, std::size_t axis);
   void configure_node(host::SdoChannel& sdo);
+  void tell_held_offset(std::size_t axis);
+  void tell_held_offsets(const Station& started);
   void queue_tables(host::SdoChannel& sdo);
   void take_refusal(Station& s);
   void set_modes();
@@ -149,6 +155,7 @@ class BusController {
   host::SdoChannel* offered_sdo_ = nullptr;
   std::vector<EmergencyRecord> emergencies_;
   NodeReport report_;
+  std::uint64_t reports_at_sync_ = 0;
   std::uint64_t next_heartbeat_us_ = 0;
   std::uint8_t counter_ = 0;
   int node_requests_ = 0;  // SDO frames to the running node in this cycle

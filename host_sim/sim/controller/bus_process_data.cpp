@@ -33,20 +33,20 @@ void BusController::take_process_data(const hal::CanFrame& frame) {
   }
 }
 
-// The default mapping of the drives: cia402_objects.hpp.
+// The mapping of host_sim/host/bus/drive_plan.hpp: a drive says less where it has less to say.
 void BusController::take_drive_pdo(std::size_t a, const hal::CanFrame& frame) {
   ProbeReport& probe = probe_[a];
   const auto first = static_cast<std::int32_t>(le(frame, 0, 4));
   switch (frame.id & ~unsigned{canopen::kMaxNodeId}) {
     case canopen::kTpdo1:
-      if (frame.size != 8) return;
+      if (frame.size < 6) return;
       axis_[a].actual(first, static_cast<std::uint16_t>(le(frame, 4, 2)));
-      probe.status = static_cast<std::uint16_t>(le(frame, 6, 2));
+      if (frame.size == 8) probe.status = static_cast<std::uint16_t>(le(frame, 6, 2));
       return;
     case canopen::kTpdo2:
-      if (frame.size != 8) return;
+      if (frame.size < 4) return;
       probe.position = first;
-      probe.time_ns = static_cast<std::uint32_t>(le(frame, 4, 4));
+      probe.time_ns = frame.size == 8 ? static_cast<std::uint32_t>(le(frame, 4, 4)) : 0;
       ++probe.latches;
       return;
     case canopen::kTpdo3:
@@ -62,6 +62,11 @@ void BusController::take_drive_pdo(std::size_t a, const hal::CanFrame& frame) {
 
 void BusController::send_sync() {
   node_requests_ = 0;
+  reports_at_sync_ = report_.count;
+  if (host::sync_counter_overflow(settings_) == 0) {
+    send_latest({canopen::kSync, 0, {}});
+    return;
+  }
   counter_ = static_cast<std::uint8_t>(counter_ % kCounterOverflow + 1);
   send_latest({canopen::kSync, 1, {counter_}});
 }

@@ -39,20 +39,26 @@ void set_cycle(host::Cia402Objects& objects, std::uint64_t period_us) {
   objects.cycle_exponent = exponent;
 }
 
+void set_scaling(host::Cia402Objects& o, const Cia402Drive::Settings& settings) {
+  const std::uint32_t turn =
+      settings.rotary ? static_cast<std::uint32_t>(std::lround(settings.units.units_per_turn))
+                      : settings.feed_per_turn;
+  o.encoder_resolution = {turn, 1};
+  o.gear = {1, 1};
+  o.feed = {turn, 1};
+  o.position_unit = settings.rotary ? host::kIncrement : settings.units.position_unit;
+}
+
 host::Cia402Objects default_objects(const Cia402Drive::Settings& settings,
                                     std::uint64_t period_us) {
   host::Cia402Objects o;
   o.following_window = settings.following_window;
   o.software_limit = {settings.software_min, settings.software_max};
   o.quick_stop_deceleration = settings.deceleration;
-  const std::uint32_t turn =
-      settings.rotary ? static_cast<std::uint32_t>(std::lround(settings.units.units_per_turn))
-                      : settings.feed_per_turn;
-  o.encoder_resolution = {turn, 1};
-  o.feed = {turn, 1};
-  o.position_unit = settings.rotary ? host::kIncrement : settings.units.position_unit;
+  set_scaling(o, settings);
   set_cycle(o, period_us);
   if (settings.profile) settings.profile->fill_application(o, settings.node_id);
+  if (settings.scaled_for_axis) set_scaling(o, settings);
   return o;
 }
 

@@ -52,6 +52,9 @@ class Cia402Drive final {
     std::int64_t latch_resolution_ns = 20;       // instants of latches are multiples of this
     Units units{};
     std::shared_ptr<const DriveProfile> profile{};  // none: every object of cia402.def
+    // 608Fh, 6091h, 6092h and 60A8h were stored in the drive for this axis; else those of a profile
+    // are as its data sheet has them.
+    bool scaled_for_axis = false;
   };
 
   // What the position loop takes in at a SYNC.

@@ -11,6 +11,7 @@
 
 #include "host_sim/host/io/bundled_files.hpp"
 #include "host_sim/host/io/input_file.hpp"
+#include "host_sim/host/io/nearest_word.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -209,9 +210,12 @@ EdsFile find_drive_eds(const std::string& name_or_path) {
   const bool is_path = name_or_path == kStandardStream ||
                        name_or_path.find_first_of("./") != std::string::npos ||
                        std::filesystem::exists(name_or_path, ignored);
-  if (!is_path)
-    throw UserError(fmt::format("{}: no such drive; there are {}, or give the path of an EDS file",
-                                name_or_path, fmt::join(names, ", ")));
+  if (!is_path) {
+    const std::string near = nearest_word(name_or_path, names);
+    throw UserError(fmt::format(
+        "{}: no such drive{}; there are {}, or give the path of an EDS file", name_or_path,
+        near.empty() ? "" : fmt::format(", did you mean '{}'?", near), fmt::join(names, ", ")));
+  }
   return read_eds_file(name_or_path);
 }
 

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
+#include "host_sim/host/bus/drive_model.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/whole_file.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
+#include "tests/complaint.hpp"
 #include "tests/host_sim/host/machine/changed_machine.hpp"
 
 namespace volcomp::host {
@@ -40,6 +42,42 @@ TEST(MachineBus, ADriveThatCannotReportIsSaid) {
   EXPECT_FALSE(axis_of(trunnion_with("X", "reports_offset = false"), 0).reports_offset);
   EXPECT_THAT(machine_refusal(trunnion_with("X", "reports_offset = 0")),
               HasSubstr("'reports_offset' must be true or false"));
+}
+
+// No data sheet lets 60B0h into a TPDO; what the file says itself wins.
+TEST(MachineBus, ADriveIsNamedAndItsDataSheetSaysWhatItReports) {
+  const BusAxis named = axis_of(trunnion_with("X", "drive = \"epos4_0170\""), 0);
+  ASSERT_NE(named.model, nullptr);
+  EXPECT_EQ(named.model->name(), "epos4_0170");
+  EXPECT_EQ(named.way, DriveWay::offset);
+  EXPECT_FALSE(named.reports_offset);
+  const std::string stated = "drive = \"epos4_0170\"\nreports_offset = true";
+  EXPECT_TRUE(axis_of(trunnion_with("X", stated), 0).reports_offset);
+  EXPECT_EQ(axis_of(trunnion_with("X", ""), 0).model, nullptr);
+}
+
+// EPOS4 and Elmo have no 1019h, the CL4-E has: SYNC with a counter needs all of them.
+TEST(MachineBus, SyncHasNoCounterWhereADriveCannotCount) {
+  const auto overflow = [](const std::string& fields) {
+    return int{sync_counter_overflow(bus_settings(
+        parse_machine(trunnion_with("X", fields), "m.toml"), sim::kBusCycleOfFive_hz))};
+  };
+  EXPECT_EQ(overflow(""), 240);
+  EXPECT_EQ(overflow("drive = \"nanotec_cl4e\""), 240);
+  EXPECT_EQ(overflow("drive = \"epos4_0170\""), 0);
+}
+
+TEST(MachineBus, WhatADriveCannotDoIsRefused) {
+  const auto refusal = [](const std::string& fields) {
+    return sim::complaint_of([&] { return axis_of(trunnion_with("X", fields), 0).drive; });
+  };
+  EXPECT_THAT(refusal("drive = \"epos4_0710\""), HasSubstr("m.toml: epos4_0710: no such drive"));
+  EXPECT_THAT(refusal("drive = \"eyou\""), HasSubstr("axis X: the drive eyou"));
+  EXPECT_THAT(refusal("drive = \"eyou\""), HasSubstr("60B0h is missing"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "way = \"forwarded\"")),
+              HasSubstr("the compensation node cannot do that yet"));
+  EXPECT_THAT(machine_refusal(trunnion_with("X", "way = \"forward\"")),
+              HasSubstr("must be one of: offset, forwarded, controller, none"));
 }
 
 TEST(MachineBus, UnitsAreExactRationals) {
