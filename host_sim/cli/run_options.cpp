@@ -60,6 +60,7 @@ CLI::Option* add_drive_option(CLI::App& scenario, NodePlace& node) {
                               "each ({}, or an EDS file)",
                               fmt::join(host::bundled_drives(), ", ")))
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("NAME[,NAME...]");
 }
 

@@ -56,7 +56,8 @@ void change_scale(BusAxis& axis, const DriveScale& scale);
 // The same for every axis, in the usual units of the model. `names`: one for all axes, or one for
 // each. Throws UserError as the functions it calls, and for another number of names.
 [[nodiscard]] BusSettings with_models(BusSettings settings, const std::vector<std::string>& names);
-// Throws UserError where the machine has a probe and the drive of an axis no input for it.
+// Throws UserError where the machine has a probe and the drive of an axis no input for it, or none
+// that says when it latched.
 void require_latches(const BusSettings& settings);
 
 }  // namespace volcomp::host

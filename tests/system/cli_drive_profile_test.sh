@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# volcomp run with drives as their data sheets have them: each that the node can correct, three different ones on one machine, and what is refused.
+# shellcheck source=tests/system/cli_common.sh
+. "$(dirname "$0")/cli_common.sh"
+volcomp=$(realpath "$1")
+source_dir=$(realpath "$2")
+cd "$work" || exit 1
+run=("$volcomp" run xyfz --one-diagonal --can loopback --drive-profile)
+
+# --- way 0
+for drives in elmo_gold epos4_0150 epos4_0170 nanotec_cl4e elmo_gold,epos4_0170,nanotec_cl4e; do
+  expect 0 'PASS 99.9' "${run[@]}" "$drives"
+  expect 0 "drives $drives" "${run[@]}" "$drives"
+done
+cp "$source_dir/host_sim/drives/epos4_0170.eds" own.eds
+expect 0 'PASS 99.9' "${run[@]}" ./own.eds
+expect 0 'PASS ' "$volcomp" run machine --places 10 --can loopback --drive-profile elmo_gold,epos4_0150,nanotec_cl4e,epos4_0170,elmo_gold
+
+# --- in a machine file, by name and as a file beside it
+"$volcomp" machine example xyfz | sed '0,/^name = "X"/s//name = "X"\ndrive = "epos4_0170"\nunits_per_mm = [1048576, 10]/' >machine.toml
+grep -q '^drive = ' machine.toml || { echo 'FAILED: machine.toml names no drive'; failed=1; }
+expect 0 'epos4_0170, way "offset", cannot report its offset' "$volcomp" machine show machine.toml
+expect 0 'PASS 99.9' "$volcomp" run xyfz --one-diagonal --can loopback --machine machine.toml
+mkdir -p folder
+cp own.eds folder/mine.eds
+sed 's/"epos4_0170"/"mine.eds"/' machine.toml >folder/machine.toml
+expect 0 'mine.eds, way "offset"' "$volcomp" machine show folder/machine.toml
+
+# --- refused
+expect 2 '60B0h cannot be mapped into a receive PDO' "${run[@]}" trinamic_tmcm1270
+expect 2 'axis X: the drive novanta_eve_net_c cannot be corrected by way "offset": 60B0h is missing' "${run[@]}" novanta_eve_net_c
+expect 2 'axis Z: the drive eyou' "${run[@]}" elmo_gold,elmo_gold,eyou
+expect 2 "no such drive, did you mean 'epos4_0170'?; there are elmo_gold, epos4_0150" "${run[@]}" epos4_017
+expect 2 '2 drives are named for 3 axes' "${run[@]}" elmo_gold,elmo_gold
+expect 2 '--drive-profile requires --can' "$volcomp" run xyfz --one-diagonal --drive-profile elmo_gold
+expect 2 '--drive-profile requires --can' "$volcomp" run internal-helical --drive-profile elmo_gold
+one_line "${run[@]}" eyou
+sed 's/"epos4_0170"/"eyou"/' machine.toml >eyou.toml
+expect 2 'eyou.toml: axis X: the drive eyou' "$volcomp" machine check eyou.toml
+sed 's/^drive = .*/way = "controller"/' machine.toml >way.toml
+expect 2 "'way' is \"controller\": the compensation node cannot do that yet" "$volcomp" machine check way.toml
+
+exit "$failed"
