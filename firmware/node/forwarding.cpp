@@ -114,6 +114,17 @@ void Forwarding::arrived(std::uint32_t bits, bool at_once, std::uint64_t now_us)
   }
 }
 
+bool Forwarding::known_stopped(std::size_t axis) const {
+  const std::uint8_t drive = core_.objects.drive[axis];
+  const canopen::HeartbeatConsumer& heartbeats = core_.device.heartbeats();
+  return heartbeats.alive(drive) && heartbeats.state(drive) != canopen::NmtState::operational;
+}
+
+canopen::AbortCode Forwarding::check_mapping(std::size_t axis, std::uint8_t way) const {
+  const bool doubtful = way != kNobody && has(axis) && known_stopped(axis);
+  return doubtful ? canopen::AbortCode::device_state : canopen::AbortCode::none;
+}
+
 // 6064h was read at this SYNC, at which the drive took what had left before it.
 void Forwarding::note_actual(std::size_t axis) {
   NodeObjects& o = core_.objects;
@@ -129,10 +140,7 @@ void Forwarding::judge() {
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     if (!has(a)) continue;
     Axis& x = axis_[a];
-    const std::uint8_t drive = core_.objects.drive[a];
-    const canopen::HeartbeatConsumer& heartbeats = core_.device.heartbeats();
-    if (heartbeats.alive(drive) && heartbeats.state(drive) != canopen::NmtState::operational)
-      forget_mapping(a);
+    if (known_stopped(a)) forget_mapping(a);
     note_actual(a);
     const bool unheard = !core_.has(Arrival::kActual, a);
     if (unheard && core_.has(Arrival::kTarget, a) && !enables_operation(core_.objects.control[a]))

@@ -68,6 +68,8 @@ class Forwarding {
   void watch_clock(std::uint64_t now_us);
   // Nothing is forwarded until every drive has been seen not to follow.
   void end();
+  // 2037h: nobody can have mapped a drive that is known not to be OPERATIONAL for good.
+  [[nodiscard]] canopen::AbortCode check_mapping(std::size_t axis, std::uint8_t way) const;
   // The drive has booted, 2034h was written: how it is mapped is not known any more.
   void forget_mapping(std::size_t axis);
 
@@ -97,6 +99,7 @@ class Forwarding {
     return has(axis) && axis_[axis].phase >= Phase::beginning;
   }
   [[nodiscard]] bool may_send(std::size_t axis) const;
+  [[nodiscard]] bool known_stopped(std::size_t axis) const;
 
   NodeCore& core_;
   PerAxis<Axis> axis_{};

@@ -48,7 +48,7 @@ void NodeCycle::restart(bool operational) {
   core_.objects.state = static_cast<std::uint8_t>(NodeState::idle);
   output_ = {};
   sync_us_ = 0;
-  had_before_ = 0;
+  ahead_ = {};
   forwarding_.restart(operational);
   if (!operational) return;
   used_ = core_.used_axes();
@@ -240,18 +240,12 @@ bool NodeCycle::keeps_turn(std::size_t axis) {
 }
 
 // A target that the controller has corrected: the compensator adds its offset to targets, so it is
-// taken off. What it finds acts a cycle later than elsewhere, so it is asked for where the axis
-// will be then; what is left is acceleration × period², times the slope of the table.
-std::int64_t NodeCycle::without_added(std::size_t axis, std::int64_t position) {
-  const bool known = (had_before_ & bit(axis)) != 0;
-  const std::int64_t moved = known ? position - before_[axis] : 0;
-  before_[axis] = position;
-  had_before_ |= bit(axis);
+// taken off.
+std::int64_t NodeCycle::without_added(std::size_t axis, std::int64_t position) const {
   const bool targets =
       core_.objects.position_source == static_cast<std::uint8_t>(PositionSource::target);
   const bool rotary = core_.objects.rotary[axis] != 0;
-  const std::int64_t added = targets ? position_of(output_.offset[axis], rotary) : 0;
-  return position + moved - added;
+  return position - (targets ? position_of(output_.offset[axis], rotary) : 0);
 }
 
 // From the offsets the drives hold, as soon as all of them are known.
@@ -301,9 +295,11 @@ void NodeCycle::put_out() {
 }
 
 // In units of the drive. `learned`: what the axis of a grinder gets in addition.
-std::int32_t NodeCycle::wanted(std::size_t axis, std::int32_t learned) const {
+std::int32_t NodeCycle::wanted(std::size_t axis, std::int32_t learned) {
+  const std::int32_t limit = core_.objects.limit[axis];
   std::int32_t offset = output_.offset[axis];
-  if (strokes_.learns_for(axis)) offset = limited(offset + learned, core_.objects.limit[axis]);
+  if (strokes_.learns_for(axis)) offset = limited(offset + learned, limit);
+  if (core_.way(axis) == Way::controller_adds) offset = limited(ahead_[axis].next(offset), limit);
   return offset_to_wire(offset, core_.gate[axis].scale());
 }
 

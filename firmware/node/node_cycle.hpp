@@ -6,6 +6,7 @@
 
 #include "firmware/node/forwarding.hpp"
 #include "firmware/node/latency.hpp"
+#include "firmware/node/look_ahead.hpp"
 #include "firmware/node/node_core.hpp"
 #include "firmware/node/probe/probe_part.hpp"
 #include "firmware/node/strokes/stroke_part.hpp"
@@ -26,6 +27,8 @@ class NodeCycle : public NodePart {
   void arrived(std::uint32_t bits, std::uint64_t now_us);
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) const {
     if (object.index == object::start_offset.index) return check_start(object.sub);
+    if (object.index == object::mapped_way.index && object.sub != 0)
+      return forwarding_.check_mapping(object.sub - 1U, bytes[0]);
     const bool unbuilt = object.index == object::way.index && object.sub != 0 &&
                          static_cast<Way>(bytes[0]) == Way::forwarded_frame;
     return unbuilt ? canopen::AbortCode::invalid_value : canopen::AbortCode::none;
@@ -73,9 +76,9 @@ class NodeCycle : public NodePart {
   [[nodiscard]] AxisSample sample(std::size_t axis);
   [[nodiscard]] bool can_correct(std::size_t axis);
   [[nodiscard]] bool keeps_turn(std::size_t axis);
-  [[nodiscard]] std::int64_t without_added(std::size_t axis, std::int64_t position);
+  [[nodiscard]] std::int64_t without_added(std::size_t axis, std::int64_t position) const;
   void put_out();
-  [[nodiscard]] std::int32_t wanted(std::size_t axis, std::int32_t learned) const;
+  [[nodiscard]] std::int32_t wanted(std::size_t axis, std::int32_t learned);
   void send_offset(std::size_t axis, std::int32_t wanted);
   [[nodiscard]] bool silent(std::size_t axis) const;
   void report_axis_errors(std::size_t axis, std::uint16_t status);
@@ -88,7 +91,7 @@ class NodeCycle : public NodePart {
   Forwarding forwarding_;
   Latency latency_{};
   PerAxis<WirePosition> position_{};
-  PerAxis<std::int64_t> before_{};  // position of the cycle before, where the controller adds
+  PerAxis<LookAhead> ahead_{};  // where the controller adds
   TickOutput<kNodeAxes> output_{};
   std::uint64_t deadline_us_ = 0;
   std::uint64_t sync_us_ = 0;              // when the cycle was opened
@@ -97,7 +100,6 @@ class NodeCycle : public NodePart {
   std::uint32_t start_given_ = 0;          // 2206h written since the last start, a bit per axis
   PerAxis<std::uint16_t> clean_cycles_{};  // without trouble, per axis
   std::uint16_t clean_syncs_ = 0;          // since the last bad SYNC
-  std::uint32_t had_before_ = 0;           // before_ is of the cycle before, a bit per axis
   bool open_ = false;                      // SYNC has come, not yet computed
   bool refused_ = false;                   // the ways of the axes do not fit
 };

@@ -181,15 +181,132 @@ TEST(DriveProfiles, WatchWhomTheyCan) {
   EXPECT_EQ(watched(2, 1), 32U);
 }
 
-TEST(DriveProfiles, WithoutWayZeroAreRefusedWithWhatIsMissing) {
+// A name that is none, names that do not fit, and a way that a drive cannot take.
+TEST(DriveProfiles, ThatDoNotFitAreRefusedWithWhatIsMissing) {
   const auto refusal = [](const std::vector<std::string>& names) {
     return complaint_of([&] { return settings_with(names).axes.size(); });
   };
-  EXPECT_THAT(refusal({"trinamic_tmcm1270"}), HasSubstr("60B0h cannot be mapped"));
-  EXPECT_THAT(refusal({"novanta_eve_net_c"}), HasSubstr("60B0h is missing"));
-  EXPECT_THAT(refusal({"elmo_gold", "elmo_gold", "eyou"}), HasSubstr("axis Z: the drive eyou"));
   EXPECT_THAT(refusal({"epos4_017"}), HasSubstr("did you mean 'epos4_0170'?"));
   EXPECT_THAT(refusal({"epos4_0170", "eyou"}), HasSubstr("2 drives are named for 3 axes"));
+  const auto by_offset = [](const std::string& name) {
+    return complaint_of([&] {
+      host::BusAxis axis = bus_machine_settings().axes[kX];
+      host::put_model(axis, host::find_drive_model(name));
+      return axis.drive;
+    });
+  };
+  EXPECT_THAT(by_offset("trinamic_tmcm1270"), HasSubstr("60B0h cannot be mapped"));
+  EXPECT_THAT(by_offset("novanta_eve_net_c"), HasSubstr("60B0h is missing"));
+}
+
+// --- forwarded targets, and a controller that adds
+
+// Every drive with cyclic synchronous position can take its target from the node.
+class ForwardedDrive : public testing::TestWithParam<const char*> {
+ protected:
+  static std::unique_ptr<BusAxes> machine() {
+    host::BusSettings settings = bus_machine_settings();
+    for (host::BusAxis& axis : settings.axes)
+      axis.way = host::DriveWay::forwarded;
+    if (*GetParam() != '\0') settings = host::with_models(settings, {GetParam()});
+    auto axes = std::make_unique<BusAxes>(settings, bus_machine().image);
+    axes->stand_at({-250.0, -150.0, -200.0});
+    axes->bring_up();
+    return axes;
+  }
+};
+
+host::Targets travel(BusAxes& axes, const Vec3& to, int cycles) {
+  host::Targets target = axes.target();
+  const host::Targets goal = host::axis_kinds(bus_machine().file.chain).targets(host::pose_of(to));
+  for (int i = 0; i < cycles; ++i) {
+    for (std::size_t a = 0; a < kBusMachineAxes; ++a)
+      target[a] += std::clamp<std::int64_t>(goal[a] - target[a], -400'000, 400'000);
+    axes.cycle(target);
+  }
+  return target;
+}
+
+// RPDO1 takes the controlword out of the controller's frame, RPDO2 the target of the node.
+TEST_P(ForwardedDrive, IsMappedAndServed) {
+  const auto axes = machine();
+  const canopen::PdoTable& pdos = axes->drive(kX).device().pdos();
+  EXPECT_EQ(mapping(pdos.receive()[0]), (Mapping{0x6040'0010U}));
+  EXPECT_EQ(mapping(pdos.receive()[1]), (Mapping{0x607A'0020U}));
+  EXPECT_EQ(mapping(pdos.transmit()[0]), (Mapping{0x6064'0020U, 0x6041'0010U, 0x6061'0008U}));
+  EXPECT_EQ(axes->node()->objects().mapped_way[kX], 1U);
+  const node::NodeObjects& node = axes->node()->objects();
+  const std::uint32_t missed = node.deadline_missed;
+  travel(*axes, kElsewhere, 200);
+  EXPECT_EQ(node.not_forwarded, 0U);
+  EXPECT_EQ(node.deadline_missed, missed);
+}
+
+TEST_P(ForwardedDrive, IsCorrectedAsTodaysDriveButForRounding) {
+  BusWorld today(5);
+  ASSERT_TRUE(today.go_to(kElsewhere));
+  const auto axes = machine();
+  travel(*axes, kElsewhere, 4000);
+  const host::Offsets offset = axes->offset();
+  for (std::size_t a = 0; a < kBusMachineAxes; ++a) {
+    const host::BusAxis& axis = axes->controller().settings().axes[a];
+    const double unit = static_cast<double>(axis.scale_numerator) / axis.scale_denominator;
+    EXPECT_NEAR(static_cast<double>(offset[a]), static_cast<double>(today.offsets()[a]),
+                1.0 + 0.5 * unit)
+        << a;
+  }
+}
+
+// The drive that lost its power is mapped again, read back, and only then gets targets.
+TEST_P(ForwardedDrive, IsServedAgainAfterItLostItsPower) {
+  const auto axes = machine();
+  const std::vector<std::int32_t> here = axes->on_wire(axes->target());
+  axes->power_drive(kX, false);
+  for (int i = 0; i < 500; ++i)
+    axes->run_cycle(here);
+  axes->power_drive(kX, true);
+  int cycles = 0;
+  while (!axes->controller().motion_allowed() && ++cycles < 5000)
+    axes->run_cycle(here);
+  EXPECT_EQ(axes->controller().trouble(), "");
+}
+
+// The node is gone: its axes stop, and the controller stops all of them. It comes back when the
+// drives are seen disabled.
+TEST_P(ForwardedDrive, StopsAndStartsWithTheNode) {
+  const auto axes = machine();
+  std::vector<std::int32_t> path = axes->on_wire(axes->target());
+  axes->power_node(false);
+  for (int i = 0; i < 500; ++i)
+    axes->run_cycle(path);
+  EXPECT_FALSE(axes->controller().motion_allowed());
+  EXPECT_FALSE(axes->controller().axis(kX).following());
+  axes->power_node(true);
+  int cycles = 0;
+  while (!axes->controller().motion_allowed() && ++cycles < 5000)
+    axes->run_cycle(path);
+  EXPECT_EQ(axes->controller().trouble(), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ForwardedDrive,
+                         testing::Values("", "elmo_gold", "epos4_0150", "epos4_0170",
+                                         "nanotec_cl4e", "trinamic_tmcm1270", "novanta_eve_net_c",
+                                         "eyou"));
+
+// Three ways on one bus.
+TEST(DriveProfiles, MayBeCorrectedInThreeWays) {
+  BusWorld today(5);
+  ASSERT_TRUE(today.go_to(kElsewhere));
+  host::BusSettings settings = bus_machine_settings();
+  settings.axes[1].way = host::DriveWay::forwarded;
+  settings.axes[2].way = host::DriveWay::controller;
+  BusAxes axes(settings, bus_machine().image);
+  axes.stand_at({-250.0, -150.0, -200.0});
+  axes.bring_up();
+  travel(axes, kElsewhere, 4000);
+  for (std::size_t a = 0; a < kBusMachineAxes; ++a)
+    EXPECT_NEAR(static_cast<double>(axes.offset()[a]), static_cast<double>(today.offsets()[a]), 1.0)
+        << a;
 }
 
 // A probe needs an input at every drive.

@@ -36,6 +36,17 @@ std::uint8_t sync_counter_overflow(const BusSettings& settings) {
   return all ? kUsual : 0;
 }
 
+bool forwards_targets(const BusSettings& settings) {
+  return std::any_of(settings.axes.begin(), settings.axes.end(),
+                     [](const BusAxis& axis) { return axis.way == DriveWay::forwarded; });
+}
+
+bool counts_on_node(const BusSettings& settings) {
+  return forwards_targets(settings) ||
+         std::any_of(settings.axes.begin(), settings.axes.end(),
+                     [](const BusAxis& axis) { return axis.way == DriveWay::controller; });
+}
+
 BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
   BusSettings b;
   b.period_us = static_cast<std::uint32_t>(std::lround(1e6 / cycle_hz));

@@ -59,6 +59,12 @@ struct BusSettings {
 // 1019h of all devices: 240, or 0 where a drive of the machine cannot count.
 [[nodiscard]] std::uint8_t sync_counter_overflow(const BusSettings& settings);
 
+// An axis takes its targets from the node.
+[[nodiscard]] bool forwards_targets(const BusSettings& settings);
+// The controller needs the state of the node in every cycle: what it forwards, or what it is to
+// add.
+[[nodiscard]] bool counts_on_node(const BusSettings& settings);
+
 // Node ids, units, software limits and drives from the machine file. Throws UserError where its
 // `drive` cannot be read, or cannot do what is asked of it.
 [[nodiscard]] BusSettings bus_settings(const MachineFile& machine, double cycle_hz);

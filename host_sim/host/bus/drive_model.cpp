@@ -86,6 +86,10 @@ std::string DriveModel::obstacle(DriveWay way) const {
   return what;
 }
 
+DriveWay DriveModel::fitting_way() const {
+  return obstacle(DriveWay::offset).empty() ? DriveWay::offset : DriveWay::forwarded;
+}
+
 DriveScale DriveModel::usual_scale(bool rotary) const {
   const auto* const found = std::find_if(kUsualUnits.begin(), kUsualUnits.end(),
                                          [this](const UsualUnits& u) { return u.name == name_; });
@@ -107,7 +111,7 @@ void put_model(BusAxis& axis, std::shared_ptr<const DriveModel> model) {
   if (const std::string what = model->obstacle(axis.way); !what.empty())
     throw UserError(fmt::format("axis {}: the drive {} cannot be corrected by way \"{}\": {}",
                                 axis.letter, model->name(), words(axis.way), what));
-  axis.reports_offset = model->reports_offset();
+  axis.reports_offset = axis.way == DriveWay::offset && model->reports_offset();
   axis.model = std::move(model);
 }
 
@@ -126,7 +130,9 @@ BusSettings with_models(BusSettings settings, const std::vector<std::string>& na
                     names.size(), settings.axes.size()));
   for (std::size_t a = 0; a < settings.axes.size(); ++a) {
     BusAxis& axis = settings.axes[a];
-    put_model(axis, find_drive_model(names.size() == 1 ? names.front() : names[a]));
+    auto model = find_drive_model(names.size() == 1 ? names.front() : names[a]);
+    if (axis.way == DriveWay::offset) axis.way = model->fitting_way();
+    put_model(axis, std::move(model));
     change_scale(axis, axis.model->usual_scale(axis.rotary));
   }
   require_latches(settings);

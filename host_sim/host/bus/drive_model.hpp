@@ -35,6 +35,9 @@ class DriveModel {
   // Why an axis cannot be corrected in this way, what is missing as an object; empty: it can.
   [[nodiscard]] std::string obstacle(DriveWay way) const;
 
+  // The first way that nothing stands in: the offset, or the forwarded target.
+  [[nodiscard]] DriveWay fitting_way() const;
+
   // What a simulated drive of this model counts in, see docs/drives.md.
   [[nodiscard]] DriveScale usual_scale(bool rotary) const;
 
@@ -53,8 +56,9 @@ class DriveModel {
 void put_model(BusAxis& axis, std::shared_ptr<const DriveModel> model);
 // The drive of the axis counts in other units; its software limits stay where they are.
 void change_scale(BusAxis& axis, const DriveScale& scale);
-// The same for every axis, in the usual units of the model. `names`: one for all axes, or one for
-// each. Throws UserError as the functions it calls, and for another number of names.
+// The same for every axis, in the usual units of the model; an axis that would be corrected by its
+// offset is by a forwarded target where the model has no offset. `names`: one for all axes, or one
+// for each. Throws UserError as the functions it calls, and for another number of names.
 [[nodiscard]] BusSettings with_models(BusSettings settings, const std::vector<std::string>& names);
 // Throws UserError where the machine has a probe and the drive of an axis no input for it, or none
 // that says when it latched.

@@ -39,24 +39,26 @@ WantedPdos received_by(DriveWay way) {
   }
 }
 
+// A drive without a data sheet has everything.
+bool latches(const BusAxis& axis) { return axis.model == nullptr || axis.model->latches(); }
+
 // What the drive says every cycle, of a latch, of the edge behind it, of the offset it has taken.
 WantedPdos sent_by(const BusAxis& axis, bool probes) {
-  const DriveModel& model = *axis.model;
   const bool forwarded = axis.way == DriveWay::forwarded;
   WantedPdos pdos(kTransmitPdos);
   Mapping& actual = pdos[kActualPdo].mapping;
   actual = {cia402::actual.mapped(), cia402::statusword.mapped()};
   if (forwarded)
     actual.push_back(cia402::mode_display.mapped());
-  else if (model.latches())
+  else if (latches(axis))
     actual.push_back(cia402::status.mapped());
   if (probes) {
     pdos[kLatchPdo] = {kAfterEvent, {cia402::positive_1_position.mapped()}};
     if (forwarded)
       pdos[kLatchPdo].mapping.push_back(cia402::status.mapped());
-    else if (model.times_latches())
+    else if (axis.model == nullptr || axis.model->times_latches())
       pdos[kLatchPdo].mapping.push_back(cia402::positive_1_time_ns.mapped());
-    if (model.counts_edges())
+    if (axis.model == nullptr || axis.model->counts_edges())
       pdos[kEdgePdo] = {kAfterEvent,
                         {cia402::positive_1_edge_count.mapped(), cia402::following_error.mapped()}};
   }
@@ -103,7 +105,9 @@ void plan_pdo(SetupPlan& plan, const BusAxis& axis, PdoKind kind, std::size_t nu
               const WantedPdo& wanted) {
   const Record record = record_of(kind, number);
   const std::uint32_t id = cob_id(kind, number, axis.drive);
-  const auto has = [&](std::uint8_t sub) { return axis.model->has({record.communication, sub}); };
+  const auto has = [&](std::uint8_t sub) {
+    return axis.model == nullptr || axis.model->has({record.communication, sub});
+  };
   plan_bits<std::uint32_t>(plan, {record.communication, 1}, id | canopen::kPdoInvalid,
                            record.name + " off");
   plan_value<std::uint8_t>(plan, {record.communication, 2}, wanted.type, record.name + " type");
@@ -115,10 +119,20 @@ void plan_pdo(SetupPlan& plan, const BusAxis& axis, PdoKind kind, std::size_t nu
   plan_bits<std::uint32_t>(plan, {record.communication, 1}, id, record.name + " on");
 }
 
+std::vector<canopen::PdoParameters> defaults_of(const BusAxis& axis, PdoKind kind) {
+  if (axis.model != nullptr) return axis.model->eds().pdos(kind, axis.drive);
+  if (kind == PdoKind::receive) {
+    const auto pdos = cia402_receive_pdos(axis.drive);
+    return {pdos.begin(), pdos.end()};
+  }
+  const auto pdos = cia402_transmit_pdos(axis.drive);
+  return {pdos.begin(), pdos.end()};
+}
+
 // What the drive does not need is switched off where it is on by default: it listens to frames that
 // are not meant for it, or says what nobody asked for.
 void plan_pdos(SetupPlan& plan, const BusAxis& axis, PdoKind kind, const WantedPdos& wanted) {
-  const std::vector<canopen::PdoParameters> defaults = axis.model->eds().pdos(kind, axis.drive);
+  const std::vector<canopen::PdoParameters> defaults = defaults_of(axis, kind);
   for (std::size_t i = 0; i < std::max(defaults.size(), wanted.size()); ++i) {
     if (i < wanted.size() && !wanted[i].mapping.empty()) {
       plan_pdo(plan, axis, kind, i, wanted[i]);
@@ -148,12 +162,18 @@ SetupPlan drive_plan(const BusSettings& settings, std::size_t axis) {
       plan, canopen::object::consumer_heartbeat[1].id(),
       std::uint32_t{settings.node} << 16U | settings.heartbeat_timeout_ms,
       fmt::format("{}: compensation node", canopen::object::consumer_heartbeat.name));
-  if (a.model == nullptr) return plan;
-  const auto missing = [&](const PlannedValue& value) { return !a.model->has(value.object); };
+  if (a.model == nullptr && a.way == DriveWay::offset) return plan;
+  const auto missing = [&](const PlannedValue& value) {
+    return a.model != nullptr && !a.model->has(value.object);
+  };
   plan.erase(std::remove_if(plan.begin(), plan.end(), missing), plan.end());
   plan_pdos(plan, a, PdoKind::receive, received_by(a.way));
   plan_pdos(plan, a, PdoKind::transmit, sent_by(a, settings.probes));
   return plan;
+}
+
+std::vector<std::uint32_t> forwarded_mapping(std::size_t receive_pdo) {
+  return received_by(DriveWay::forwarded).at(receive_pdo).mapping;
 }
 
 SetupPlan heard_plan(const BusSettings& settings, std::size_t axis) {

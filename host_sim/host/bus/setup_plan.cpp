@@ -86,12 +86,13 @@ void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
                            supervision(a.drive, b),
                            heartbeat_name(fmt::format("drive {}", a.letter), a.drive, b));
   set(node::object::drive, a.drive);
+  if (a.way != DriveWay::offset) set(node::object::way, static_cast<std::uint8_t>(a.way));
   set(node::object::scale_numerator, a.scale_numerator, position);
   set(node::object::scale_denominator, a.scale_denominator);
   set(node::object::rotary, static_cast<std::uint8_t>(a.rotary));
   set(node::object::homed_mask, kStatusReferenced);
   plan.back().hexadecimal = true;
-  if (!a.reports_offset) set(node::object::confirms, std::uint8_t{0});
+  if (a.way == DriveWay::offset && !a.reports_offset) set(node::object::confirms, std::uint8_t{0});
   set(node::object::limit, l.limit, offset);
   set(node::object::slew, l.rate, offset);
   set(node::object::soft_rate, l.soft_rate, offset);
@@ -151,7 +152,13 @@ SetupPlan node_plan(const BusSettings& settings) {
     plan_axis(plan, settings, i);
   for (std::size_t i = 0; i < settings.axes.size(); ++i)
     append(plan, heard_plan(settings, i));
-  if (settings.status_every_cycle) plan_status_every_cycle(plan, settings);
+  if (forwards_targets(settings)) {
+    // A heartbeat of the controller that is only late must not stop an axis.
+    plan_value(plan, node::object::error_behaviour,
+               static_cast<std::uint8_t>(canopen::ErrorBehaviour::no_change));
+  }
+  if (settings.status_every_cycle || counts_on_node(settings))
+    plan_status_every_cycle(plan, settings);
   if (settings.strokes) append(plan, stroke_plan(settings, *settings.strokes));
   return plan;
 }
@@ -168,7 +175,10 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
     plan_value(plan, node::object::drive[i], 0);
     plan.back().name += fmt::format(" (no axis {})", i + 1);
   }
-  plan_value(plan, node::object::drives_report, 1);  // an earlier set-up may have said otherwise
+  // An earlier set-up may have said otherwise.
+  for (std::size_t i = 0; i < node::kNodeAxes; ++i)
+    plan_value(plan, node::object::way[i], 0);
+  plan_value(plan, node::object::drives_report, 1);
   append(plan, node_plan(settings));
   if (probe != nullptr)
     append(plan, probe_plan(*probe));

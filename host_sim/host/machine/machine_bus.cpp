@@ -71,16 +71,10 @@ void read_software_limits(const TomlSection& s, const AxisFile& axis, DriveFile&
   drive.software_limits_mm = limits;
 }
 
-// Refuses a way that no node here knows.
 DriveWay read_way(const TomlSection& s) {
   constexpr std::array kWays{DriveWay::offset, DriveWay::forwarded, DriveWay::controller,
                              DriveWay::none};
-  const std::size_t chosen = s.choice("way", {"offset", "forwarded", "controller", "none"});
-  const DriveWay way = kWays.at(chosen);
-  if (!node_knows(way))
-    s.complain("way", fmt::format("'way' is \"{}\": the compensation node cannot do that yet",
-                                  words(way)));
-  return way;
+  return kWays.at(s.choice("way", {"offset", "forwarded", "controller", "none"}));
 }
 
 double read_cycle(const TomlSection& s) {
@@ -106,8 +100,6 @@ const char* words(DriveWay way) {
   }
   return "none";
 }
-
-bool node_knows(DriveWay way) { return way == DriveWay::offset; }
 
 const std::vector<std::string>& drive_fields() {
   static const std::vector<std::string> kFields{

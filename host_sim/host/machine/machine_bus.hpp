@@ -12,8 +12,6 @@ inline constexpr double kMostCycle_hz = 1000.0;
 
 // As in the file.
 [[nodiscard]] const char* words(DriveWay way);
-// Whether a compensation node can correct an axis in this way.
-[[nodiscard]] bool node_knows(DriveWay way);
 
 // Fields of an [[axis]].
 [[nodiscard]] const std::vector<std::string>& drive_fields();

@@ -1,5 +1,7 @@
 #include "host_sim/sim/controller/axis_commander.hpp"
 
+#include <utility>
+
 #include "host_sim/host/bus/cia402_status.hpp"
 
 namespace volcomp::sim {
@@ -7,6 +9,7 @@ namespace {
 
 // Control words (CiA 402-2, table 28).
 constexpr std::uint16_t kDisableVoltage = 0x00;
+constexpr std::uint16_t kQuickStop = 0x02;
 constexpr std::uint16_t kShutdown = 0x06;
 constexpr std::uint16_t kSwitchOn = 0x07;
 constexpr std::uint16_t kEnable = 0x0F;
@@ -61,6 +64,8 @@ void AxisCommander::step(std::int32_t path) {
   // A drive whose 605Ah says so stays in quick stop active: its axis stands, so it may let go.
   if (state_of(status_) == host::PowerState::quick_stop_active && at_rest_ > kRetry)
     control_ = kDisableVoltage;
+  if (!may_enable_ && !enabled && control_ == kEnable) control_ = kSwitchOn;
+  if (std::exchange(stops_, false) && enabled) control_ = kQuickStop;
   const bool was_following = following_;
   following_ = enabled && referenced && mode_ == kCyclicPosition;
   if (enabled && !following_) {

@@ -24,6 +24,10 @@ class AxisCommander {
   void held(std::int32_t offset) { held_ = offset; }
   void mode_is(std::int8_t mode) { mode_ = mode; }
   void drive_lost();
+  // The drive may be enabled: whoever sends it its targets is there.
+  void may_enable(bool may) { may_enable_ = may; }
+  // All axes of the machine stop.
+  void stop_quickly() { stops_ = true; }
 
   // --- once per cycle, with the drive in OPERATIONAL; `path` is where it should go
   void step(std::int32_t path);
@@ -48,6 +52,8 @@ class AxisCommander {
   std::uint16_t at_rest_ = 0;  // cycles
   std::int8_t mode_ = 0;
   std::int8_t wanted_mode_ = 0;
+  bool may_enable_ = true;
+  bool stops_ = false;  // in this cycle
   bool heard_ = false;
   bool following_ = false;
 };

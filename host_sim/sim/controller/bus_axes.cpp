@@ -176,6 +176,7 @@ void BusAxes::power_node(bool on) {
 // SYNC, the answers of the drives; then the targets, and what the node makes of them.
 void BusAxes::run_cycle(const std::vector<std::int32_t>& path) {
   controller_.send_targets(path);
+  sent_.assign(path.begin(), path.end());
   const auto period_ns = static_cast<std::uint64_t>(std::llround(period_us_ * 1000.0));
   next_sync_ns_ += period_ns;
   bus_.run_until(next_sync_ns_);
@@ -273,7 +274,9 @@ host::Offsets BusAxes::offset() const {
   host::Offsets offsets{};
   for (std::size_t a = 0; a < drive_.size(); ++a) {
     const host::BusAxis& axis = controller_.settings().axes[a];
-    const double units = drive_[a]->offset_taken();
+    double units = drive_[a]->offset_taken();
+    // In the target that the drive took at the last SYNC.
+    if (axis.way != host::DriveWay::offset) units = wrapped(drive_[a]->demand() - sent_.at(a));
     offsets[a] = std::llround(units * axis.scale_numerator / axis.scale_denominator);
   }
   return offsets;

@@ -103,6 +103,7 @@ class BusAxes final : public AxisGroup {
   std::uint64_t served_ns_ = UINT64_MAX;  // when the drives were, with a probe
   std::uint64_t felt_periods_ = 0;        // of all drives together
   host::Targets target_{};
+  std::vector<std::int64_t> sent_;  // in units of the drives, last cycle
   std::uint64_t next_sync_ns_ = 0;
   std::uint64_t cycles_ = 0;
   std::uint64_t reports_before_start_ = 0;  // status PDOs of a node elsewhere

@@ -61,6 +61,11 @@ void arm_probe(host::SdoChannel& sdo) {
 void BusController::configure(Station& s) {
   s.phase = Station::Phase::configuring;
   s.refused = false;
+  s.confirmed = false;
+  if (!is_drive(s)) {
+    for (Station& drive : stations_)
+      drive.confirmed = false;
+  }
   s.not_started = 0;
   s.retry_us = 0;
   s.channel.clear();
@@ -139,11 +144,47 @@ void BusController::tell_held_offset(std::size_t axis) {
   const host::BusAxis& a = settings_.axes[axis];
   Station& drive = stations_[axis];
   Station& node = stations_.back();
-  if (a.model == nullptr || a.reports_offset || a.way != host::DriveWay::offset) return;
   if (drive.phase != Station::Phase::running || node.phase != Station::Phase::running) return;
   const node::WireScale scale{a.scale_numerator, a.scale_denominator, a.rotary};
+  if (a.way == host::DriveWay::controller) {
+    node.channel.write(node::object::start_offset[axis],
+                       node::offset_from_wire(added_[axis], scale));
+    return;
+  }
+  if (a.model == nullptr || a.reports_offset || a.way != host::DriveWay::offset) return;
   drive.channel.read(host::cia402::offset, [&node, axis, scale](std::int32_t wire) {
     node.channel.write(node::object::start_offset[axis], node::offset_from_wire(wire, scale));
+  });
+}
+
+// What the drive has mapped is read back; only then the node is told that its targets are what the
+// drive takes on 300h + n (2037h).
+void BusController::confirm_mapping(std::size_t axis) {
+  Station& drive = stations_[axis];
+  Station& node = stations_.back();
+  const bool ready = drive.phase == Station::Phase::running &&
+                     drive.state == canopen::NmtState::operational &&
+                     node.phase == Station::Phase::running;
+  if (settings_.axes[axis].way != host::DriveWay::forwarded || drive.confirmed || !ready) return;
+  drive.confirmed = true;
+  auto right = std::make_shared<bool>(true);
+  const auto expect = [&drive, right](canopen::ObjectId object, std::size_t bytes,
+                                      std::uint32_t value) {
+    drive.channel.read(object, bytes, "mapping", [right, value](const host::SdoChannel::Bytes& b) {
+      *right = *right && load_le(b.data(), b.size()) == value;
+    });
+  };
+  for (const std::size_t pdo : {std::size_t{0}, std::size_t{1}}) {
+    const std::vector<std::uint32_t> mapping = host::forwarded_mapping(pdo);
+    const auto index = static_cast<std::uint16_t>(canopen::PdoTable::kReceiveMapping + pdo);
+    expect({index, 0}, 1, static_cast<std::uint32_t>(mapping.size()));
+    for (std::size_t i = 0; i < mapping.size(); ++i)
+      expect({index, static_cast<std::uint8_t>(i + 1)}, 4, mapping[i]);
+  }
+  drive.channel.read(host::cia402::statusword, [&node, axis, right](std::uint16_t) {
+    if (*right)
+      node.channel.write(node::object::mapped_way[axis],
+                         static_cast<std::uint8_t>(host::DriveWay::forwarded));
   });
 }
 

@@ -27,7 +27,10 @@ constexpr int kUnheededStarts = 3;  // heartbeats before a node that should run 
 }  // namespace
 
 BusController::BusController(host::BusSettings settings, std::vector<std::uint8_t> image)
-    : settings_(std::move(settings)), axis_(settings_.axes.size()), probe_(settings_.axes.size()) {
+    : settings_(std::move(settings)),
+      axis_(settings_.axes.size()),
+      probe_(settings_.axes.size()),
+      added_(settings_.axes.size()) {
   stations_.reserve(settings_.axes.size() + 1);
   for (const host::BusAxis& axis : settings_.axes)
     stations_.emplace_back(axis.drive, fmt::format("drive {} (node {})", axis.letter, axis.drive));
@@ -115,6 +118,7 @@ void BusController::take_heartbeat(Station& s, std::uint8_t state, std::uint64_t
     s.retry_us = 0;
     tell_held_offsets(s);
   }
+  if (is_drive(s)) confirm_mapping(static_cast<std::size_t>(&s - stations_.data()));
   const bool heeds = s.phase != Station::Phase::running || s.state == NmtState::operational;
   s.not_started = heeds ? 0 : s.not_started + 1;
   if (s.not_started < kUnheededStarts) return;

@@ -38,9 +38,10 @@ struct Station {
   std::uint64_t last_heard_us = 0;
   std::uint64_t retry_us = 0;  // when to try again what failed
   std::uint32_t boots = 0;
-  bool refused = false;  // by us, in this attempt: its units are not those of the machine file
-  std::string refusal;   // why the last attempt failed, until one succeeds
-  int not_started = 0;   // consecutive heartbeats that are not OPERATIONAL
+  bool refused = false;    // by us, in this attempt: its units are not those of the machine file
+  std::string refusal;     // why the last attempt failed, until one succeeds
+  int not_started = 0;     // consecutive heartbeats that are not OPERATIONAL
+  bool confirmed = false;  // its mapping has been read back for the node (2037h)
 };
 
 // One emergency message as received.
@@ -138,6 +139,9 @@ class BusController {
   void configure_node(host::SdoChannel& sdo);
   void tell_held_offset(std::size_t axis);
   void tell_held_offsets(const Station& started);
+  void confirm_mapping(std::size_t axis);
+  void take_offsets_to_add(const hal::CanFrame& frame);
+  void watch_node();
   void queue_tables(host::SdoChannel& sdo);
   void take_refusal(Station& s);
   void set_modes();
@@ -156,6 +160,8 @@ class BusController {
   std::vector<EmergencyRecord> emergencies_;
   NodeReport report_;
   std::uint64_t reports_at_sync_ = 0;
+  std::vector<std::int32_t> added_;  // to the targets of axes that the controller corrects
+  int served_ = 0;                   // cycles in a row in which the node forwarded to every axis
   std::uint64_t next_heartbeat_us_ = 0;
   std::uint8_t counter_ = 0;
   int node_requests_ = 0;  // SDO frames to the running node in this cycle

@@ -11,6 +11,8 @@ namespace volcomp::sim {
 namespace {
 
 constexpr std::uint8_t kCounterOverflow = 240;
+constexpr std::uint16_t kForwardingIncomplete = 1U << 15U;  // 2600h:03
+constexpr int kServedCycles = 2;                            // before a drive is enabled
 
 std::uint64_t le(const hal::CanFrame& frame, std::size_t at, std::size_t count) {
   return load_le(&frame.data.at(at), count);
@@ -22,14 +24,42 @@ void BusController::take_process_data(const hal::CanFrame& frame) {
   if (frame.id == canopen::kTpdo1 + settings_.node && frame.size == 8) {
     report_ = {static_cast<std::uint32_t>(le(frame, 0, 4)), frame.data[4], frame.data[5],
                static_cast<std::uint16_t>(le(frame, 6, 2)), report_.count + 1};
+    served_ = (report_.any_status & kForwardingIncomplete) != 0 ? 0 : served_ + 1;
     return;
   }
+  take_offsets_to_add(frame);
   constexpr std::array<std::uint16_t, 3> kPoint{canopen::kTpdo2, canopen::kTpdo3, canopen::kTpdo4};
   for (std::size_t part = 0; part < kPoint.size(); ++part) {
     if (frame.id == kPoint[part] + settings_.node) points_.take(part, frame);
   }
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     if ((frame.id & canopen::kMaxNodeId) == settings_.axes[a].drive) take_drive_pdo(a, frame);
+  }
+}
+
+// 200h, 300h, 400h + the controller's own id: 2020h of two axes each, in the order of the axes.
+void BusController::take_offsets_to_add(const hal::CanFrame& frame) {
+  std::size_t rank = 0;
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    if (settings_.axes[a].way != host::DriveWay::controller) continue;
+    const std::size_t pdo = rank / 2;
+    const std::size_t at = 4 * (rank % 2);
+    ++rank;
+    const bool here = frame.id == canopen::kRpdo1 + 0x100U * pdo + settings_.controller;
+    if (here && frame.size >= at + 4) added_[a] = static_cast<std::int32_t>(le(frame, at, 4));
+  }
+}
+
+// The first layer that acts when the node dies: an axis whose targets it forwards stops, so all do.
+void BusController::watch_node() {
+  if (report_.count != reports_at_sync_) return;
+  served_ = 0;
+  bool follows = false;
+  for (std::size_t a = 0; a < axis_.size(); ++a)
+    follows =
+        follows || (settings_.axes[a].way == host::DriveWay::forwarded && axis_[a].following());
+  for (AxisCommander& axis : axis_) {
+    if (follows) axis.stop_quickly();
   }
 }
 
@@ -62,6 +92,7 @@ void BusController::take_drive_pdo(std::size_t a, const hal::CanFrame& frame) {
 
 void BusController::send_sync() {
   node_requests_ = 0;
+  if (host::forwards_targets(settings_)) watch_node();
   reports_at_sync_ = report_.count;
   if (host::sync_counter_overflow(settings_) == 0) {
     send_latest({canopen::kSync, 0, {}});
@@ -116,12 +147,17 @@ void BusController::send_time(std::int64_t unix_s) {
 void BusController::send_targets(const std::vector<std::int32_t>& path) {
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     if (stations_[a].phase != Station::Phase::running) continue;
+    if (settings_.axes[a].way == host::DriveWay::forwarded)
+      axis_[a].may_enable(served_ >= kServedCycles);
     axis_[a].step(path.at(a));
     hal::CanFrame frame;
     frame.id = static_cast<std::uint16_t>(canopen::kRpdo1 + settings_.axes[a].drive);
     frame.size = 6;
     store_le(frame.data.data(), 2, axis_[a].control_word());
-    store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()));
+    const bool adds = settings_.axes[a].way == host::DriveWay::controller;
+    const auto added = static_cast<std::uint32_t>(adds ? added_[a] : 0);
+    store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()) + added);
+    if (adds) axis_[a].held(added_[a]);
     send_latest(frame);
   }
   set_modes();

@@ -39,8 +39,10 @@ void ForwardingBench::configure() {
 }
 
 void ForwardingBench::confirm_mapping() {
-  for (std::uint8_t a = 1; a <= kDrives; ++a)
+  for (std::uint8_t a = 1; a <= kDrives; ++a) {
+    bench.give({static_cast<std::uint16_t>(canopen::kHeartbeat + a), 1, {5}});
     ASSERT_EQ(bench.set<std::uint8_t>(0x2037, a, 1), AbortCode::none);
+  }
 }
 
 void ForwardingBench::bring_up() {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "comp/core/bytes.hpp"
+#include "firmware/node/look_ahead.hpp"
 #include "tests/firmware/node/node_bench.hpp"
 
 namespace volcomp::node {
@@ -103,9 +104,9 @@ TEST(NodeControllerAdds, SettlesWhereAnOffsetWould) {
   EXPECT_LE(c.largest_step, 20'000) << "2202h";
 }
 
-// At a steady speed what acts a cycle late has been asked for a cycle ahead. The axes have not
-// turned, so both see the same direction.
-TEST(NodeControllerAdds, IsAskedForWhereTheAxisWillBe) {
+// At a steady speed: what acts a cycle late has gone on as it went. At the knots of the tables,
+// where the slope changes, it is late as without.
+TEST(NodeControllerAdds, GoesOnAsItWentLast) {
   AddingController c;
   NodeBench direct;
   direct.configure();
@@ -114,7 +115,10 @@ TEST(NodeControllerAdds, IsAskedForWhereTheAxisWillBe) {
   c.cycles(20);
   c.enable();
   constexpr std::int32_t kStep = 400'000;  // 0.2 m/s at 500 Hz
-  std::int32_t late = 0;
+  double error = 0.0;
+  double lag = 0.0;
+  std::int32_t largest_error = 0;
+  std::int32_t largest_lag = 0;
   std::array<std::int32_t, 3> before{};
   for (int i = 0; i < 900; ++i) {
     const std::int32_t step = i < 600 ? 0 : kStep / 10 * std::min(10, i - 600);
@@ -126,14 +130,32 @@ TEST(NodeControllerAdds, IsAskedForWhereTheAxisWillBe) {
     // What the controller adds in this cycle it heard in the last; it acts with this target.
     const std::array<std::int32_t, 3> acts = c.added;
     c.cycle();
-    if (i < 700) continue;
     for (std::size_t a = 0; a < 3; ++a) {
-      EXPECT_NEAR(acts[a], direct.drive[a].next, 2) << i;
-      late = std::max(late, std::abs(direct.drive[a].next - before[a]));
+      const std::int32_t wrong = acts[a] - direct.drive[a].next;
+      const std::int32_t late = before[a] - direct.drive[a].next;
       before[a] = direct.drive[a].next;
+      if (i < 700) continue;
+      error += static_cast<double>(wrong) * wrong;
+      lag += static_cast<double>(late) * late;
+      largest_error = std::max(largest_error, std::abs(wrong));
+      largest_lag = std::max(largest_lag, std::abs(late));
     }
   }
-  EXPECT_GT(late, 2) << "or it makes no difference";
+  EXPECT_GT(largest_lag, 20) << "or it makes no difference";
+  EXPECT_LT(std::sqrt(error), 0.4 * std::sqrt(lag));
+  EXPECT_LE(largest_error, 2 * largest_lag);
+}
+
+// A reversal or a jump is late, but nothing overshoots.
+TEST(LookAheadOfOffsets, NeverOvershootsAJump) {
+  LookAhead ahead;
+  EXPECT_EQ(ahead.next(0), 0);
+  EXPECT_EQ(ahead.next(10), 10);
+  EXPECT_EQ(ahead.next(20), 30);
+  EXPECT_EQ(ahead.next(1'020), 1'030) << "goes on by the smaller of two changes";
+  EXPECT_EQ(ahead.next(1'020), 1'020);
+  EXPECT_EQ(ahead.next(1'010), 1'010);
+  EXPECT_EQ(ahead.next(1'020), 1'020) << "it turned";
 }
 
 // A controller that still adds an old offset: the node does not know which.
