@@ -11,8 +11,9 @@ namespace volcomp::host {
 // A folder that is removed with its owner.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "volcomp-XXXXXX").string();
+  explicit TemporaryFolder(
+      const std::filesystem::path& parent = std::filesystem::temp_directory_path()) {
+    std::string name = (parent / "volcomp-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
       throw UserError("cannot create a temporary folder " + name);
     path_ = name;

@@ -15,6 +15,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware/canopen/device.hpp"
@@ -77,13 +78,11 @@ class Cia402Drive final {
   // As of canopen::Device, so that canopen::exchange() can serve a drive. poll() also runs the
   // servo periods that no SYNC has started: call it, not the one of the device.
   void receive(const hal::CanFrame& frame, std::uint64_t now_us) {
-    if (powered_) device_.receive(frame, now_us);
+    if (powered_ && !refuse_dummy(frame)) device_.receive(frame, now_us);
   }
   void poll(std::uint64_t now_us);
-  [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us) {
-    return powered_ && device_.offer(frame, now_us);
-  }
-  void taken(std::uint64_t now_us) { device_.taken(now_us); }
+  [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
+  void taken(std::uint64_t now_us);
 
   // Without power the axis stands at once (brake) and the drive sends nothing. Afterwards the
   // reading is where it was, but the position is not referenced and every object has its default,
@@ -124,6 +123,7 @@ class Cia402Drive final {
 
  private:
   friend Cia402Device;
+  [[nodiscard]] bool refuse_dummy(const hal::CanFrame& frame);
   void reset_application();
   void reset_communication();
   void state_changed(canopen::NmtState state, std::uint64_t now_us);
@@ -203,6 +203,8 @@ class Cia402Drive final {
   bool homing_attained_ = false;
   bool home_offset_given_ = false;
   canopen::ErrorCode fault_ = canopen::ErrorCode::none;
+  std::optional<hal::CanFrame> refusal_;  // an SDO answer in place of the device's
+  bool offered_refusal_ = false;
 };
 
 }  // namespace volcomp::sim

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "comp/core/bytes.hpp"
+#include "firmware/canopen/cob_id.hpp"
 #include "host_sim/sim/drives/cia402_drive.hpp"
 #include "host_sim/sim/drives/cia402_touch_probe.hpp"
 
@@ -114,6 +115,41 @@ bool Cia402Drive::possible(canopen::ObjectId object, std::int64_t value) const {
     default:
       return true;
   }
+}
+
+// The device takes every placeholder in an RPDO; the data sheet of a drive may grant fewer. An
+// expedited download of an entry of a mapping (CiA 301, 7.2.4.3.3) is refused in its place.
+bool Cia402Drive::refuse_dummy(const hal::CanFrame& frame) {
+  constexpr std::uint16_t kEndOfTypes = 0x1000;
+  constexpr std::uint8_t kAbort = 0x80;
+  const unsigned own_id = canopen::kSdoRequest + unsigned{settings_.node_id};
+  if (!settings_.profile || frame.id != own_id || frame.data[0] >> 5U != 1) return false;
+  const auto index = static_cast<std::uint16_t>(load_le(&frame.data[1], 2));
+  const bool entry = index >= canopen::PdoTable::kReceiveMapping &&
+                     index < canopen::PdoTable::kTransmitCommunication && frame.data[3] > 0;
+  const canopen::ObjectId object = canopen::object_of(load_u32(&frame.data[4]));
+  const bool dummy = entry && object.index > 0 && object.index < kEndOfTypes;
+  if (!dummy || settings_.profile->may_map(canopen::PdoKind::receive, object)) return false;
+  hal::CanFrame answer = frame;
+  answer.id = static_cast<std::uint16_t>(canopen::kSdoResponse + settings_.node_id);
+  answer.data[0] = kAbort;
+  store_le(&answer.data[4], 4, static_cast<std::uint32_t>(AbortCode::not_mappable));
+  refusal_ = answer;
+  return true;
+}
+
+bool Cia402Drive::offer(hal::CanFrame& frame, std::uint64_t now_us) {
+  offered_refusal_ = powered_ && refusal_.has_value();
+  if (!offered_refusal_) return powered_ && device_.offer(frame, now_us);
+  frame = *refusal_;
+  return true;
+}
+
+void Cia402Drive::taken(std::uint64_t now_us) {
+  if (offered_refusal_)
+    refusal_.reset();
+  else
+    device_.taken(now_us);
 }
 
 AbortCode Cia402Drive::before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {

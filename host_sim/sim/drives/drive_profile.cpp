@@ -63,6 +63,15 @@ DriveProfile::DriveProfile(host::EdsFile eds) : eds_(std::move(eds)) {
   }
 }
 
+std::vector<canopen::PdoParameters> DriveProfile::pdos(canopen::PdoKind kind,
+                                                       std::uint8_t node_id) const {
+  std::vector<canopen::PdoParameters> pdos = eds_.pdos(kind, node_id);
+  for (canopen::PdoParameters& pdo : pdos) {
+    if (kind == canopen::PdoKind::transmit) pdo.cob_id |= canopen::kPdoNoRtr;
+  }
+  return pdos;
+}
+
 // A value of the simulated drive where it has one of that type, else one that nothing acts on.
 void DriveProfile::add_row(const host::EdsFile::Key& key, const host::EdsFileObject& object) {
   const auto type = static_cast<DataType>(object.type);

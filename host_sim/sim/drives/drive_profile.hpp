@@ -20,9 +20,12 @@ class DriveProfile {
   [[nodiscard]] canopen::Dictionary dictionary() const {
     return {{rows_.data(), rows_.size()}, host::cia402_dictionary().ranges};
   }
+  // A simulated drive answers no remote request: its TPDOs have bit 30 of their COB-ID set.
   [[nodiscard]] std::vector<canopen::PdoParameters> pdos(canopen::PdoKind kind,
-                                                         std::uint8_t node_id) const {
-    return eds_.pdos(kind, node_id);
+                                                         std::uint8_t node_id) const;
+  // Placeholders, too.
+  [[nodiscard]] bool may_map(canopen::PdoKind kind, canopen::ObjectId object) const {
+    return eds_.may_map(kind, object);
   }
 
   // Values after power-on where the EDS gives them. The application area keeps what the axis

@@ -20,6 +20,8 @@ namespace {
 using Section = std::map<std::string, std::string>;
 using Sections = std::map<std::string, Section>;
 
+constexpr std::uint16_t kFirstObject = 0x1000;  // below are the data types
+
 constexpr BundledFiles kDrives{"drives", ".eds", "VOLCOMP_DRIVES"};
 
 std::string lower(std::string text) {
@@ -125,6 +127,8 @@ EdsFile::EdsFile(const std::string& text, const std::string& file) : file_(file)
 void EdsFile::take(const std::string& section, const Section& keys) {
   if (section == "deviceinfo") {
     product_ = value_of(keys, "productname");
+  } else if (section == "dummyusage") {
+    take_dummies(keys);
   } else if (const auto key = key_of(section)) {
     const std::string value = value_of(keys, "parametervalue");
     EdsFileObject object;
@@ -143,6 +147,23 @@ void EdsFile::take(const std::string& section, const Section& keys) {
       objects_[*key] = std::move(object);
     }
   }
+}
+
+// "Dummy0005=1".
+void EdsFile::take_dummies(const Section& keys) {
+  constexpr std::string_view kName = "dummy";
+  for (const auto& [key, value] : keys) {
+    if (key.rfind(kName, 0) != 0 || number_in(value).value_or(0) == 0) continue;
+    const auto type = number_in("0x" + key.substr(kName.size()));
+    if (type && *type <= UINT16_MAX) dummies_.insert(static_cast<std::uint16_t>(*type));
+  }
+}
+
+bool EdsFile::may_map(canopen::PdoKind kind, canopen::ObjectId object) const {
+  const bool received = kind == canopen::PdoKind::receive;
+  if (object.index < kFirstObject) return received && dummies_.count(object.index) != 0;
+  const EdsFileObject* const found = find(object);
+  return found != nullptr && (received ? found->to_rpdo : found->to_tpdo);
 }
 
 const EdsFileObject* EdsFile::find(canopen::ObjectId object) const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,9 @@ class EdsFile {
   using Key = std::pair<std::uint16_t, std::uint8_t>;
   [[nodiscard]] const std::map<Key, EdsFileObject>& objects() const { return objects_; }
   [[nodiscard]] const EdsFileObject* find(canopen::ObjectId object) const;
+  // Whether a PDO of that kind takes the object; of types as indices (placeholders, an RPDO only)
+  // by the section DummyUsage.
+  [[nodiscard]] bool may_map(canopen::PdoKind kind, canopen::ObjectId object) const;
   // The value of an integer, "$NODEID" replaced; nothing when none is given, or something else (a
   // real number, a word): vendors write many things.
   [[nodiscard]] std::optional<std::uint64_t> number(canopen::ObjectId object,
@@ -51,12 +55,14 @@ class EdsFile {
  private:
   using Section = std::map<std::string, std::string>;  // keys in lower case
   void take(const std::string& section, const Section& keys);
+  void take_dummies(const Section& keys);
   [[nodiscard]] canopen::PdoParameters pdo(std::uint16_t communication, std::uint16_t mapping,
                                            std::uint8_t node_id) const;
 
   std::string file_;
   std::string product_;
   std::map<Key, EdsFileObject> objects_;
+  std::set<std::uint16_t> dummies_;
 };
 
 // Throws UserError, also when it cannot be read.

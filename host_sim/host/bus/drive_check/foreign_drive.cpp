@@ -4,6 +4,7 @@
 #include <array>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "host_sim/host/io/user_error.hpp"
 
@@ -151,10 +152,37 @@ std::optional<bool> ForeignDrive::may_map(PdoKind kind, std::uint16_t index) con
   const std::vector<ForeignPdo>& pdos = kind == PdoKind::receive ? receive : transmit;
   if (std::any_of(pdos.begin(), pdos.end(), [index](const ForeignPdo& p) { return p.maps(index); }))
     return true;
+  const auto found = objects.find({index, 0});
+  const std::size_t bytes = found == objects.end() ? 0 : found->second.bytes;
+  if (tried && bytes > 0 && bytes <= 4)
+    return tried->took(kind, {canopen::mapped(index, 0, static_cast<std::uint8_t>(8 * bytes))});
+  return rules ? std::optional(rules->may_map(kind, {index, 0})) : std::nullopt;
+}
+
+std::optional<bool> ForeignDrive::may_map(PdoKind kind, const Mapping& entries) const {
+  if (tried) return tried->took(kind, entries);
   if (!rules) return std::nullopt;
-  const EdsFileObject* const object = rules->find({index, 0});
-  if (object == nullptr) return false;
-  return kind == PdoKind::receive ? object->to_rpdo : object->to_tpdo;
+  return std::all_of(entries.begin(), entries.end(), [&](std::uint32_t entry) {
+    return rules->may_map(kind, canopen::object_of(entry));
+  });
+}
+
+std::optional<bool> ForeignDrive::may_come_at_sync(PdoKind kind) const {
+  const bool received = kind == PdoKind::receive;
+  if (tried) return received ? tried->rpdo_at_sync : tried->tpdo_at_sync;
+  if (!rules) return std::nullopt;
+  // By its second PDO: the first may be fixed.
+  const std::uint16_t first =
+      received ? PdoTable::kReceiveCommunication : PdoTable::kTransmitCommunication;
+  const EdsFileObject* const type = rules->find({static_cast<std::uint16_t>(first + 1), 2});
+  return type != nullptr && type->access == canopen::Access::read_write;
+}
+
+std::string mapping_text(const Mapping& entries) {
+  std::vector<std::string> objects;
+  for (const std::uint32_t entry : entries)
+    objects.push_back(fmt::format("{:04X}h", canopen::object_of(entry).index));
+  return objects.empty() ? "nothing" : fmt::format("{}", fmt::join(objects, ", "));
 }
 
 std::size_t ForeignDrive::heartbeat_consumers() const {

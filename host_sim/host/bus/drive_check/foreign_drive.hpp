@@ -1,6 +1,6 @@
 #pragma once
-// What is known of somebody else's CANopen drive: read over SDO, or from its EDS. Nothing is ever
-// written to it.
+// What is known of somebody else's CANopen drive: read over SDO, or from its EDS. Nothing is
+// written to it here.
 
 #include <cstdint>
 #include <map>
@@ -11,6 +11,7 @@
 #include "firmware/canopen/nmt.hpp"
 #include "firmware/canopen/pdo.hpp"
 #include "host_sim/host/bus/device_files/eds_file.hpp"
+#include "host_sim/host/bus/drive_check/tried_mappings.hpp"
 #include "host_sim/host/bus/node_client.hpp"
 
 namespace volcomp::host {
@@ -32,7 +33,7 @@ struct ForeignPdo {
   std::size_t number = 1;  // from 1
   std::uint32_t cob_id = canopen::kPdoInvalid;
   std::uint8_t type = canopen::kEventType;
-  std::vector<std::uint32_t> mapping;
+  Mapping mapping;
 
   [[nodiscard]] bool valid() const { return (cob_id & canopen::kPdoInvalid) == 0; }
   [[nodiscard]] std::uint16_t id() const {
@@ -48,6 +49,7 @@ struct ForeignDrive {
   std::vector<ForeignPdo> transmit;
   // Who knows where an object may be mapped; over SDO nobody says without trying.
   std::optional<EdsFile> rules;
+  std::optional<TriedMappings> tried;
 
   // Whether the low half of 1000h says so; of another device nothing more is read over SDO.
   [[nodiscard]] bool is_cia402() const;
@@ -57,6 +59,10 @@ struct ForeignDrive {
   [[nodiscard]] std::string text(std::uint16_t index) const;
   // Whether an object that is there may be mapped; nothing: only trying tells.
   [[nodiscard]] std::optional<bool> may_map(canopen::PdoKind kind, std::uint16_t index) const;
+  // The same for a whole mapping, by trial or by the EDS.
+  [[nodiscard]] std::optional<bool> may_map(canopen::PdoKind kind, const Mapping& entries) const;
+  // Whether a PDO of that kind takes transmission type 1: its values act, or are, those of SYNC.
+  [[nodiscard]] std::optional<bool> may_come_at_sync(canopen::PdoKind kind) const;
   // How many nodes it can watch by their heartbeats.
   [[nodiscard]] std::size_t heartbeat_consumers() const;
 };

@@ -26,6 +26,12 @@ bool comes_from_its_node(std::uint16_t function) {
 void take(HeardNodes& heard, const hal::CanFrame& frame) {
   const auto node = static_cast<std::uint8_t>(frame.id & kIdBits);
   const auto function = static_cast<std::uint16_t>(frame.id & ~kIdBits);
+  // After a command the state is another one, until the node says which.
+  if (frame.id == canopen::kNmt) {
+    for (auto& [id, one] : heard) {
+      if (frame.data[1] == 0 || frame.data[1] == id) one.state.reset();
+    }
+  }
   if (node == 0) return;  // SYNC, NMT, TIME
   const bool sdo = function == canopen::kSdoRequest || function == canopen::kSdoResponse;
   if (!sdo && !comes_from_its_node(function)) return;
@@ -55,7 +61,8 @@ std::string device_text(const HeardNode& node) {
 
 }  // namespace
 
-HeardNodes listen(FrameLink& link, std::uint64_t duration_us) {
+HeardNodes listen(FrameLink& link, std::uint64_t duration_us,
+                  std::set<std::uint16_t>* identifiers) {
   constexpr std::uint32_t kWait_us = 10'000;
   const Interruption interruption;
   HeardNodes heard;
@@ -65,8 +72,10 @@ HeardNodes listen(FrameLink& link, std::uint64_t duration_us) {
     link.wait(kWait_us);
     hal::CanFrame frame;
     // A babbling node must not keep us here.
-    while (link.now_us() - begin_us < duration_us && link.receive(frame))
+    while (link.now_us() - begin_us < duration_us && link.receive(frame)) {
       take(heard, frame);
+      if (identifiers != nullptr) identifiers->insert(frame.id);
+    }
   }
   return heard;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -21,8 +22,10 @@ struct HeardNode {
 };
 using HeardNodes = std::map<std::uint8_t, HeardNode>;  // by node id
 
-// Never sends. Throws what the link throws, and Interrupted.
-[[nodiscard]] HeardNodes listen(FrameLink& link, std::uint64_t duration_us);
+// Never sends. Throws what the link throws, and Interrupted. `identifiers`: takes those of all
+// frames.
+[[nodiscard]] HeardNodes listen(FrameLink& link, std::uint64_t duration_us,
+                                std::set<std::uint16_t>* identifiers = nullptr);
 
 // Reads 1000h of every node whose SDO server was quiet; who does not answer within 50 ms is not
 // there. `progress`: with the node id.
