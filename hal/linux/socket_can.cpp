@@ -116,8 +116,15 @@ void SocketCan::close() {
   bus_state_ = CanBusState::active;
 }
 
-bool SocketCan::send(const CanFrame& frame) {
-  const can_frame raw = to_kernel(frame);
+bool SocketCan::send(const CanFrame& frame) { return give(to_kernel(frame)); }
+
+bool SocketCan::send_remote(std::uint16_t id, std::uint8_t size) {
+  can_frame raw = to_kernel({id, size, {}});
+  raw.can_id |= CAN_RTR_FLAG;
+  return give(raw);
+}
+
+bool SocketCan::give(const can_frame& raw) {
   if (::send(descriptor_, &raw, sizeof raw, 0) != ssize_t{sizeof raw}) {
     note_failure();
     return false;

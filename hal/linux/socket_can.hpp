@@ -41,6 +41,9 @@ class SocketCan {
   // False when the queue of the interface is full, the network is down or the port is closed.
   bool send(const CanFrame& frame);
 
+  // The same for a remote request of `size` bytes (0…8): a guarding frame of CANopen.
+  bool send_remote(std::uint16_t id, std::uint8_t size);
+
   // False when nothing is there, and after kMaxSkippedAtOnce useless frames in a row.
   bool receive(CanFrame& frame);
 
@@ -72,6 +75,7 @@ class SocketCan {
  private:
   [[nodiscard]] OpenStatus attach(const char* interface);
   void note_failure();
+  [[nodiscard]] bool give(const ::can_frame& raw);
   [[nodiscard]] bool take(::can_frame& raw);
   bool skip(const ::can_frame& raw);
   void note_error(const ::can_frame& raw);

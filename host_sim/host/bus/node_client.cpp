@@ -50,6 +50,12 @@ void NodeClient::fail() {
   throw UserError(text);
 }
 
+void NodeClient::let_pass(std::uint64_t time_us) {
+  const std::uint64_t begin_us = pump_(*this);
+  while (pump_(*this) - begin_us < time_us) {
+  }
+}
+
 std::optional<NmtState> NodeClient::await_heartbeat(std::uint64_t timeout_us) {
   heartbeat_.reset();
   const std::uint64_t begin_us = pump_(*this);

@@ -70,6 +70,9 @@ class NodeClient {
       values[i] = read(object[i]);
   }
 
+  // Lets the bus work for so long.
+  void let_pass(std::uint64_t time_us);
+
   // The state in the next heartbeat; nothing when none comes in time.
   [[nodiscard]] std::optional<canopen::NmtState> await_heartbeat(std::uint64_t timeout_us);
 

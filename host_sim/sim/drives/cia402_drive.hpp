@@ -52,6 +52,8 @@ class Cia402Drive final {
     std::int64_t latch_delay_ns = 0;             // from an edge of the probe to its latch, ≥ 0
     std::int64_t latch_resolution_ns = 20;       // instants of latches are multiples of this
     Units units{};
+    // Times 60B0h in 6062h while the drive is not enabled: no data sheet tells.
+    std::int32_t offset_in_idle_demand = 0;
     std::shared_ptr<const DriveProfile> profile{};  // none: every object of cia402.def
     // 608Fh, 6091h, 6092h and 60A8h were stored in the drive for this axis; else those of a profile
     // are as its data sheet has them.

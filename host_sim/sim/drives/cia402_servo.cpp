@@ -76,7 +76,8 @@ void Cia402Drive::supervise() {
 }
 
 void Cia402Drive::publish() {
-  objects_.demand = on_wire(demand_);
+  const std::int64_t idle = std::int64_t{settings_.offset_in_idle_demand} * objects_.offset;
+  objects_.demand = on_wire(machine_.enabled() ? demand_ : demand_ + idle);
   objects_.actual = on_wire(axis_.reading());
   if (!home_offset_given_) objects_.home_offset = objects_.actual;
   objects_.statusword = statusword();

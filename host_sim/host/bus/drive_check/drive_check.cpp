@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "comp/core/units.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "host_sim/host/bus/cia402_objects.hpp"
 #include "host_sim/host/bus/drive_check/drive_units.hpp"
+#include "host_sim/host/bus/drive_check/mapping_facts.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -16,13 +15,8 @@ namespace {
 using canopen::PdoKind;
 
 constexpr std::uint16_t kOffset = 0x60B0;
-constexpr std::uint16_t kTarget = 0x607A;
 constexpr std::uint32_t kCyclicPosition = 1U << 7U;  // 6502h
 constexpr std::uint32_t kInterpolatedPosition = 1U << 6U;
-
-// Coarser units than these are worth a warning.
-constexpr double kCoarse_nm = 100.0;
-constexpr double kCoarse_urad = 1.0;
 
 const char* yes_or_no(bool yes) { return yes ? "yes" : "no"; }
 
@@ -119,7 +113,18 @@ class Checker {
                                                      : "by PDO")
                            : "by SDO only";
     }
-    fact("offset", "position offset", value, shown(kOffset));
+    fact("offset", "position offset", value, shown(kOffset) + trial_text(drive_));
+    if (drive_.moved) judge_move(*drive_.moved);
+  }
+
+  void judge_move(MovedDemand moved) {
+    fact("offset_meaning", "60B0h by SDO",
+         moved == MovedDemand::as_named    ? "moves the demand value by as much"
+         : moved == MovedDemand::otherwise ? "moves the demand value by something else"
+                                           : "moves no demand value while disabled: not known",
+         "6062h, 60FCh, tried");
+    if (moved == MovedDemand::otherwise)
+      miss("60B0h does not mean what its name says: it moves the demand value by something else");
   }
 
   void pdos() {
@@ -133,35 +138,33 @@ class Checker {
         warn(
             fmt::format("without its mapping (after a reset) RPDO{} hears {:03X}h: an offset there "
                         "would be taken for {}",
-                        pdo.number, id, mapped_text(pdo)));
+                        pdo.number, id, mapping_text(pdo.mapping)));
     }
-  }
-
-  static std::string mapped_text(const ForeignPdo& pdo) {
-    std::vector<std::string> objects;
-    for (const std::uint32_t entry : pdo.mapping)
-      objects.push_back(fmt::format("{:04X}h", canopen::object_of(entry).index));
-    return objects.empty() ? "nothing" : fmt::format("{}", fmt::join(objects, ", "));
   }
 
   void show(const ForeignPdo& pdo, const char* title, const char* key) {
     if (!pdo.valid()) return;
     const std::string name = fmt::format("{}{}", title, pdo.number);
     fact(fmt::format("{}{}", key, pdo.number).c_str(), name.c_str(),
-         fmt::format("{:03X}h, type {}: {}", pdo.id(), pdo.type, mapped_text(pdo)), "");
+         fmt::format("{:03X}h, type {}: {}", pdo.id(), pdo.type, mapping_text(pdo.mapping)), "");
   }
 
   // The offset where a PDO takes it; else the target by way of the node, which needs 607Ah in a
   // PDO of its own; else the controller adds.
   void way() {
+    fact("forwarding", "target by the node", forwarding_text(drive_),
+         drive_.tried   ? "tried"
+         : drive_.rules ? "by its EDS"
+                        : "");
     if (csp_ == false) return;
+    if (drive_.may_come_at_sync(PdoKind::receive) == false)
+      warn("no RPDO takes type 1: what the node sends acts when it comes, not at SYNC");
     if (to_drive_ != false) {
       check_.best = Way::offset;
       check_.best_is_sure = to_drive_;
       check_.confirmed = from_drive_;
     } else {
-      const bool two = drive_.receive.size() >= 2;
-      const std::optional<bool> target = two ? drive_.may_map(PdoKind::receive, kTarget) : false;
+      const std::optional<bool> target = may_be_forwarded(drive_);
       check_.best = target != false ? Way::forwarded_target : Way::controller_adds;
       check_.best_is_sure = target ? std::optional(true) : std::nullopt;
       miss(drive_.has(kOffset) ? "60B0h cannot be mapped into an RPDO"
@@ -250,39 +253,18 @@ class Checker {
   void units() {
     DriveUnits units = units_of(drive_);
     if (options_.feed_mm) units.become_linear(*options_.feed_mm);
-    fact("units", "units", unit_text(units), units.told_by);
+    fact("units", "units", describe(units), units.told_by);
     if (!units.unknown.empty()) {
       warn(fmt::format("units: {}", units.unknown));
       return;
     }
     if (!units.scale) miss("its units do not fit 2030h : 2031h of the node, each at most 2^20");
-    judge_fineness(units);
+    if (const std::string sentence = coarseness(units); !sentence.empty()) warn(sentence);
     if (units.per_turn && !units.nm_per_unit && !units.survives_wrap())
       warn(fmt::format(
           "a turn is no part of 2^32 units: a rotary axis must stay within {:.0f} turns "
           "of its zero to either side",
           2147483648.0 / *units.per_turn));
-  }
-
-  [[nodiscard]] static std::string unit_text(const DriveUnits& units) {
-    if (!units.unknown.empty()) return "not known";
-    std::string text = units.per_turn ? fmt::format("{:.15g} per turn", *units.per_turn)
-                                      : fmt::format("{:.9g} nm", *units.nm_per_unit);
-    if (units.scale)
-      text += fmt::format(", 2030h : 2031h = {} : {}", units.scale->first, units.scale->second);
-    return text;
-  }
-
-  void judge_fineness(const DriveUnits& units) {
-    if (units.nm_per_unit) {
-      if (*units.nm_per_unit > kCoarse_nm)
-        warn(fmt::format("a unit is {:.3g} um: no correction is finer", *units.nm_per_unit * 1e-3));
-    } else if (const double urad = 2e6 * kPi / *units.per_turn; urad > kCoarse_urad) {
-      warn(fmt::format(
-          "a unit is {:.3g} urad of a rotary axis: no correction is finer (--feed MM for "
-          "a linear one)",
-          urad));
-    }
   }
 
   const ForeignDrive& drive_;

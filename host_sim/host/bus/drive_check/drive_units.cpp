@@ -124,4 +124,30 @@ DriveUnits units_of(const ForeignDrive& drive) {
   return units;
 }
 
+std::string describe(const DriveUnits& units) {
+  if (!units.unknown.empty()) return "not known";
+  std::string text = units.per_turn ? fmt::format("{:.15g} per turn", *units.per_turn)
+                                    : fmt::format("{:.9g} nm", *units.nm_per_unit);
+  if (units.scale)
+    text += fmt::format(", 2030h : 2031h = {} : {}", units.scale->first, units.scale->second);
+  return text;
+}
+
+std::string coarseness(const DriveUnits& units) {
+  constexpr double kCoarse_nm = 100.0;
+  constexpr double kCoarse_urad = 1.0;
+  if (units.nm_per_unit)
+    return *units.nm_per_unit > kCoarse_nm
+               ? fmt::format("a unit is {:.3g} um: no correction is finer",
+                             *units.nm_per_unit * 1e-3)
+               : std::string();
+  const double urad = units.per_turn ? 2e6 * kPi / *units.per_turn : 0.0;
+  return urad > kCoarse_urad
+             ? fmt::format(
+                   "a unit is {:.3g} urad of a rotary axis: no correction is finer (--feed "
+                   "MM for a linear one)",
+                   urad)
+             : std::string();
+}
+
 }  // namespace volcomp::host

@@ -28,4 +28,9 @@ struct DriveUnits {
 
 [[nodiscard]] DriveUnits units_of(const ForeignDrive& drive);
 
+// "8192 per turn".
+[[nodiscard]] std::string describe(const DriveUnits& units);
+// A sentence where a unit is more than 0.1 um or 1 urad; else empty.
+[[nodiscard]] std::string coarseness(const DriveUnits& units);
+
 }  // namespace volcomp::host

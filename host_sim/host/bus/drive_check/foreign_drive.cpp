@@ -161,6 +161,7 @@ std::optional<bool> ForeignDrive::may_map(PdoKind kind, std::uint16_t index) con
 
 std::optional<bool> ForeignDrive::may_map(PdoKind kind, const Mapping& entries) const {
   if (tried) return tried->took(kind, entries);
+  if (entries.size() == 1) return may_map(kind, canopen::object_of(entries.front()).index);
   if (!rules) return std::nullopt;
   return std::all_of(entries.begin(), entries.end(), [&](std::uint32_t entry) {
     return rules->may_map(kind, canopen::object_of(entry));

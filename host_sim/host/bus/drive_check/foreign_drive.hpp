@@ -42,6 +42,13 @@ struct ForeignPdo {
   [[nodiscard]] bool maps(std::uint16_t index) const;
 };
 
+// What 60B0h did to the demand value when it was written by SDO.
+enum class MovedDemand : std::uint8_t {
+  unknown,    // nothing, or nothing regular: most drives let 6062h follow 6064h while disabled
+  as_named,   // it moved by what was written
+  otherwise,  // it moved, but not so
+};
+
 struct ForeignDrive {
   std::uint8_t node = 1;
   std::map<EdsFile::Key, ForeignValue> objects;
@@ -50,6 +57,7 @@ struct ForeignDrive {
   // Who knows where an object may be mapped; over SDO nobody says without trying.
   std::optional<EdsFile> rules;
   std::optional<TriedMappings> tried;
+  std::optional<MovedDemand> moved;
 
   // Whether the low half of 1000h says so; of another device nothing more is read over SDO.
   [[nodiscard]] bool is_cia402() const;

@@ -25,6 +25,11 @@ class FrameLink {
 
   // False: no room, nothing taken; try again after wait().
   [[nodiscard]] virtual bool send(const hal::CanFrame& frame) = 0;
+  // A remote request of `size` bytes, for a guarding frame. False: this link cannot send one, or no
+  // room.
+  [[nodiscard]] virtual bool send_remote(std::uint16_t /*id*/, std::uint8_t /*size*/) {
+    return false;
+  }
   // False: nothing there.
   [[nodiscard]] virtual bool receive(hal::CanFrame& frame) = 0;
   // Lets the other end work: until a frame has arrived, or about this long.

@@ -15,6 +15,12 @@ bool SocketLink::send(const hal::CanFrame& frame) {
   return sent;
 }
 
+bool SocketLink::send_remote(std::uint16_t id, std::uint8_t size) {
+  const bool sent = can_.send_remote(id, size);
+  if (!sent) check();
+  return sent;
+}
+
 bool SocketLink::receive(hal::CanFrame& frame) {
   const bool received = can_.receive(frame);
   if (!received) check();

@@ -13,6 +13,7 @@ class SocketLink final : public FrameLink {
   explicit SocketLink(const std::string& interface);
 
   [[nodiscard]] bool send(const hal::CanFrame& frame) override;
+  [[nodiscard]] bool send_remote(std::uint16_t id, std::uint8_t size) override;
   [[nodiscard]] bool receive(hal::CanFrame& frame) override;
   void wait(std::uint32_t timeout_us) override { static_cast<void>(can_.wait(timeout_us)); }
   [[nodiscard]] std::uint64_t now_us() const override { return clock_.now_us(); }
