@@ -33,7 +33,7 @@ struct ImportArguments {
   int type = -1;
 };
 
-std::string names_of(const std::vector<std::string>& files) {
+std::string joined_names(const std::vector<std::string>& files) {
   std::string names;
   for (const std::string& file : files)
     names += (names.empty() ? "" : ", ") + host::shown_name(file);
@@ -117,7 +117,7 @@ Imported import_errors(const ImportArguments& a, ReadForeign read) {
   host::ImportRules rules;
   rules.sign = a.sign == "actual-minus-nominal" ? 1 : -1;
   rules.absent_zero = a.absent == "zero";
-  return {host::to_runs(errors, names_of(a.files), rules),
+  return {host::to_runs(errors, joined_names(a.files), rules),
           host::locations_csv(errors, rules),
           fmt::format("imported, values of the source are {}{}", a.sign,
                       rules.absent_zero ? "; channels that it lacks are 0" : ""),

@@ -178,17 +178,19 @@ class Restorer {
   }
 
   bool compare(const Unit& unit) {
-    for (const KeptObject& kept : unit.objects) {
-      const Bytes now = read(kept.object);
-      if (now == kept.before) continue;
-      if (!unit.is_unused(kept.object)) {
-        if (why_.empty()) why_ = object_name(kept.object) + " does not hold what was written";
-        return false;
-      }
-      restored_.notes.push_back(fmt::format(
-          "{} lies beyond the count of its PDO and does not take its old value: nothing uses it",
-          object_name(kept.object)));
+    return std::all_of(unit.objects.begin(), unit.objects.end(),
+                       [&](const KeptObject& kept) { return is_back(unit, kept); });
+  }
+
+  bool is_back(const Unit& unit, const KeptObject& kept) {
+    if (read(kept.object) == kept.before) return true;
+    if (!unit.is_unused(kept.object)) {
+      if (why_.empty()) why_ = object_name(kept.object) + " does not hold what was written";
+      return false;
     }
+    restored_.notes.push_back(fmt::format(
+        "{} lies beyond the count of its PDO and does not take its old value: nothing uses it",
+        object_name(kept.object)));
     return true;
   }
 

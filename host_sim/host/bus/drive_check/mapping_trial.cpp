@@ -12,8 +12,7 @@ namespace {
 using canopen::AbortCode;
 using canopen::PdoKind;
 
-constexpr std::uint8_t kEverySync = 1;
-constexpr std::uint16_t kOffset = 0x60B0;
+
 
 // How much a trial takes from a drive that is started meanwhile; nothing: too much.
 std::optional<int> price_of(const ForeignPdo& pdo, const std::set<std::uint16_t>& heard) {
@@ -46,7 +45,7 @@ std::vector<MappingAnswer> questions(const ForeignDrive& drive) {
   const auto ask = [&all](PdoKind kind, Mapping entries) {
     all.push_back({kind, std::move(entries)});
   };
-  const bool offset = drive.has(kOffset);
+  const bool offset = drive.has(canopen::object_of(kOffsetEntry).index);
   if (offset) ask(PdoKind::receive, {kOffsetEntry});
   ask(PdoKind::receive, control_alone());
   ask(PdoKind::receive, control_and_four_bytes());

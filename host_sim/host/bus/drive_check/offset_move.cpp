@@ -12,7 +12,7 @@
 namespace volcomp::host {
 namespace {
 
-constexpr canopen::ObjectId kOffset{0x60B0, 0};
+constexpr canopen::ObjectId kWrittenObject{0x60B0, 0};
 constexpr std::uint16_t kDemand = 0x6062;
 constexpr std::uint16_t kInternalDemand = 0x60FC;  // in increments
 constexpr std::uint64_t kSettle_us = 50'000;       // several cycles of any drive
@@ -31,7 +31,7 @@ std::uint16_t demand_of(const ForeignDrive& drive) {
 }  // namespace
 
 void require_movable(NodeClient& client, const ForeignDrive& drive) {
-  if (!has_four_bytes(drive, kOffset.index))
+  if (!has_four_bytes(drive, kWrittenObject.index))
     throw UserError(fmt::format(
         "60B0h of node {} is no INTEGER32: it is not the offset of CiA 402, and not written",
         drive.node));
@@ -47,7 +47,7 @@ MovedDemand move_offset(NodeClient& client, DriveChanges& changes, const Foreign
     std::int32_t units = kMovedUnits;
     for (std::int32_t& value : demand) {
       require_disabled(client);
-      changes.write(kOffset, static_cast<std::uint32_t>(units), 4);
+      changes.write(kWrittenObject, static_cast<std::uint32_t>(units), 4);
       client.let_pass(kSettle_us);
       value = static_cast<std::int32_t>(changes.read({demand_of(drive), 0}));
       units = -units;

@@ -25,6 +25,9 @@ inline constexpr std::uint32_t kModeEntry = canopen::mapped(0x6061, 0, 8);
 inline constexpr std::uint32_t kFourByteDummy = canopen::mapped(0x0007, 0, 32);
 inline constexpr std::uint32_t kOneByteDummy = canopen::mapped(0x0005, 0, 8);
 
+// Transmission type 1: values of SYNC.
+inline constexpr std::uint8_t kEverySync = 1;
+
 // 6040h out of a frame {6040h, 607Ah}: alone, or with placeholders to its six bytes.
 [[nodiscard]] inline Mapping control_alone() { return {kControlEntry}; }
 [[nodiscard]] inline Mapping control_and_four_bytes() { return {kControlEntry, kFourByteDummy}; }
