@@ -89,7 +89,7 @@ DriveBus::DriveBus(const DriveBusOptions& options)
   restore_left_changes();
 }
 
-void DriveBus::restore_left_changes() {
+void DriveBus::restore_left_changes() const {
   for (const fs::path& path : journals(options_.journal)) {
     const auto owner = owner_of(path);
     if (owner && owner->bus != options_.link)
@@ -99,7 +99,7 @@ void DriveBus::restore_left_changes() {
   }
 }
 
-void DriveBus::restore(const fs::path& path) {
+void DriveBus::restore(const fs::path& path) const {
   auto journal = host::DriveJournal::open(path);
   if (!journal) return;
   host::NodeClient client = client_of(journal->owner().node);
@@ -123,7 +123,7 @@ host::NodeClient DriveBus::client_of(std::uint8_t node) const {
   return client;
 }
 
-host::ForeignDrive DriveBus::read(host::NodeClient& client) const {
+host::ForeignDrive read_with_bar(host::NodeClient& client) {
   ProgressBar bar;
   return host::read_drive(client, [&bar](std::size_t done, std::size_t most) {
     bar.show(static_cast<double>(done) / static_cast<double>(most), "reading objects");

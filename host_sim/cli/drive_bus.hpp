@@ -36,8 +36,6 @@ class DriveBus {
   // Throws UserError when somebody else uses the SDO server of the node: a request beside his would
   // break his transfer.
   [[nodiscard]] host::NodeClient client_of(std::uint8_t node) const;
-  // With a bar.
-  [[nodiscard]] host::ForeignDrive read(host::NodeClient& client) const;
   // Throws UserError unless the drive is PRE-OPERATIONAL and not enabled.
   void require_ready(host::NodeClient& client, const host::ForeignDrive& drive) const;
   // Runs work that changes the drive for a while: signals are noted, and end it after everything is
@@ -46,14 +44,17 @@ class DriveBus {
               const std::function<void(host::DriveChanges& changes)>& work) const;
 
  private:
-  void restore_left_changes();
-  void restore(const std::filesystem::path& path);
+  void restore_left_changes() const;
+  void restore(const std::filesystem::path& path) const;
 
   DriveBusOptions options_;
   std::shared_ptr<host::FrameLink> link_;
   std::set<std::uint16_t> identifiers_;
   host::HeardNodes heard_;
 };
+
+// Reads all objects, with a bar on a terminal.
+[[nodiscard]] host::ForeignDrive read_with_bar(host::NodeClient& client);
 
 // Tells on standard error of journals that wait for a drive on a bus.
 void tell_left_changes(const std::string& journal_option);

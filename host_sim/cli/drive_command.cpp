@@ -68,7 +68,7 @@ void move_on(const DriveBus& bus, host::NodeClient& client, host::ForeignDrive& 
 host::ForeignDrive read_from_bus(const DriveArguments& a) {
   const DriveBus bus(a.bus);
   host::NodeClient client = bus.client_of(static_cast<std::uint8_t>(a.drive));
-  host::ForeignDrive drive = bus.read(client);
+  host::ForeignDrive drive = read_with_bar(client);
   if (a.tries) try_on(bus, client, drive, a.yes);
   if (a.moves) move_on(bus, client, drive, a.yes);
   return drive;

@@ -56,7 +56,7 @@ int forward(const ForwardArguments& a) {
     throw host::UserError("drive forward needs --way or --off, one of them");
   DriveBus bus(a.bus);
   host::NodeClient client = bus.client_of(static_cast<std::uint8_t>(a.drive));
-  const host::ForeignDrive drive = bus.read(client);
+  const host::ForeignDrive drive = read_with_bar(client);
   bus.require_ready(client, drive);
   const std::vector<host::PdoPlan> plan = host::plan_of(drive, route_of(a));
   require_consent(question_of(a, plan), a.yes);

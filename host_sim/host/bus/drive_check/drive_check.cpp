@@ -115,6 +115,9 @@ class Checker {
     }
     fact("offset", "position offset", value, shown(kOffset) + trial_text(drive_));
     if (drive_.moved) judge_move(*drive_.moved);
+    if (!drive_.tried) return;
+    for (const std::string& note : drive_.tried->notes)
+      warn(note);
   }
 
   void judge_move(MovedDemand moved) {

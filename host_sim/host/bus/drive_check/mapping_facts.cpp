@@ -12,7 +12,7 @@ using canopen::PdoKind;
 
 struct Need {
   std::optional<bool> met;
-  const char* lack;
+  const char* lack = nullptr;
 };
 
 std::array<Need, 5> needs_of(const ForeignDrive& drive) {

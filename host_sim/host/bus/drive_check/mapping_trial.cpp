@@ -12,8 +12,6 @@ namespace {
 using canopen::AbortCode;
 using canopen::PdoKind;
 
-
-
 // How much a trial takes from a drive that is started meanwhile; nothing: too much.
 std::optional<int> price_of(const ForeignPdo& pdo, const std::set<std::uint16_t>& heard) {
   if (!pdo.valid()) return 0;
@@ -135,7 +133,7 @@ TriedMappings try_mappings(DriveChanges& changes, const ForeignDrive& drive,
   tried.rpdo = pdos.receive.number;
   tried.tpdo = pdos.transmit.number;
   tried.answers = questions(drive);
-  changes.run_and_restore([&] {
+  const Restored restored = changes.run_and_restore([&] {
     Trial receive(changes, PdoKind::receive, pdos.receive);
     Trial transmit(changes, PdoKind::transmit, pdos.transmit);
     receive.begin();
@@ -145,6 +143,7 @@ TriedMappings try_mappings(DriveChanges& changes, const ForeignDrive& drive,
     for (MappingAnswer& one : tried.answers)
       one.why = (one.kind == PdoKind::receive ? receive : transmit).map(one.entries);
   });
+  tried.notes = restored.notes;
   return tried;
 }
 

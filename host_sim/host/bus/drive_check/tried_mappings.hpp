@@ -49,6 +49,7 @@ struct TriedMappings {
   std::vector<MappingAnswer> answers;
   bool rpdo_at_sync = false;  // transmission type 1 was taken
   bool tpdo_at_sync = false;
+  std::vector<std::string> notes;  // on what did not take its old value, a sentence each
 
   // Nothing: not tried.
   [[nodiscard]] std::optional<bool> took(canopen::PdoKind kind, const Mapping& entries) const {

@@ -211,6 +211,24 @@ TEST(MappingTrials, ASilentDriveKeepsItsJournal) {
   EXPECT_TRUE(std::filesystem::exists(bench.journal()));
 }
 
+// A mapping is not changed under an axis that may move.
+TEST(MappingTrials, AnEnabledDriveKeepsItsJournal) {
+  TrialBench bench("eyou");
+  bench.killed_after = 60;
+  EXPECT_THROW(static_cast<void>(bench.try_all()), Killed);
+  bench.start_process();
+  for (const std::uint8_t word : std::initializer_list<std::uint8_t>{0x06, 0x07, 0x0F})
+    bench.tool->write({0x6040, 0}, {word, 0}, "controlword");
+  bench.written.clear();
+  EXPECT_THAT(complaint_of([&] { return bench.call_again(); }),
+              HasSubstr("its power stage is on: disable it first"));
+  EXPECT_THAT(bench.written, IsEmpty());
+  bench.tool->write({0x6040, 0}, {0, 0}, "controlword");
+  EXPECT_GT(bench.call_again().objects, 0U);
+  EXPECT_TRUE(same(bench.before->receive, DriveState(bench.drive).receive));
+  EXPECT_TRUE(same(bench.before->transmit, DriveState(bench.drive).transmit));
+}
+
 TEST(MappingTrials, AJournalThatCannotBeWrittenLetsNothingBeWritten) {
   TrialBench bench("eyou");
   DriveChanges changes(*bench.tool, "/proc/none/can0-3.journal", {"can0", kDrive, bench.identity});
