@@ -126,8 +126,7 @@ class Checker {
          : moved == MovedDemand::otherwise ? "moves the demand value by something else"
                                            : "moves no demand value while disabled: not known",
          "6062h, 60FCh, tried");
-    if (moved == MovedDemand::otherwise)
-      miss("60B0h does not mean what its name says: it moves the demand value by something else");
+    if (moved == MovedDemand::otherwise) miss("60B0h does not mean what its name says");
   }
 
   void pdos() {
