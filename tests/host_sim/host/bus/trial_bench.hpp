@@ -97,8 +97,9 @@ class TrialBench {
   void start_process() {
     killed_after = kNever;
     tool = std::make_unique<NodeClient>(kDrive, [this](NodeClient&) {
-      if (killed_after == 0) throw Killed();
       run_ms(1);
+      // Before the process has seen the answer.
+      if (killed_after == 0) throw Killed();
       return bus.now_us();
     });
   }
