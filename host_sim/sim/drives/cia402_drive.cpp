@@ -156,7 +156,8 @@ void Cia402Drive::reset_application() {
   offset_taken_ = 0;
   last_controlword_ = 0;
   edges_.clear();
-  operational_ = target_arrived_ = limited_ = false;
+  operational_ = target_arrived_ = target_fresh_ = limited_ = false;
+  target_taken_ = 0;
   referenced_ = homing_attained_ = home_offset_given_ = false;
   fault_ = canopen::ErrorCode::none;
 }

@@ -22,6 +22,7 @@
 #include "host_sim/host/bus/cia402_objects.hpp"
 #include "host_sim/sim/drives/cia402_axis.hpp"
 #include "host_sim/sim/drives/cia402_state_machine.hpp"
+#include "host_sim/sim/drives/drive_behaviour.hpp"
 #include "host_sim/sim/drives/drive_profile.hpp"
 
 namespace volcomp::sim {
@@ -58,6 +59,7 @@ class Cia402Drive final {
     // 608Fh, 6091h, 6092h and 60A8h were stored in the drive for this axis; else those of a profile
     // are as its data sheet has them.
     bool scaled_for_axis = false;
+    DriveBehaviour behaviour{};
   };
 
   // What the position loop takes in at a SYNC.
@@ -97,6 +99,8 @@ class Cia402Drive final {
   void stand_at(std::int64_t units);
   // The axis is another one from now on, see Cia402Axis.
   void couple(ForeignMechanics mechanics);
+  // It is a drive that behaves so from now on.
+  void behave(const DriveBehaviour& behaviour) { settings_.behaviour = behaviour; }
   // Bit 8 of the statusword falls; the axis can be homed again.
   void lose_reference();
   // The probe signal changes, `time_ns` (≥ 0) after the begin of the servo period that the axis has
@@ -163,7 +167,10 @@ class Cia402Drive final {
   void fail(canopen::ErrorCode code);
 
   void hold();
+  void await_target();
+  void take_target();
   void take_input(std::uint8_t sync_counter);
+  void follow_at_once();
   [[nodiscard]] std::int64_t wanted() const;
   [[nodiscard]] std::int64_t within_software_limits(std::int64_t wanted);
   void run_servo_period();
@@ -193,13 +200,18 @@ class Cia402Drive final {
 
   std::int64_t demand_ = 0;
   std::int32_t offset_taken_ = 0;
-  std::uint64_t last_period_us_ = 0;  // when the last servo period began
+  std::int32_t target_taken_ = 0;              // 607Ah in force, or what was made of a missing one
+  std::optional<std::int32_t> target_before_;  // 607Ah before that
+  std::int32_t target_step_ = 0;               // between the two
+  std::uint8_t targets_missed_ = 0;            // in a row
+  std::uint64_t last_period_us_ = 0;           // when the last servo period began
   std::uint64_t periods_ = 0;
   std::vector<Edge> edges_;  // not latched yet
   std::uint16_t last_controlword_ = 0;
   bool powered_ = false;
   bool operational_ = false;     // NMT
   bool target_arrived_ = false;  // a 607Ah since the position loop was closed
+  bool target_fresh_ = false;    // and since the last SYNC
   bool limited_ = false;
   bool referenced_ = false;
   bool homing_attained_ = false;

@@ -47,6 +47,8 @@ bool Cia402Drive::stays_in_quick_stop() const {
 }
 
 std::int32_t Cia402Drive::on_wire(std::int64_t units) const {
+  if (settings_.behaviour.range)
+    return static_cast<std::int32_t>(settings_.behaviour.range->inside(units));
   return settings_.rotary ? wrapped(units) : saturated(units);
 }
 
@@ -54,6 +56,7 @@ void Cia402Drive::received(const canopen::Pdo& pdo, std::uint64_t) {
   for (const std::uint16_t index : kActedUpon) {
     if (maps(pdo, index)) object_changed(index);
   }
+  if (settings_.behaviour.target_acts == DriveBehaviour::TargetActs::at_reception) follow_at_once();
 }
 
 void Cia402Drive::written(canopen::ObjectId object, std::uint64_t) {
@@ -62,6 +65,7 @@ void Cia402Drive::written(canopen::ObjectId object, std::uint64_t) {
 }
 
 void Cia402Drive::object_changed(std::uint16_t index) {
+  if (index == cia402::target.index) target_fresh_ = true;
   if (index == cia402::target.index && in_cyclic_position()) target_arrived_ = true;
   if (index == cia402::home_offset.index) home_offset_given_ = true;
   if (index == cia402::mode.index) change_mode();
@@ -74,7 +78,7 @@ void Cia402Drive::control() {
   last_controlword_ = objects_.controlword;
   const bool was_enabled = machine_.enabled();
   machine_.control(objects_.controlword, stays_in_quick_stop());
-  if (machine_.enabled() && !was_enabled) target_arrived_ = false;
+  if (machine_.enabled() && !was_enabled) await_target();
   if (machine_.state() == host::PowerState::switch_on_disabled &&
       fault_ != canopen::ErrorCode::none) {
     device_.emergency().clear(fault_, 0);
@@ -90,7 +94,8 @@ void Cia402Drive::change_mode() {
   const auto wanted = static_cast<host::OperationMode>(objects_.mode);
   if (!is_supported(wanted) || wanted == mode()) return;
   objects_.mode_display = objects_.mode;
-  target_arrived_ = homing_attained_ = false;
+  homing_attained_ = false;
+  await_target();
 }
 
 // The encoder is absolute: without a home offset of its own, homing confirms what it reads.

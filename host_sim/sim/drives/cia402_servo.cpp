@@ -6,6 +6,12 @@
 #include "host_sim/sim/drives/cia402_drive.hpp"
 
 namespace volcomp::sim {
+namespace {
+
+constexpr auto kTargetMissing = static_cast<canopen::ErrorCode>(0x8250);  // CiA 301: RPDO timeout
+constexpr auto kBeyondLimit = static_cast<canopen::ErrorCode>(0x8612);  // CiA 402: reference limit
+
+}  // namespace
 
 void Cia402Drive::sync(std::uint8_t counter, std::uint64_t now_us) {
   last_period_us_ = now_us;
@@ -13,18 +19,56 @@ void Cia402Drive::sync(std::uint8_t counter, std::uint64_t now_us) {
   run_servo_period();
 }
 
+// Until a target comes: the axis holds its place, or goes to the target there was before.
+void Cia402Drive::await_target() {
+  target_arrived_ = settings_.behaviour.at_enabling == DriveBehaviour::AtEnabling::keeps_target;
+  target_before_.reset();
+  target_step_ = 0;
+  targets_missed_ = 0;
+}
+
+// The target of this SYNC: a new one, or what the drive makes of a missing one.
+void Cia402Drive::take_target() {
+  using Missing = DriveBehaviour::MissingTarget;
+  const DriveBehaviour& behaviour = settings_.behaviour;
+  if (target_fresh_) {
+    target_fresh_ = false;
+    targets_missed_ = 0;
+    target_taken_ = objects_.target;
+    target_step_ =
+        target_before_ ? wrapped(std::int64_t{target_taken_} - std::int64_t{*target_before_}) : 0;
+    target_before_ = target_taken_;
+    return;
+  }
+  const bool patient = targets_missed_ < behaviour.patience;
+  if (patient) ++targets_missed_;
+  if (behaviour.missing_target == Missing::extrapolated && patient)
+    target_taken_ = wrapped(std::int64_t{target_taken_} + target_step_);
+  if (behaviour.missing_target == Missing::fault && !patient) fail(kTargetMissing);
+}
+
+void Cia402Drive::follow_at_once() {
+  if (!target_fresh_ || !target_arrived_ || !in_cyclic_position()) return;
+  target_taken_ = objects_.target;
+  offset_taken_ = objects_.offset;
+  demand_ = within_software_limits(wanted());
+}
+
 void Cia402Drive::take_input(std::uint8_t sync_counter) {
   const std::int32_t previous = offset_taken_;
   offset_taken_ = objects_.offset;
   // Right after enabling, the axis holds its place until the controller has sent a target for it.
   if (!in_cyclic_position() || !target_arrived_) return;
-  demand_ = within_software_limits(wanted());
-  if (on_input) on_input({objects_.target, offset_taken_, previous, sync_counter});
+  take_target();
+  if (in_cyclic_position()) demand_ = within_software_limits(wanted());
+  if (on_input) on_input({target_taken_, offset_taken_, previous, sync_counter});
 }
 
 // 607Ah + 60B0h; of a rotary axis the turn that is nearest to the last demand.
 std::int64_t Cia402Drive::wanted() const {
-  const std::int64_t sum = std::int64_t{objects_.target} + offset_taken_;
+  const std::int64_t sum = std::int64_t{target_taken_} + offset_taken_;
+  if (settings_.behaviour.range)
+    return demand_ + settings_.behaviour.range->shortest(sum - demand_);
   return settings_.rotary ? demand_ + wrapped(sum - demand_) : sum;
 }
 
@@ -36,6 +80,8 @@ std::int64_t Cia402Drive::within_software_limits(std::int64_t wanted) {
   const std::int64_t high = std::max<std::int64_t>(objects_.software_limit[1], demand_);
   const std::int64_t allowed = std::max(low, std::min(wanted, high));
   limited_ = allowed != wanted;
+  if (limited_ && settings_.behaviour.beyond_limit == DriveBehaviour::BeyondLimit::fault)
+    fail(kBeyondLimit);
   return allowed;
 }
 
