@@ -30,9 +30,10 @@ void TouchCollector::report(std::size_t axis, const LatchReport& report) {
   if (report.latched) {
     latched_ |= bit(axis);
     a.latched = report.axis;
-    a.time_ns = report.time_ns;
+    const std::int64_t half_ns = half_unknown_ns(axis);
+    a.time_ns = half_ns != 0 ? static_cast<std::uint32_t>(half_ns) : report.time_ns;
     a.moving = report.moving;
-    a.edge_ns = sync_ns_ + report.time_ns - rules_.delay_ns[axis];
+    a.edge_ns = sync_ns_ + a.time_ns - rules_.delay_ns[axis];
   }
   if (report.counted) count(a, bit(axis), report.edge_count);
 }
@@ -88,15 +89,19 @@ TouchVerdict TouchCollector::judge_axis(std::size_t axis) const {
 // Judges each axis first and returns the first fault; then checks what takes two edges.
 TouchVerdict TouchCollector::judge(std::uint8_t& axis) const {
   std::int64_t first_ns = INT64_MAX;
-  std::int64_t last_ns = INT64_MIN;
+  // Between these two all edges can have been.
+  std::int64_t earliest_ns = INT64_MAX;
+  std::int64_t latest_ns = INT64_MIN;
   for (std::size_t a = 0; a < kMaxAxes; ++a) {
     if ((rules_.axes & bit(a)) == 0) continue;
     axis = static_cast<std::uint8_t>(a);
     const TouchVerdict verdict = judge_axis(a);
     if (verdict != TouchVerdict::point) return verdict;
     if (axis_[a].edge_ns < first_ns) first_ns = axis_[a].edge_ns;
-    if (axis_[a].edge_ns > last_ns) last_ns = axis_[a].edge_ns;
-    if (last_ns - first_ns > rules_.skew_ns) return TouchVerdict::skew;
+    const std::int64_t half_ns = half_unknown_ns(a);
+    if (axis_[a].edge_ns + half_ns < earliest_ns) earliest_ns = axis_[a].edge_ns + half_ns;
+    if (axis_[a].edge_ns - half_ns > latest_ns) latest_ns = axis_[a].edge_ns - half_ns;
+    if (latest_ns - earliest_ns > rules_.skew_ns) return TouchVerdict::skew;
   }
   axis = 0;
   if (any_yet_ && first_ns - last_edge_ns_ < rules_.bounce_ns) return TouchVerdict::bounce;

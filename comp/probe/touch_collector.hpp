@@ -13,7 +13,10 @@
 namespace volcomp {
 
 struct TouchRules {
-  std::uint32_t axes = 0;                         // in use, a bit per NC axis
+  std::uint32_t axes = 0;  // in use, a bit per NC axis
+  // Of these the time of the latch is not known: half a period after SYNC, or that much before or
+  // after. Two edges that can have been one are one.
+  std::uint32_t untimed = 0;
   std::int64_t period_ns = 0;                     // of SYNC
   std::int64_t bounce_ns = 1'000'000;             // no two touches are closer
   std::int64_t skew_ns = 2'000;                   // most between the edges of two axes
@@ -59,6 +62,9 @@ class TouchCollector {
   };
   void count(AxisEdges& a, std::uint32_t bit, std::uint16_t edge_count);
   void settle_doubts();
+  [[nodiscard]] std::int64_t half_unknown_ns(std::size_t axis) const {
+    return (rules_.untimed >> axis & 1U) != 0 ? rules_.period_ns / 2 : 0;
+  }
   [[nodiscard]] TouchVerdict judge_axis(std::size_t axis) const;
   [[nodiscard]] TouchVerdict judge(std::uint8_t& axis) const;
   void close();

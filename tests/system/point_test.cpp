@@ -5,6 +5,7 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/experiments/l300g/truth.hpp"
+#include "host_sim/host/bus/drive_model.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
@@ -22,13 +23,15 @@ constexpr double kArmLevel = -39.025 * kPi / 180.0;
 // A wall that faces +Y, and the L300G with the errors P8 in front of it.
 class Bench {
  public:
-  explicit Bench(host::TableKind tables, std::vector<std::int64_t> bounces_ns = {})
+  explicit Bench(host::TableKind tables, std::vector<std::int64_t> bounces_ns = {},
+                 const std::vector<std::string>& drives = {})
       : truth_(l300g::make_l300g_truth(file_, l300g::grinder_errors("p8"), 1)) {
     const MachineTables contents =
         host::tables_of(identify_axes(truth_, file_).found, file_, file_.chain.description(),
                         tables, kDefaultKnots);
-    auto axes = std::make_unique<BusAxes>(host::bus_settings(file_, kBusCycleOfFive_hz),
-                                          host::make_image(contents));
+    host::BusSettings settings = host::bus_settings(file_, kBusCycleOfFive_hz);
+    if (!drives.empty()) settings = host::with_models(settings, drives);
+    auto axes = std::make_unique<BusAxes>(settings, host::make_image(contents));
     axes_ = axes.get();
     axes->mount(TouchProbe(truth_, wall_, {file_.probe->radius_mm, {}, 10'000, bounces_ns}));
     cell_ = std::make_unique<MotionCell>(truth_, std::move(axes));
@@ -118,6 +121,37 @@ TEST(Points, ARejectedTouchIsToldWithNumberAxisAndReason) {
   EXPECT_NE(told.find("[axis_missing]"), std::string::npos) << told;
   bench.axes().break_probe_line(2, false);
   EXPECT_EQ(bench.touch().sequence, 2U);
+}
+
+// A drive without 60D1h latches where the edge was, too; when that was within a cycle of 4 ms
+// nobody knows: 2 ms · 5 mm/s / √3.
+TEST(Points, OfDrivesThatDoNotSayWhenAreLessCertain) {
+  for (const std::string drive : {"elmo_gold", "epos4_0170"}) {
+    Bench bench(host::TableKind::identified, {}, {drive});
+    for (std::uint32_t i = 1; i <= 5; ++i) {
+      const NodePoint point = bench.touch();
+      EXPECT_EQ(point.sequence, i);
+      EXPECT_EQ(point.verdict, TouchVerdict::point);
+      EXPECT_NEAR(point.workpiece.y(), kWall_mm, drive == "elmo_gold" ? 2e-5 : 5e-5) << drive;
+      EXPECT_NEAR(point.uncertainty, 2e-3 * 5.0 / std::sqrt(3.0), 1e-4) << drive;
+    }
+  }
+}
+
+// One drive says when, the others do not: the edges can have been one.
+TEST(Points, OfDrivesThatDifferBelongTogether) {
+  Bench bench(host::TableKind::identified, {},
+              {"elmo_gold", "epos4_0170", "elmo_gold", "epos4_0170"});
+  EXPECT_EQ(bench.touch().verdict, TouchVerdict::point);
+}
+
+TEST(Points, OfADriveWithoutItsLineAreNotMadeWithoutTimesEither) {
+  Bench bench(host::TableKind::identified, {}, {"elmo_gold"});
+  bench.touch();
+  bench.axes().break_probe_line(2, true);
+  const std::string told = bench.refusal();
+  EXPECT_NE(told.find("axis B"), std::string::npos) << told;
+  EXPECT_NE(told.find("[axis_missing]"), std::string::npos) << told;
 }
 
 TEST(Points, BadSettingsAreRefusedByName) {

@@ -26,7 +26,8 @@ std::int64_t position_from_wire(std::int32_t wire, const WireScale& scale) {
 }  // namespace
 
 void ProbePart::restart(bool operational) {
-  had_actual_ = 0;
+  had_actual_ = stored_ = 0;
+  edges_counted_ = {};
   path_.restart();
   const auto command = static_cast<ProbeCommand>(core_.objects.probe.command);
   if (operational && command == ProbeCommand::on) static_cast<void>(switch_to(command));
@@ -40,7 +41,10 @@ void ProbePart::end_cycle(std::uint8_t next_counter) {
   const bool consecutive = overflow < 2 || wraps || next_counter == core_.open_counter + 1;
   if (probes()) {
     for (std::size_t a = 0; a < kNodeAxes; ++a) {
-      if (core_.objects.drive[a] != 0) path_.report(a, latch_report(a, consecutive));
+      if (core_.objects.drive[a] == 0) continue;
+      LatchReport report = latch_report(a, consecutive);
+      if ((uncounted_ & bit(a)) != 0) count_edge(a, report);
+      path_.report(a, report);
     }
     path_.end_cycle();
   }
@@ -71,6 +75,45 @@ LatchReport ProbePart::latch_report(std::size_t axis, bool consecutive) const {
   r.axis.direction = core_.compensator.direction(axis);
   if (moved != 0) r.axis.direction = moved > 0 ? Direction::forward : Direction::backward;
   return r;
+}
+
+// A drive without 60D5h: an edge is a rise of "positive edge stored" in 60B9h, or a latch where
+// that word does not come every cycle.
+void ProbePart::count_edge(std::size_t axis, LatchReport& report) {
+  constexpr std::uint16_t kPositiveStored = 1U << 1U;
+  bool edge = report.latched;
+  if ((flagged_ & bit(axis)) != 0) {
+    if (!core_.has(Arrival::kActual, axis)) return;
+    const bool stored = (core_.objects.probe_status[axis] & kPositiveStored) != 0;
+    edge = stored && (stored_ & bit(axis)) == 0;
+    stored_ = stored ? stored_ | bit(axis) : stored_ & ~bit(axis);
+  }
+  if (edge) ++edges_counted_[axis];
+  report.counted = true;
+  report.edge_count = edges_counted_[axis];
+}
+
+// Whether one of these RPDOs brings an object.
+bool ProbePart::hears(std::size_t first, std::size_t end, std::uint32_t mapped) const {
+  for (std::size_t i = first; i < end; ++i) {
+    const canopen::Pdo& pdo = core_.receive[i];
+    const canopen::PdoParameters& p = pdo.parameters();
+    for (std::size_t k = 0; pdo.valid() && k < p.count; ++k) {
+      if (p.mapping[k] == mapped) return true;
+    }
+  }
+  return false;
+}
+
+void ProbePart::note_what_is_told() {
+  untimed_ = uncounted_ = flagged_ = 0;
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    if (core_.objects.drive[a] == 0) continue;
+    if (!hears(0, kCycleReceivePdos, object::latch_time[a].mapped())) untimed_ |= bit(a);
+    if (!hears(0, kCycleReceivePdos, object::edge_count[a].mapped())) uncounted_ |= bit(a);
+    const std::size_t actual = kNodeAxes + a;
+    if (hears(actual, actual + 1, object::probe_status[a].mapped())) flagged_ |= bit(a);
+  }
 }
 
 // The cycle period may have been taken away since it was switched on.
@@ -120,7 +163,9 @@ AbortCode ProbePart::switch_to(ProbeCommand command) {
     path_.switch_off();
     return AbortCode::none;
   }
-  const Status status = path_.apply(core_.used_axes(), core_.objects.communication.cycle_period_us);
+  note_what_is_told();
+  const Status status =
+      path_.apply(core_.used_axes(), untimed_, core_.objects.communication.cycle_period_us);
   return status.ok() ? AbortCode::none : AbortCode::invalid_value;
 }
 

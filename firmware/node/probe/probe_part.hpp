@@ -37,6 +37,9 @@ class ProbePart : public NodePart {
   canopen::AbortCode check_write(canopen::ObjectId object, Span<const std::uint8_t> bytes);
   [[nodiscard]] bool probes() const;
   [[nodiscard]] LatchReport latch_report(std::size_t axis, bool consecutive) const;
+  void count_edge(std::size_t axis, LatchReport& report);
+  [[nodiscard]] bool hears(std::size_t first, std::size_t end, std::uint32_t mapped) const;
+  void note_what_is_told();
   canopen::AbortCode switch_to(ProbeCommand command);
   [[nodiscard]] canopen::AbortCode release_point(std::uint32_t sequence);
   void report_point();
@@ -45,7 +48,14 @@ class ProbePart : public NodePart {
   ProbePath path_;
   PerAxis<std::int32_t> previous_actual_{};  // of the cycle before
   std::uint32_t had_actual_ = 0;             // a bit per axis
-  bool touch_rejected_ = false;              // the last one
+  // A bit per axis, from the RPDOs: drives that do not say when they latched, nor count (2018h and
+  // 2019h are not mapped), and those whose status word of the probe comes every cycle (2015h).
+  std::uint32_t untimed_ = 0;
+  std::uint32_t uncounted_ = 0;
+  std::uint32_t flagged_ = 0;
+  std::uint32_t stored_ = 0;                // an edge, as last told in 2015h
+  PerAxis<std::uint16_t> edges_counted_{};  // instead of 2019h
+  bool touch_rejected_ = false;             // the last one
 };
 
 }  // namespace volcomp::node

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "comp/probe/probe_rule.hpp"
+#include "firmware/node/arrivals.hpp"
 #include "firmware/node/wire_scale.hpp"
 
 namespace volcomp::node {
@@ -27,6 +28,13 @@ Frame frame_of(const std::array<double, 12>& v) {
   for (int r = 0; r < 3; ++r)
     frame.t[r] = *next++;
   return frame;
+}
+
+// Half a period either way, all of it equally likely (JCGM 100, 4.3.7), beside what is known.
+double with_unknown_time(double delay_s, std::uint32_t period_us) {
+  const double half_s = 0.5e-6 * period_us;
+  const double variance = delay_s * delay_s + half_s * half_s / 3.0;
+  return static_cast<double>(std::sqrt(static_cast<float>(variance)));
 }
 
 ProbeSettings settings_of(const ProbeObjects& o) {
@@ -85,16 +93,21 @@ void ProbePath::set_machine(const MachineDescription& machine) {
   has_machine_ = true;
 }
 
-Status ProbePath::apply(std::uint32_t axes, std::uint32_t period_us) {
-  const ProbeSettings settings = settings_of(objects_);
+Status ProbePath::apply(std::uint32_t axes, std::uint32_t untimed, std::uint32_t period_us) {
+  ProbeSettings settings = settings_of(objects_);
   // Without a cycle period the speed of an axis is unknown.
   const Reason reason =
       period_us < kLeastPeriod_us ? Reason::bad_setting : check_probe_settings(settings).reason;
   objects_.reason = static_cast<std::uint8_t>(reason);
   if (reason != Reason::ok) return refuse(reason);
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    double& delay_s = settings.uncertainty.latch_delay_s[a];
+    if ((untimed & bit(a)) != 0) delay_s = with_unknown_time(delay_s, period_us);
+  }
   corrector_.settings = settings;
   TouchRules rules;
   rules.axes = axes;
+  rules.untimed = untimed;
   rules.period_ns = std::int64_t{period_us} * 1000;
   rules.bounce_ns = std::int64_t{objects_.bounce_us} * 1000;
   rules.skew_ns = objects_.skew_ns;

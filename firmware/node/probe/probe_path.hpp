@@ -26,9 +26,10 @@ class ProbePath {
 
   // Tables have been activated: this is their machine.
   void set_machine(const MachineDescription& machine);
-  // Takes the settings of the objects over for the axes in `axes`, a bit each; `period_us` of SYNC.
-  // Refuses bad_setting, not_finite, not_a_rotation; what was in force stays.
-  Status apply(std::uint32_t axes, std::uint32_t period_us);
+  // Takes the settings of the objects over for the axes in `axes`, a bit each; those in `untimed`
+  // do not say when they latched. `period_us` of SYNC. Refuses bad_setting, not_finite,
+  // not_a_rotation; what was in force stays.
+  Status apply(std::uint32_t axes, std::uint32_t untimed, std::uint32_t period_us);
   // The next touches are on this feature, its flank and, without one, its normal are those of the
   // objects. Refuses bad_setting, neither a unit vector nor 0, and what FlankProbe::take() refuses;
   // the feature stays.

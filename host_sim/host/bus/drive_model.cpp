@@ -142,12 +142,11 @@ BusSettings with_models(BusSettings settings, const std::vector<std::string>& na
 void require_latches(const BusSettings& settings) {
   if (!settings.probes) return;
   for (const BusAxis& axis : settings.axes) {
-    const DriveModel* const model = axis.model.get();
-    if (model == nullptr || (model->times_latches() && model->counts_edges())) continue;
-    throw UserError(fmt::format(
-        "axis {}: the machine has a touch probe, and the drive {} {}", axis.letter, model->name(),
-        model->latches() ? "does not say when it latched: 60D1h or 60D5h is missing"
-                         : "no input for it: 60B8h, 60B9h or 60BAh is missing"));
+    if (axis.model == nullptr || axis.model->latches()) continue;
+    throw UserError(
+        fmt::format("axis {}: the machine has a touch probe, and the drive {} no input for it: "
+                    "60B8h, 60B9h or 60BAh is missing",
+                    axis.letter, axis.model->name()));
   }
 }
 

@@ -60,8 +60,7 @@ void change_scale(BusAxis& axis, const DriveScale& scale);
 // offset is by a forwarded target where the model has no offset. `names`: one for all axes, or one
 // for each. Throws UserError as the functions it calls, and for another number of names.
 [[nodiscard]] BusSettings with_models(BusSettings settings, const std::vector<std::string>& names);
-// Throws UserError where the machine has a probe and the drive of an axis no input for it, or none
-// that says when it latched.
+// Throws UserError where the machine has a probe and the drive of an axis no input for it.
 void require_latches(const BusSettings& settings);
 
 }  // namespace volcomp::host

@@ -49,11 +49,12 @@ void set_latch_pdos(host::SdoChannel& sdo, std::uint8_t drive) {
   report(host::kEdgePdo, base | canopen::kTpdo3, "edge counter PDO");
 }
 
-// Every rising edge is latched.
-void arm_probe(host::SdoChannel& sdo) {
-  constexpr std::uint16_t kRisingContinuously = 0x0013;
+constexpr std::uint16_t kRisingContinuously = 0x0013;
+constexpr std::uint16_t kRisingOnce = 0x0011;
+
+void arm_probe(host::SdoChannel& sdo, std::uint16_t function) {
   sdo.write(host::cia402::function, 0);
-  sdo.write(host::cia402::function, kRisingContinuously);
+  sdo.write(host::cia402::function, function);
 }
 
 }  // namespace
@@ -129,7 +130,28 @@ void BusController::configure_drive(Station& s, std::size_t axis) {
   set_mode(sdo, axis, kHomingMode);
   if (!settings_.probes) return;
   if (a.model == nullptr) set_latch_pdos(sdo, a.drive);
-  arm_probe(sdo);
+  arm_probe(sdo, latches_once(axis) ? kRisingOnce : kRisingContinuously);
+}
+
+// A drive that does not count its edges tells one by the rise of a bit in 60B9h: it must fall
+// before the next.
+bool BusController::latches_once(std::size_t axis) const {
+  const host::DriveModel* const model = settings_.axes[axis].model.get();
+  return settings_.probes && model != nullptr && !model->counts_edges();
+}
+
+// Contacts bounce: the next edge is awaited a while after the last.
+void BusController::arm_again() {
+  constexpr std::uint16_t kStored = 1U << 1U;  // of 60B9h
+  constexpr int kAfterBounces = 10;            // cycles
+  for (std::size_t a = 0; a < axis_.size(); ++a) {
+    host::SdoChannel& sdo = stations_[a].channel;
+    const bool stored = latches_once(a) && (probe_[a].status & kStored) != 0;
+    probe_[a].stored_cycles = stored ? probe_[a].stored_cycles + 1 : 0;
+    if (probe_[a].stored_cycles < kAfterBounces || !sdo.idle()) continue;
+    probe_[a].stored_cycles = 0;
+    arm_probe(sdo, kRisingOnce);
+  }
 }
 
 void BusController::configure_node(host::SdoChannel& sdo) {

@@ -69,6 +69,7 @@ struct ProbeReport {
   std::uint32_t time_ns = 0;  // 60D1h
   std::uint16_t edges = 0;    // 60D5h
   std::uint64_t latches = 0;  // reports of 60BAh and 60D1h so far
+  int stored_cycles = 0;      // for which 60B9h has said that an edge is stored
 };
 
 class BusController {
@@ -136,6 +137,8 @@ class BusController {
   void configure(Station& s);
   void check_scaling(Station& s, std::size_t axis);
   void configure_drive(Station& s, std::size_t axis);
+  [[nodiscard]] bool latches_once(std::size_t axis) const;
+  void arm_again();
   void configure_node(host::SdoChannel& sdo);
   void tell_held_offset(std::size_t axis);
   void tell_held_offsets(const Station& started);

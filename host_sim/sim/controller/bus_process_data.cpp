@@ -161,6 +161,7 @@ void BusController::send_targets(const std::vector<std::int32_t>& path) {
     send_latest(frame);
   }
   set_modes();
+  arm_again();
 }
 
 }  // namespace volcomp::sim

@@ -100,6 +100,33 @@ void expect_verdict(const std::optional<Touch>& touch, TouchVerdict verdict, int
   EXPECT_EQ(touch->axis, axis);
 }
 
+// Axis 2 does not say when: an edge anywhere in its cycle can have been that of the others, one of
+// another cycle cannot.
+TEST(TouchCollector, AnUnknownTimeIsTheWholeCycle) {
+  for (const std::int64_t after_ns : {0, 700'000, 1'990'000}) {
+    const auto d = std::make_unique<Drives>();
+    TouchRules rules;
+    rules.axes = 0b111;
+    rules.untimed = 0b100;
+    rules.period_ns = kPeriod_ns;
+    d->collector.configure(rules);
+    d->delay_ns = {};
+    d->on_report = [](std::size_t a, LatchReport& r) {
+      if (a == 2) r.time_ns = 0;
+    };
+    d->edge(after_ns);
+    expect_verdict(d->cycle(), TouchVerdict::point, 0);
+    d->latch(0, 1'500'000);
+    d->latch(1, 1'500'000);
+    for (std::size_t a = 0; a < 3; ++a)
+      ++d->count[a];
+    EXPECT_FALSE(d->cycle());
+    EXPECT_FALSE(d->cycle());
+    d->latch(2, 500'000);
+    expect_verdict(d->cycle(), TouchVerdict::skew, 2);
+  }
+}
+
 TEST(TouchCollector, ATouchIsWhatEveryAxisLatched) {
   const auto d = used();
   d->edge(1'200'000);
