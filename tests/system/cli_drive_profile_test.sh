@@ -15,6 +15,9 @@ done
 cp "$source_dir/host_sim/drives/epos4_0170.eds" own.eds
 expect 0 'PASS 99.9' "${run[@]}" ./own.eds
 expect 0 'PASS ' "$volcomp" run machine --places 10 --can loopback --drive-profile elmo_gold,epos4_0150,nanotec_cl4e,epos4_0170,elmo_gold
+# A probe: 60D1h is in none of them, 60D5h in one.
+expect 0 'PASS ' "$volcomp" run l300g --drive-profile elmo_gold,epos4_0170,epos4_0170,elmo_gold
+expect 2 'the machine has a touch probe, and the drive epos4_0150 no input for it' "$volcomp" run l300g --drive-profile epos4_0150
 
 # --- in a machine file, by name and as a file beside it
 "$volcomp" machine example xyfz | sed '0,/^name = "X"/s//name = "X"\ndrive = "epos4_0170"\nunits_per_mm = [1048576, 10]/' >machine.toml

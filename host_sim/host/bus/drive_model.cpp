@@ -26,13 +26,13 @@ constexpr DriveScale kNanometres{1, 1};
 constexpr DriveScale kTenNanometres{10, 1};
 constexpr DriveScale kScrewOf20Bits{78125, 8192};  // 10^7 nm / 2^20
 constexpr DriveScale kTurnOf22Bits{1U << 18U, 1};  // 2^40 / 2^22
-constexpr DriveScale kTurnOf24Bits{1U << 16U, 1};
+constexpr DriveScale kTurnOf28Bits{1U << 12U, 1};  // 20 bits before a gear of 256
 constexpr std::array kUsualUnits{
-    UsualUnits{"elmo_gold", kNanometres, kTurnOf24Bits},
+    UsualUnits{"elmo_gold", kNanometres, kTurnOf28Bits},
     UsualUnits{"nanotec_cl4e", kTenNanometres, kTurnOf22Bits},
 };
 // Counts of an encoder.
-constexpr UsualUnits kCounts{"", kScrewOf20Bits, kTurnOf24Bits};
+constexpr UsualUnits kCounts{"", kScrewOf20Bits, kTurnOf28Bits};
 
 std::int32_t rescaled(std::int32_t units, const DriveScale& from, const DriveScale& to) {
   const double factor =
