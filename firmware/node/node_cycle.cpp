@@ -129,6 +129,7 @@ void NodeCycle::before_read(canopen::ObjectId object) {
 AbortCode NodeCycle::read_domain(canopen::ObjectId /*object*/,
                                  Span<const std::uint8_t>& source) const {
   const Latency::Histogram& bins = latency_.histogram();
+  if (latency_.cycles() == 0) return AbortCode::no_data;
   source = {reinterpret_cast<const std::uint8_t*>(bins.data()), sizeof bins};
   return AbortCode::none;
 }

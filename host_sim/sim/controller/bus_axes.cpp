@@ -276,7 +276,8 @@ host::Offsets BusAxes::offset() const {
     const host::BusAxis& axis = controller_.settings().axes[a];
     double units = drive_[a]->offset_taken();
     // In the target that the drive took at the last SYNC.
-    if (axis.way != host::DriveWay::offset) units = wrapped(drive_[a]->demand() - sent_.at(a));
+    if (axis.way != host::DriveWay::offset)
+      units = sent_.empty() ? 0 : wrapped(drive_[a]->demand() - sent_.at(a));
     offsets[a] = std::llround(units * axis.scale_numerator / axis.scale_denominator);
   }
   return offsets;

@@ -74,8 +74,8 @@ TEST(MachineBus, WhatADriveCannotDoIsRefused) {
   EXPECT_THAT(refusal("drive = \"epos4_0710\""), HasSubstr("m.toml: epos4_0710: no such drive"));
   EXPECT_THAT(refusal("drive = \"eyou\""), HasSubstr("axis X: the drive eyou"));
   EXPECT_THAT(refusal("drive = \"eyou\""), HasSubstr("60B0h is missing"));
-  EXPECT_THAT(machine_refusal(trunnion_with("X", "way = \"forwarded\"")),
-              HasSubstr("the compensation node cannot do that yet"));
+  EXPECT_EQ(axis_of(trunnion_with("X", "drive = \"eyou\"\nway = \"forwarded\""), 0).way,
+            DriveWay::forwarded);
   EXPECT_THAT(machine_refusal(trunnion_with("X", "way = \"forward\"")),
               HasSubstr("must be one of: offset, forwarded, controller, none"));
 }
