@@ -66,6 +66,10 @@ class Node final {
 
   // Since the last call so many frames were lost before the node saw them; 0: none.
   void frames_lost(std::uint32_t count);
+  // The port is gone, and with it what waited to leave: nothing is forwarded as if it had not been.
+  void port_lost() {
+    if (!core_.booting()) cycle_.end_forwarding();
+  }
   // Every turn, where the port knows it: error passive and the way back from bus-off are
   // emergencies.
   void bus_state(hal::CanBusState state);

@@ -3,6 +3,7 @@
 // Exit codes: 0 ended by SIGINT, SIGTERM or the other end of the pipe, 2 input that cannot be used,
 // 3 the interface was lost and --exit-on-lost-interface was given.
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -69,8 +70,32 @@ bool outlives(LastingCan::News news, const Arguments& arguments) {
   return !ends;
 }
 
+// canopen/exchange.hpp with the time at which each frame came in and left: a process that was not
+// running sees how late it is (2620h), and a second SYNC producer by the time between two SYNCs.
+class TimedExchange {
+ public:
+  void turn(Node& node, LastingCan& port) {
+    volcomp::hal::CanFrame frame;
+    while (port.receive(frame)) {
+      const std::uint64_t now = clock_.now_us();
+      const std::uint64_t age = std::min<std::uint64_t>(port.age_us(), now);
+      latest_us_ = std::max(latest_us_, now - age);  // the time of the node never goes back
+      node.device().receive(frame, latest_us_);
+    }
+    latest_us_ = std::max(latest_us_, clock_.now_us());
+    node.device().poll(latest_us_);
+    while (node.device().offer(frame, latest_us_) && port.send(frame))
+      node.device().taken(latest_us_ = clock_.now_us());
+  }
+
+ private:
+  volcomp::hal::SteadyClock clock_;
+  std::uint64_t latest_us_ = 0;
+};
+
 int serve(Node& node, LastingCan& port, const Arguments& arguments) {
   const volcomp::hal::SteadyClock clock;
+  TimedExchange exchange;
   volcomp::posix::ServiceManager manager;
   volcomp::posix::KernelFilter filter;
   constexpr std::uint64_t kPoll_us = 1000;
@@ -78,11 +103,14 @@ int serve(Node& node, LastingCan& port, const Arguments& arguments) {
   manager.ready("node " + std::to_string(arguments.node_id) + " on " + arguments.link);
   while (stop_requested == 0) {
     node.bus_state(port.bus_state());
-    volcomp::canopen::exchange(node.device(), port, clock.now_us());
+    exchange.turn(node, port);
     node.frames_lost(port.take_losses());
     filter.follow(node.device(), port);
     const std::uint64_t now = clock.now_us();
-    if (!outlives(port.supervise(now), arguments)) return kInterfaceLost;
+    const LastingCan::News news = port.supervise(now);
+    // What waits for an interface that is gone must not leave when it is back.
+    if (news == LastingCan::News::lost) node.port_lost();
+    if (!outlives(news, arguments)) return kInterfaceLost;
     manager.alive(now);
     const std::uint64_t deadline = node.deadline_us();
     const std::uint64_t pause = deadline <= now ? 0 : std::min(deadline - now, kPoll_us);

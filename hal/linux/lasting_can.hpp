@@ -42,6 +42,7 @@ class LastingCan {
   // As those of SocketCan; while the interface is lost nothing is sent or received.
   bool send(const CanFrame& frame) { return can_.send(frame); }
   bool receive(CanFrame& frame) { return can_.receive(frame); }
+  [[nodiscard]] std::uint32_t age_us() const { return can_.age_us(); }
   // As SocketCan::hear_only(), also after the interface has come back.
   bool hear_only(Span<const std::uint16_t> ids) {
     filtered_ = ids.size() <= ids_.size() && can_.hear_only(ids);

@@ -84,6 +84,10 @@ can_frame to_kernel(const CanFrame& frame) {
   return raw;
 }
 
+std::int64_t nanoseconds(const timespec& time) {
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
 }  // namespace
 
 OpenStatus SocketCan::open(const char* interface) {
@@ -103,6 +107,7 @@ OpenStatus SocketCan::attach(const char* interface) {
   if (!set_option(descriptor_, SOL_SOCKET, SO_RCVBUFFORCE, kReceiveBufferBytes))
     static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_RCVBUF, kReceiveBufferBytes));
   static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, 1));
+  static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, 1));
   static_cast<void>(set_option(descriptor_, SOL_SOCKET, SO_SNDBUF, kSendBufferBytes));
   return bind_to(descriptor_, index);
 }
@@ -148,20 +153,39 @@ bool SocketCan::receive(CanFrame& frame) {
   return false;
 }
 
-// The counter of the socket comes with a frame once it is not 0 (socket(7), SO_RXQ_OVFL).
+// With a frame come its time (SO_TIMESTAMPNS) and, once it is not 0, the counter of the socket
+// (SO_RXQ_OVFL): socket(7).
 bool SocketCan::take(can_frame& raw) {
   iovec room{&raw, sizeof raw};
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(std::uint32_t))> beside{};
+  alignas(cmsghdr)
+      std::array<char, CMSG_SPACE(sizeof(std::uint32_t)) + CMSG_SPACE(sizeof(timespec))>
+          beside{};
   msghdr message{};
   message.msg_iov = &room;
   message.msg_iovlen = 1;
   message.msg_control = beside.data();
   message.msg_controllen = beside.size();
   if (::recvmsg(descriptor_, &message, 0) != ssize_t{sizeof raw}) return false;
-  const cmsghdr* const told = CMSG_FIRSTHDR(&message);
-  if (told != nullptr && told->cmsg_level == SOL_SOCKET && told->cmsg_type == SO_RXQ_OVFL)
-    std::memcpy(&dropped_, CMSG_DATA(told), sizeof dropped_);
+  taken_in_ns_ = 0;
+  for (cmsghdr* told = CMSG_FIRSTHDR(&message); told != nullptr;
+       told = CMSG_NXTHDR(&message, told)) {
+    if (told->cmsg_level != SOL_SOCKET) continue;
+    if (told->cmsg_type == SO_RXQ_OVFL) std::memcpy(&dropped_, CMSG_DATA(told), sizeof dropped_);
+    if (told->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec at{};
+    std::memcpy(&at, CMSG_DATA(told), sizeof at);
+    taken_in_ns_ = nanoseconds(at);
+  }
   return true;
+}
+
+// Only differences of this clock are used: it may be set at any time.
+std::uint32_t SocketCan::age_us() const {
+  timespec now{};
+  if (taken_in_ns_ == 0 || ::clock_gettime(CLOCK_REALTIME, &now) != 0) return 0;
+  const std::int64_t us = (nanoseconds(now) - taken_in_ns_) / 1000;
+  return static_cast<std::uint32_t>(
+      std::max<std::int64_t>(0, std::min<std::int64_t>(us, kMostAge_us)));
 }
 
 bool SocketCan::hear_only(Span<const std::uint16_t> ids) const {

@@ -46,6 +46,10 @@ class SocketCan {
 
   // False when nothing is there, and after kMaxSkippedAtOnce useless frames in a row.
   bool receive(CanFrame& frame);
+  // How long ago the kernel took in the frame of the last receive(): what a process that was not
+  // running has missed. At most kMostAge_us, 0 where it is not known.
+  [[nodiscard]] std::uint32_t age_us() const;
+  static constexpr std::uint32_t kMostAge_us = 1'000'000;
 
   // From now on only frames with these identifiers (11 bits, at most kMostFilters) arrive, and the
   // reports of the controller: no other frame wakes the process. False: the kernel refuses, and all
@@ -83,7 +87,8 @@ class SocketCan {
   int descriptor_ = -1;
   bool network_down_ = false;
   SkippedFrames skipped_;
-  std::uint32_t dropped_ = 0;  // by the kernel since the socket was opened; wraps
+  std::int64_t taken_in_ns_ = 0;  // the last frame, CLOCK_REALTIME; 0: not known
+  std::uint32_t dropped_ = 0;     // by the kernel since the socket was opened; wraps
   std::uint32_t losses_taken_ = 0;
   CanBusState bus_state_ = CanBusState::active;
 };

@@ -131,7 +131,8 @@ void add_axis(const BusAxis& axis, std::vector<BusMessage>& messages) {
 }
 
 BusMessage node_status(const BusSettings& bus) {
-  const PdoParameters pdo = node::default_transmit_pdo(node::kStatusPdo, node::NodeObjects{}, bus.node);
+  const PdoParameters pdo =
+      node::default_transmit_pdo(node::kStatusPdo, node::NodeObjects{}, bus.node);
   return process_data(pdo, node::named_node_dictionary(), false,
                       {"Node_Status", kNode, {kController}, "State of the compensation"});
 }
@@ -147,7 +148,8 @@ BusMessage told_by_controller(const BusSettings& bus, std::size_t receive_pdo, c
 
 void add_points(const BusSettings& bus, std::vector<BusMessage>& messages) {
   const auto add = [&](std::size_t part, const char* name, const char* comment) {
-    const PdoParameters pdo = node::default_transmit_pdo(node::kFirstPointPdo + part, node::NodeObjects{}, bus.node);
+    const PdoParameters pdo =
+        node::default_transmit_pdo(node::kFirstPointPdo + part, node::NodeObjects{}, bus.node);
     const Wire wire{name, kNode, {kController}, comment};
     messages.push_back(process_data(pdo, node::named_node_dictionary(), false, wire));
   };
