@@ -19,6 +19,7 @@ void Forwarding::restart(bool operational) {
   axis_ = {};
   waits_ = left_ = stepped_ = cut_ = 0;
   ended_ = starved_ = false;
+  core_.emergency().clear(ErrorCode::forwarding_ended, 0);
   for (std::size_t a = 0; operational && a < kNodeAxes; ++a) {
     if (core_.objects.drive[a] != 0 && core_.way(a) == Way::forwarded_target) axes_ |= bit(a);
   }

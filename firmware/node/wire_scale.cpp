@@ -51,6 +51,11 @@ Parts parts_of(const WireScale& scale) {
 
 }  // namespace
 
+double units_per_wire(const WireScale& scale) {
+  if (scale.per_turn != 0) return 0x1p40 / scale.per_turn;
+  return static_cast<double>(scale.numerator) / scale.denominator;
+}
+
 std::int32_t offset_to_wire(std::int32_t offset, const WireScale& scale) {
   const Parts parts = parts_of(scale);
   return saturated(divide_half_even(offset * parts.offset, parts.wire));

@@ -16,6 +16,8 @@ struct WireScale {
   std::uint32_t per_turn = 0;  // rotary: wire units, instead of the fraction; 0: the fraction holds
 };
 
+// Run-time units of a position per wire unit, for speeds.
+[[nodiscard]] double units_per_wire(const WireScale& scale);
 // Offset of the run time in wire units, half to even, saturating.
 [[nodiscard]] std::int32_t offset_to_wire(std::int32_t offset, const WireScale& scale);
 // A limit of steps: never more than `step`, so rounded down, saturating.

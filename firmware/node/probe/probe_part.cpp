@@ -68,10 +68,8 @@ LatchReport ProbePart::latch_report(std::size_t axis, bool consecutive) const {
   const auto moved =
       static_cast<std::int32_t>(static_cast<std::uint32_t>(core_.objects.actual[axis]) -
                                 static_cast<std::uint32_t>(previous_actual_[axis]));
-  const double units = static_cast<double>(core_.gate[axis].scale().numerator) /
-                       core_.gate[axis].scale().denominator;
   const double period_s = core_.objects.communication.cycle_period_us * 1e-6;
-  r.axis.velocity = moved * units / period_s;
+  r.axis.velocity = moved * units_per_wire(core_.gate[axis].scale()) / period_s;
   r.axis.direction = core_.compensator.direction(axis);
   if (moved != 0) r.axis.direction = moved > 0 ? Direction::forward : Direction::backward;
   return r;

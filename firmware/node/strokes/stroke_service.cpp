@@ -141,7 +141,8 @@ TrackedAxis StrokeService::tracked(const StrokeAxisReport& report, const Command
   const auto lag = static_cast<std::int32_t>(difference(report.actual, axis.wire));
   TrackedAxis t;
   t.command = axis.position;
-  t.actual = axis.position + WirePosition{}.update(lag, linear);
+  t.actual =
+      axis.position + WirePosition{}.update(lag, axis.scale.per_turn != 0 ? axis.scale : linear);
   t.valid = axis.known && report.has_actual && state_known_;
   return t;
 }

@@ -242,6 +242,13 @@ TEST_F(NodeForwarding, EndsWhereNothingLeaves) {
   bus.cycles(2);
   EXPECT_EQ(bus.frames(), 0);
   EXPECT_TRUE(bus.bench.emergency(ErrorCode::forwarding_ended, 0));
+  EXPECT_NE(bus.bench.number(0x1001, 0), 0U);
+  bus.enable(false);
+  bus.bench.nmt(NmtCommand::enter_pre_operational);
+  bus.start();
+  bus.cycles(120);
+  EXPECT_EQ(bus.frames(), 3);
+  EXPECT_FALSE(bus.bench.node->device().emergency().active(ErrorCode::forwarding_ended, 0));
 }
 
 // 2208h: drives that can watch one node only learn that the controller is gone.

@@ -262,6 +262,12 @@ TEST(UnitsPerTurn, AWrapLosesTheTurn) {
   EXPECT_FALSE(position.lost());
 }
 
+// The speed of an axis at a touch: a turn is 2^40, whichever way the units are given.
+TEST(UnitsPerTurn, SpeedsAreThoseOfTheFraction) {
+  EXPECT_EQ(units_per_wire({1, 1, true, 1U << 24U}), units_per_wire({1U << 16U, 1, true}));
+  EXPECT_DOUBLE_EQ(units_per_wire({1, 1, true, 3600}) * 3600, 0x1p40);
+}
+
 // Offsets and steps: 2^-32 turn to units, half to even, and never more than allowed.
 TEST(UnitsPerTurn, OffsetsAreTheNearestUnit) {
   test::Random random(3);
