@@ -12,7 +12,7 @@ std::uint8_t Sync::steps(std::uint8_t from, std::uint8_t to) const {
 SyncVerdict Sync::received(const hal::CanFrame& frame) {
   const std::uint8_t overflow = objects_.sync_counter_overflow;
   if (frame.size != (overflow == 0 ? 0 : 1)) return SyncVerdict::wrong_length;
-  if (overflow == 0) {  // counted here, so that what repeats the counter shows every cycle
+  if (overflow == 0) {  // a count of our own: whoever is told it sees that cycles go on
     counter_ = static_cast<std::uint8_t>(counter_ % kMostCount + 1);
     return SyncVerdict::good;
   }

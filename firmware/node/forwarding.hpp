@@ -5,7 +5,8 @@
 //
 //   1. Every target that is sent is one of the controller plus an offset of the gate, and the gate
 //      moves once in a cycle in which such a frame has left, at no other time. So from one target
-//      that a drive takes to the next it moves by what the controller moved, plus at most 2202h.
+//      that a drive takes to the next it moves by what the controller moved, plus at most 2202h
+//      (and less at the end of INTEGER32, where the sum is cut: FF03h).
 //   2. None is made up, none is sent twice, none is kept beyond the next SYNC.
 //   3. A controller sets its target to 6064h when it enables a drive, or after homing. The offset
 //   is

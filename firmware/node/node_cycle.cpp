@@ -21,8 +21,7 @@ constexpr std::int32_t limited(std::int32_t offset, std::int32_t limit) {
   return offset > limit ? limit : offset < -limit ? -limit : offset;
 }
 
-constexpr std::uint16_t kForwardingIncomplete = 1U << 15U;  // of 2600h:03
-static_assert(kStatusBits <= 15);
+static_assert(kForwardingIncomplete >> kStatusBits != 0, "no bit of an axis");
 
 // 2^-32 turn in 2^-40 turn.
 constexpr std::int64_t position_of(std::int32_t offset, bool rotary) {

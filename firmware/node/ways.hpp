@@ -16,6 +16,10 @@ enum class Way : std::uint8_t {
 // 2037h: nobody has read the mapping of the drive back.
 inline constexpr std::uint8_t kNobody = 255;
 
+// 2600h:03, above the status bits of the axes: an axis whose targets are forwarded got none in this
+// cycle, or waits for its drive.
+inline constexpr std::uint16_t kForwardingIncomplete = 1U << 15U;
+
 // Targets are forwarded to drives in this mode only (6061h, CiA 402-2): cyclic synchronous
 // position.
 inline constexpr std::int8_t kCyclicPosition = 8;

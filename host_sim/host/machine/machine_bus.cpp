@@ -1,5 +1,6 @@
 #include "host_sim/host/machine/machine_bus.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -71,10 +72,20 @@ void read_software_limits(const TomlSection& s, const AxisFile& axis, DriveFile&
   drive.software_limits_mm = limits;
 }
 
+struct WayWord {
+  DriveWay way;
+  const char* word;
+};
+constexpr std::array kWays{
+    WayWord{DriveWay::offset, "offset"}, WayWord{DriveWay::forwarded, "forwarded"},
+    WayWord{DriveWay::controller, "controller"}, WayWord{DriveWay::none, "none"}};
+
 DriveWay read_way(const TomlSection& s) {
-  constexpr std::array kWays{DriveWay::offset, DriveWay::forwarded, DriveWay::controller,
-                             DriveWay::none};
-  return kWays.at(s.choice("way", {"offset", "forwarded", "controller", "none"}));
+  std::vector<std::string> words;
+  words.reserve(kWays.size());
+  for (const WayWord& one : kWays)
+    words.emplace_back(one.word);
+  return kWays.at(s.choice("way", words)).way;
 }
 
 double read_cycle(const TomlSection& s) {
@@ -88,17 +99,9 @@ double read_cycle(const TomlSection& s) {
 }  // namespace
 
 const char* words(DriveWay way) {
-  switch (way) {
-    case DriveWay::offset:
-      return "offset";
-    case DriveWay::forwarded:
-      return "forwarded";
-    case DriveWay::controller:
-      return "controller";
-    case DriveWay::none:
-      break;
-  }
-  return "none";
+  const auto* const found =
+      std::find_if(kWays.begin(), kWays.end(), [way](const WayWord& w) { return w.way == way; });
+  return found->word;
 }
 
 const std::vector<std::string>& drive_fields() {

@@ -5,14 +5,14 @@
 #include "comp/tick/temperature_input.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/strokes/stroke_objects.hpp"
+#include "firmware/node/ways.hpp"
 #include "host_sim/sim/controller/bus_controller.hpp"
 
 namespace volcomp::sim {
 namespace {
 
 constexpr std::uint8_t kCounterOverflow = 240;
-constexpr std::uint16_t kForwardingIncomplete = 1U << 15U;  // 2600h:03
-constexpr int kServedCycles = 2;                            // before a drive is enabled
+constexpr int kServedCycles = 2;  // before a drive is enabled
 
 std::uint64_t le(const hal::CanFrame& frame, std::size_t at, std::size_t count) {
   return load_le(&frame.data.at(at), count);
@@ -24,7 +24,7 @@ void BusController::take_process_data(const hal::CanFrame& frame) {
   if (frame.id == canopen::kTpdo1 + settings_.node && frame.size == 8) {
     report_ = {static_cast<std::uint32_t>(le(frame, 0, 4)), frame.data[4], frame.data[5],
                static_cast<std::uint16_t>(le(frame, 6, 2)), report_.count + 1};
-    served_ = (report_.any_status & kForwardingIncomplete) != 0 ? 0 : served_ + 1;
+    served_ = (report_.any_status & node::kForwardingIncomplete) != 0 ? 0 : served_ + 1;
     return;
   }
   take_offsets_to_add(frame);

@@ -168,7 +168,8 @@ void ForwardingBench::collect() {
     ++frames_;
     ASSERT_EQ(f.size, 4);
     ASSERT_TRUE(heard_[axis].has_value()) << "a target that the controller has not sent";
-    ASSERT_LE(cycle_ - heard_[axis]->cycle, 2U) << "an old target";
+    // Two cycles late on the bus, and as many that the node may stand still (2200h:04).
+    ASSERT_LE(cycle_ - heard_[axis]->cycle, 4U) << "an old target";
     ASSERT_TRUE(mapped[axis]) << "a drive that would take it for something else";
     deliver(axis, {heard_[axis]->target, static_cast<std::int32_t>(load_le(f.data.data(), 4))});
     heard_[axis].reset();
