@@ -8,19 +8,17 @@
 //      that a drive takes to the next it moves by what the controller moved, plus at most 2202h
 //      (and less at the end of INTEGER32, where the sum is cut: FF03h).
 //   2. None is made up, none is sent twice, none is kept beyond the next SYNC.
-//   3. A controller sets its target to 6064h when it enables a drive, or after homing. The offset
-//   is
-//      0 therefore while the drive is known not to follow targets, and then for as many targets as
-//      can be under way; then it comes softly.
+//   3. A controller sets its target to 6064h when it enables a drive, or after homing. Therefore
+//      the offset is 0 while the drive is known not to follow targets, and then for as many targets
+//      as can be under way; then it comes softly.
 //   4. A node that stood still and went on would make a drive jump. Targets that came but did not
 //      leave before the next SYNC, more than 2200h:04 in a row, end the forwarding for all axes,
 //      and so do frames lost and bus-off. It begins anew only with a drive that has been seen not
 //      to follow, as after a start of the node.
 //
-//   unseen ──does not follow──► ready ──follows──► beginning ──2 × 2200h:04 + 3 targets──►
-//   following
-//                                 ▲                    │                                       │
-//                                 └────────── does not follow ─────────────────────────────────┘
+//   unseen ──does not follow──► ready ──follows──► beginning ──2 × 2200h:04 + 3 targets──┐
+//                                 ▲                    │                                 ▼
+//                                 └──does not follow───┴───────does not follow────── following
 //
 // Nothing is sent while the mapping of the drive is not known to be the right one (2037h): the same
 // frame would be an offset for a drive that is mapped for way 0.

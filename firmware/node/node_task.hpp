@@ -1,6 +1,6 @@
 #pragma once
-// The compensation node on a board: one timer interrupt and one background, as every board's main
-// uses it.
+// The compensation node on a board: a timer interrupt, an interrupt of the bus and one background,
+// as every board's main uses it.
 //
 //   BoardPort port;  BoardClock clock;          // hal/can_port.hpp, hal/clock.hpp
 //   BoardSection section;  BoardWatchdog dog;   // hal/critical_section.hpp, hal/watchdog.hpp
@@ -8,6 +8,7 @@
 //   using Task = NodeTask<BoardPort, BoardClock, BoardSection, BoardWatchdog>;
 //   Task* task = nullptr;
 //   extern "C" void timer_handler() { task->on_timer_interrupt(); }  // every millisecond, say
+//   extern "C" void can_handler() { task->on_bus_interrupt(); }      // a frame has come
 //
 //   int main() {
 //     static Task the_task({port, clock, section, dog}, kNodeId, &storage);
@@ -20,7 +21,12 @@
 //     }
 //   }
 //
-// The interrupt does what a loop around a node does (canopen/exchange.hpp), in the same order,
+// Both interrupts have one priority, so that neither interrupts the other. A board without the
+// second is late by up to a period of the timer: enough for offsets 60B0h, not for forwarded
+// targets at 500 Hz. One with an alarm sets it to deadline_us() at the end of each of the two, and
+// calls on_bus_interrupt() when it goes off.
+//
+// The timer does what a loop around a node does (canopen/exchange.hpp), in the same order,
 // except what takes long: SDO requests and resets wait for the background, and what could disturb
 // the background in the middle of such work waits with them. So with a background that keeps up,
 // the frames of this node are those of a node in one context, in every single turn.
@@ -84,21 +90,23 @@ class NodeTask final : private Preemption {
     node_.power_on(board_.clock.now_us(), cause);
   }
 
-  // --- interrupt
+  // --- interrupts
 
   void on_timer_interrupt() {
     if constexpr (ExchangesTurns<Port>::value) board_.port.begin_turn();
     const std::uint64_t now_us = board_.clock.now_us();
     watch(now_us);
-    fetch(now_us);
-    const bool serves = undisturbed();
-    if (serves) node_.device().poll_services(now_us);
-    served_ = served_ || serves;
-    node_.device().poll_cycle(now_us);
-    send(now_us);
+    exchange(now_us, true);
     if constexpr (ExchangesTurns<Port>::value) board_.port.end_turn();
     if (guardian_.state() != Guardian::State::starving) board_.watchdog.feed();
   }
+
+  // Frames have come, or deadline_us() has: what they complete is computed and leaves at once.
+  // Heartbeats, time-outs and the watchdog remain the timer's.
+  void on_bus_interrupt() { exchange(board_.clock.now_us(), false); }
+
+  // When the open cycle is computed with what has come until then, µs; UINT64_MAX: none is open.
+  [[nodiscard]] std::uint64_t deadline_us() const { return node_.deadline_us(); }
 
   // The port lost frames before they could be fetched (overrun of the controller). From the tick
   // interrupt, for instance out of the port's receive().
@@ -190,6 +198,16 @@ class NodeTask final : private Preemption {
     if (state == before) return;
     if (state == Guardian::State::ramping) node_.background_overdue(true);
     if (state == Guardian::State::trusting) node_.background_overdue(false);
+  }
+
+  void exchange(std::uint64_t now_us, bool with_services) {
+    fetch(now_us);
+    if (with_services && undisturbed()) {
+      node_.device().poll_services(now_us);
+      served_ = true;
+    }
+    node_.device().poll_cycle(now_us);
+    send(now_us);
   }
 
   void fetch(std::uint64_t now_us) {

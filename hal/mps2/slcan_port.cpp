@@ -38,13 +38,17 @@ std::uint32_t SlcanPort::take_losses() {
   return fresh;
 }
 
-void SlcanPort::on_receive_interrupt() {
+bool SlcanPort::on_receive_interrupt() {
   bool lost = uart::take_receive_overrun();
+  bool line_has_ended = false;
   std::uint8_t byte = 0;
-  while (uart::receive(byte))
+  while (uart::receive(byte)) {
     lost = !received_.push(byte) || lost;
+    line_has_ended = line_has_ended || byte == static_cast<std::uint8_t>(kSlcanOk);
+  }
   // No other context writes the counter.
   if (lost) losses_.store(losses_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  return line_has_ended;
 }
 
 void SlcanPort::on_transmit_interrupt() {

@@ -1,11 +1,11 @@
 #pragma once
 // The CAN port of hal/can_port.hpp over UART0: to its host the board is a LAWICEL adapter
 // (hal/slcan.hpp) whose bus has one station, the node. Bytes come and go by interrupt; the frames
-// are made of them where send() and receive() are called, in the tick.
+// are made of them where send() and receive() are called.
 //
 //   SlcanPort port;
 //   port.start();                       // from then on UARTRX0_Handler and UARTTX0_Handler call …
-//   port.on_receive_interrupt();
+//   if (port.on_receive_interrupt()) …  // a line has ended: receive() may have a frame
 //   port.on_transmit_interrupt();
 
 #include <cstddef>
@@ -32,7 +32,8 @@ class SlcanPort {
   // as crippled. From the tick.
   [[nodiscard]] std::uint32_t take_losses();
 
-  void on_receive_interrupt();
+  // True: a line has ended.
+  bool on_receive_interrupt();
   void on_transmit_interrupt();
 
  private:

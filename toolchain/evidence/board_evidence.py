@@ -14,10 +14,9 @@ from documented_calls import CALLS
 from failure import Failure
 
 PRODUCTS = ("node", "servo")  # images that a controller would carry
-# Entries that bring a stack of their own or share that of main, and what the processor puts there first: eight words,
-# eighteen more where the FPU is in use, one to align (Armv7-M, B1.5.7).
-INTERRUPTS = {"first timer": "TIMER0_Handler", "second timer": "TIMER1_Handler", "link, receive": "UARTRX0_Handler",
-              "link, transmit": "UARTTX0_Handler"}
+# Entries that share the stack of main, by priority (hal/mps2/nvic.hpp): those of one priority do not interrupt each other.
+# And what the processor puts there first: eight words, eighteen more where the FPU is in use, one to align (Armv7-M, B1.5.7).
+INTERRUPTS = {"timers": ("TIMER0_Handler", "TIMER1_Handler"), "link": ("UARTRX0_Handler", "UARTTX0_Handler")}
 EXCEPTION_FRAME = 4 * (8 + 18 + 1)
 FAULT = "report_fault"
 TICK_OF = {
@@ -48,16 +47,19 @@ class BoardEvidence:
         self.offences += [f"The list documents calls of {call.caller} that no image makes." for call in CALLS if call not in self.used]
         ticks = self._ticks()
         self.checks.append(budgets.Check(f"{self.board}, node, bytes of flash", products["node"]["flash"], budgets.NODE_FLASH))
-        return {"products": products, **ticks, "services": self._services(), "touches": self._touches(), "strokes": self._strokes()}
+        return {"products": products, **ticks, "latency": self._latency(), "services": self._services(), "touches": self._touches(),
+                "strokes": self._strokes()}
 
     def _product(self, name):
         image = self.image(name)
         size = sizes.measure(image)
         bounds = stack_bound.StackBound(code_flow.CodeFlow(image))
         stack = {"background": self._bound(bounds, "main")}
-        for what, symbol in INTERRUPTS.items():
-            if image.symbol(symbol) and image.symbol(symbol).address != image.symbol("Unexpected_Handler").address:
-                stack[what] = self._bound(bounds, symbol)
+        unused = image.symbol("Unexpected_Handler").address
+        for priority, handlers in INTERRUPTS.items():
+            used = [h for h in handlers if image.symbol(h) and image.symbol(h).address != unused]
+            if used:
+                stack[priority] = max(self._bound(bounds, handler) for handler in used)
         fault = self._bound(bounds, FAULT)
         bound = sum(stack.values()) + EXCEPTION_FRAME * len(stack)
         self.checks.append(budgets.Check(f"{self.board}, {name}, bytes of stack, interrupts nested", bound, size.stack))
@@ -118,6 +120,12 @@ class BoardEvidence:
         return {"ticks": {v: {"min": usual[v][0], "max": usual[v][1], "faults_max": spans[v, k, "faults"][1],
                               "stack_bound": bounds[v], "stack_painted": painted[v, k]} for v, k in most_knots.items()},
                 "kinds": kinds}
+
+    def _latency(self):
+        figures = runs.figures(runs.run(self.root, self.board, self.image("latency").path))
+        found = {fields["way"]: fields for word, fields in figures if word == "latency"}
+        self.checks += budgets.of_latency(self.board, found)
+        return found
 
     def _services(self):
         found = {"sdo": {}, "image": {}}

@@ -18,6 +18,9 @@ TOUCHES = {"xyfz": "XYFZ", "xyb_a": "X, Y, B against A", "five_axis": "five axes
 # board: (budget, target), instructions from the complete latch of an edge to its point. Points are made in double, which the
 # M4F does in software.
 TOUCH = {"m7": (2500, 1500)}
+# way that corrections reach a drive: (what it is, budget), instructions from the last frame of a bus cycle to the last frame to a
+# drive, three axes
+LATENCY = {"offset": ("offsets 60B0h", 5000), "forwarded": ("forwarded targets", 6000)}
 GRINDERS = ("m7",)   # boards with a node that watches strokes
 SPREAD = 40          # most − least of a variant with a budget: a target, since an interrupt is sized by its most
 STACK_OF_TICK = 256  # bytes
@@ -49,6 +52,12 @@ def of_touches(board, touches):
     if board not in TOUCH:
         return []
     return [Check(f"{board}, touch, {name}, instructions", touches[machine]["point"], *TOUCH[board]) for machine, name in TOUCHES.items()]
+
+
+def of_latency(board, ways):
+    """`ways`: figures by way."""
+    return [Check(f"{board}, last frame in to last frame out, {name}, instructions", ways[way]["max"], budget)
+            for way, (name, budget) in LATENCY.items()]
 
 
 def of_ticks(board, ticks, bounds):

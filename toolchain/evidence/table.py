@@ -1,5 +1,5 @@
 """The figures as Markdown, for docs/evidence.md and for reading."""
-from budgets import NODE_FLASH, SPREAD, STACK_OF_TICK, TICKS, TOUCH, TOUCHES
+from budgets import LATENCY, NODE_FLASH, SPREAD, STACK_OF_TICK, TICKS, TOUCH, TOUCHES
 
 BEGIN, END = "<!-- evidence: made by toolchain/evidence.sh --write -->", "<!-- end of evidence -->"
 BOARDS = {"m7": "Cortex-M7", "m4": "Cortex-M4F"}
@@ -58,6 +58,12 @@ def images(evidence):
     return rows(["images", *BOARDS.values(), "Cortex-A53", "budget"], body)
 
 
+def latency(boards):
+    body = [[f"three axes, {name}", *[f"{number(boards[b]['latency'][way]['min'])} … {number(boards[b]['latency'][way]['max'])}" for b in BOARDS],
+             limit(budget)] for way, (name, budget) in LATENCY.items()]
+    return rows(["from the last frame of a bus cycle to the last frame to a drive, instructions", *BOARDS.values(), "budget"], body)
+
+
 def services(boards):
     def of(word, name, value):
         return [number(value(boards[b]["services"][word][name])) for b in BOARDS]
@@ -114,7 +120,7 @@ def markdown(evidence):
             f"{number(counted['reversal'])} reversals, {number(counted['clamp'])} clamps, {counted['swap']} exchanges of tables with "
             f"{number(counted['ramp'])} ticks of ramp.")
     text = [f"{seen} Bold: over its budget. {evidence['tables']}. {evidence['compiler']}, `{evidence['flags']}`; QEMU counts instructions, exactly, not cycles.",
-            "", *ticks(boards), "", *touches(boards), "", *strokes(boards), "", *services(boards), "", *images(evidence), "",
+            "", *ticks(boards), "", *latency(boards), "", *touches(boards), "", *strokes(boards), "", *services(boards), "", *images(evidence), "",
             f"llvm-mca estimates {kernel['cycles']} cycles on a Cortex-M7 for the {kernel['instructions']} instructions of the folded kernel, "
             "memory that answers at once assumed."]
     return "\n".join(text) + "\n"

@@ -1,5 +1,6 @@
-// volcomp-node: the compensation node on a board. The tick of 1 kHz is the timer interrupt, all the
-// rest the background; see firmware/node/node_task.hpp.
+// volcomp-node: the compensation node on a board. Timer 0 interrupts at 1 kHz; timer 1 does when a
+// frame has come or the open cycle is due; all the rest is the background. See
+// firmware/node/node_task.hpp.
 //
 // After a permanent failure the node sends nothing: the drives keep their last offset, and the
 // missing heartbeat stops the feed. The next start reports the cause of the restart.
@@ -151,13 +152,37 @@ int end_of_pipe(PipePort::End end) {
 
 }  // namespace
 
+namespace {
+
+// The open cycle is computed when it is due, not up to a tick later.
+void set_alarm() {
+  const std::uint64_t now_us = link.now_us();
+  const std::uint64_t due_us = task->deadline_us();
+  if (due_us >= now_us + kTick_us) return;  // the next tick looks again
+  volcomp::hal::mps2::timer1.set_alarm(due_us > now_us ? static_cast<std::uint32_t>(due_us - now_us)
+                                                       : 1U);
+}
+
+}  // namespace
+
 extern "C" void TIMER0_Handler() {
   volcomp::hal::mps2::timer0.acknowledge();
   task->on_timer_interrupt();
-  if (!link.is_pipe()) task->frames_lost(link.slcan().take_losses());
+  if (link.is_pipe()) return;  // a turn has all its frames and is all its time
+  task->frames_lost(link.slcan().take_losses());
+  set_alarm();
 }
 
-extern "C" void UARTRX0_Handler() { link.slcan().on_receive_interrupt(); }
+extern "C" void TIMER1_Handler() {
+  volcomp::hal::mps2::timer1.stop();
+  volcomp::hal::mps2::timer1.acknowledge();
+  task->on_bus_interrupt();
+  set_alarm();
+}
+
+extern "C" void UARTRX0_Handler() {
+  if (link.slcan().on_receive_interrupt()) volcomp::hal::mps2::timer1.raise();
+}
 extern "C" void UARTTX0_Handler() { link.slcan().on_transmit_interrupt(); }
 
 int main() {
@@ -171,6 +196,7 @@ int main() {
   task->power_on(volcomp::boards::take_reset_cause());
   watchdog.start(patience().bite_us);
   volcomp::hal::mps2::timer0.start(kTick_us);
+  if (!link.is_pipe()) volcomp::hal::mps2::timer1.enable();
   while (link.pipe().end() == PipePort::End::none) {
     const bool more = task->background_step();
     // On the pipe every run must be alike, and in the emulator's count of instructions a waiting

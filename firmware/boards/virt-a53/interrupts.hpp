@@ -6,7 +6,7 @@
 
 namespace volcomp::boards {
 
-// The periodic timer; ends with its acknowledge().
+// The periodic timer and its alarm; acknowledge() tells them apart.
 void on_tick();
 
 // One of the four PCI lines, by its number at the GIC (hal/virt/registers.hpp). The devices behind

@@ -82,14 +82,22 @@ void report_bus() {
 }  // namespace
 
 void volcomp::boards::on_tick() {
-  timer.acknowledge();
-  can.supervise(the_clock.now_us());
-  the_task().frames_lost(can.take_losses());
-  the_task().bus_state(can.state());
-  the_task().on_timer_interrupt();
+  if (timer.acknowledge()) {
+    can.supervise(the_clock.now_us());
+    the_task().frames_lost(can.take_losses());
+    the_task().bus_state(can.state());
+    the_task().on_timer_interrupt();
+  } else {
+    the_task().on_bus_interrupt();
+  }
+  timer.set_alarm(the_task().deadline_us());
 }
 
-void volcomp::boards::on_pci_interrupt(std::uint32_t /*id*/) { can.on_interrupt(); }
+void volcomp::boards::on_pci_interrupt(std::uint32_t /*id*/) {
+  can.on_interrupt();
+  the_task().on_bus_interrupt();
+  timer.set_alarm(the_task().deadline_us());
+}
 
 int main() {
   uart::put("volcomp-node: node 32 on an SJA1000, 1 Mbit/s\n");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
@@ -130,6 +131,106 @@ TEST(NodeTask, SaysWhatANodeInOneContextSays) {
   EXPECT_EQ(sdo, single_sdo);
   EXPECT_GT(sdo.size(), 100U);
   EXPECT_GT(compensating, 500) << "the bus was never quiet enough to show anything";
+}
+
+// --- the interrupt of the bus
+
+bool is_offset(const hal::CanFrame& f) { return f.id > 0x300 && f.id <= 0x303; }
+
+// Gives the frames of a turn one by one, each with its own interrupt of the bus.
+Frames with_bus_interrupts(TaskBench& bench, const Frames& frames) {
+  bench.port.out.clear();
+  for (const hal::CanFrame& f : frames) {
+    bench.port.in.push_back(f);
+    bench.task->on_bus_interrupt();
+  }
+  return bench.port.out;
+}
+
+TEST(NodeTask, OffsetsLeaveWithTheLastFrameOfTheirCycle) {
+  TaskBench bench;
+  bench.bring_up();
+  Frames frames = bench.bus.turn();
+  if (frames.empty()) frames = bench.bus.turn();
+  const hal::CanFrame last = frames.back();
+  frames.pop_back();
+  const Frames early = with_bus_interrupts(bench, frames);
+  EXPECT_EQ(std::count_if(early.begin(), early.end(), is_offset), 0);
+  const Frames then = with_bus_interrupts(bench, {last});
+  EXPECT_EQ(std::count_if(then.begin(), then.end(), is_offset), 3);
+  bench.port.out.clear();
+  bench.clock.us += TaskBench::kTurn_us;
+  bench.task->on_timer_interrupt();
+  EXPECT_EQ(std::count_if(bench.port.out.begin(), bench.port.out.end(), is_offset), 0)
+      << "the cycle has been served";
+}
+
+// 2200h:03 = 0: 60 % of the period of 2 ms.
+TEST(NodeTask, AnIncompleteCycleIsComputedWhenItIsDue) {
+  TaskBench bench;
+  bench.bring_up();
+  EXPECT_EQ(bench.task->deadline_us(), UINT64_MAX);
+  Frames frames = bench.bus.turn();
+  if (frames.empty()) frames = bench.bus.turn();
+  frames.pop_back();
+  static_cast<void>(with_bus_interrupts(bench, frames));
+  const std::uint64_t due_us = bench.clock.us + 1200;
+  EXPECT_EQ(bench.task->deadline_us(), due_us);
+  bench.clock.us = due_us - 1;
+  const Frames early = with_bus_interrupts(bench, {heartbeat(1, NmtState::operational)});
+  EXPECT_EQ(std::count_if(early.begin(), early.end(), is_offset), 0);
+  bench.clock.us = due_us;
+  bench.task->on_bus_interrupt();
+  EXPECT_EQ(std::count_if(bench.port.out.begin(), bench.port.out.end(), is_offset), 3);
+  EXPECT_EQ(bench.task->deadline_us(), UINT64_MAX);
+}
+
+// What each drive has at the next SYNC.
+std::map<std::uint16_t, hal::CanFrame> last_offsets(const Frames& frames) {
+  std::map<std::uint16_t, hal::CanFrame> last;
+  for (const hal::CanFrame& f : frames) {
+    if (is_offset(f)) last[f.id] = f;
+  }
+  return last;
+}
+
+// The drives have the same offsets at each SYNC, at whatever moments the node is called: two tasks,
+// one of them with an interrupt for each frame, on one random bus.
+TEST(NodeTask, AnInterruptForEachFrameChangesNoOffset) {
+  test::Random random(815);
+  SCOPED_TRACE(random.trace());
+  TaskBench timed;
+  TaskBench prompt;
+  timed.bring_up();
+  prompt.bring_up();
+  ASSERT_EQ(timed.clock.us, prompt.clock.us);
+  int offsets = 0;
+  for (int turn = 0; turn < 5'000; ++turn) {
+    BenchBus& bus = timed.bus;
+    const int event = static_cast<int>(random.integer(0, 399));
+    if (event == 0) bus.drive[0].silent = !bus.drive[0].silent;
+    if (event == 1) bus.drive[2].status ^= 0x0100U;
+    if (event % 8 == 0) bus.put(heartbeat(127, NmtState::operational));
+    bus.drive[1].target += static_cast<std::int32_t>(random.integer(-30'000, 30'000));
+    const Frames frames = bus.turn();
+    timed.clock.us += TaskBench::kTurn_us;
+    prompt.clock.us = timed.clock.us;
+    timed.port.in.insert(timed.port.in.end(), frames.begin(), frames.end());
+    timed.port.out.clear();
+    timed.task->on_timer_interrupt();
+    static_cast<void>(with_bus_interrupts(prompt, frames));
+    prompt.task->on_timer_interrupt();
+    const auto said = last_offsets(prompt.port.out);
+    for (TaskBench* bench : {&timed, &prompt}) {
+      while (bench->task->background_step()) {
+      }
+    }
+    ASSERT_EQ(said, last_offsets(timed.port.out)) << "turn " << turn;
+    for (const auto& [id, f] : said)
+      bus.hear(f);
+    offsets += static_cast<int>(said.size());
+  }
+  EXPECT_GT(offsets, 1'000);
 }
 
 // --- which context serves what
