@@ -152,13 +152,14 @@ step_tidy() {
 
 step_cppcheck() {
   local files
-  need cppcheck
-  mapfile -t files < <(sources '*.[ch]pp' comp hal firmware/embed/c firmware/canopen firmware/node)
+  need cppcheck python3
+  mapfile -t files < <(sources '*.[ch]pp' comp hal firmware/embed/c firmware/canopen firmware/node |
+    python3 toolchain/not_included.py)
   [ ${#files[@]} -gt 0 ] || die "there is no C++ file of the target to check."
   cppcheck --quiet --std=c++17 --language=c++ --enable=warning,performance,portability --inline-suppr \
     --inconclusive --suppress=missingInclude --suppress=missingIncludeSystem --suppress=unmatchedSuppression \
     --error-exitcode=1 -I . -j "$(jobs_allowed)" "${files[@]}"
-  printf '%s files\n' "${#files[@]}"
+  printf '%s files and what they include\n' "${#files[@]}"
 }
 
 step_fuzz() {

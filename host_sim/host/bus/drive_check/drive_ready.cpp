@@ -21,7 +21,7 @@ bool guarding_is_harmless(const ForeignDrive& drive) {
   return drive.number(0x100C).value_or(0) * drive.number(0x100D).value_or(0) == 0;
 }
 
-const char* words(NmtState state) {
+const char* name_of(NmtState state) {
   switch (state) {
 #define NMT_STATE(number, name, title, words) \
   case NmtState::name:                        \
@@ -87,7 +87,7 @@ void require_ready(NodeClient& client, const ForeignDrive& drive, std::optional<
   // A boot-up message ends in PRE-OPERATIONAL (CiA 301, 7.3.2.1).
   if (*state != NmtState::pre_operational && *state != NmtState::boot_up)
     throw UserError(fmt::format("node {} is {}: it must be PRE-OPERATIONAL, where no PDO is served",
-                                drive.node, words(*state)));
+                                drive.node, name_of(*state)));
   require_disabled(client);
 }
 
