@@ -12,12 +12,16 @@ namespace {
 
 constexpr std::uint8_t kRestCycles = 100;  // of a standing axis, until its lag has gone
 
+void count(std::uint32_t& counter) {
+  if (counter < UINT32_MAX) ++counter;
+}
+
 }  // namespace
 
 void Forwarding::restart(bool operational) {
   axes_ = 0;
   axis_ = {};
-  waits_ = left_ = stepped_ = cut_ = 0;
+  waits_ = left_ = stepped_ = cut_ = late_ = 0;
   ended_ = starved_ = false;
   core_.emergency().clear(ErrorCode::forwarding_ended, 0);
   for (std::size_t a = 0; operational && a < kNodeAxes; ++a) {
@@ -187,7 +191,15 @@ void Forwarding::send(std::size_t axis) {
   if (!may_send(axis)) return;
   add(axis);
   waits_ |= bit(axis);
-  core_.device.trigger(axis);
+  if ((unconfirmed_ & bit(axis)) == 0) core_.device.trigger(axis);
+}
+
+void Forwarding::unconfirmed(std::uint32_t axes) {
+  const std::uint32_t released = waits_ & unconfirmed_ & ~axes;
+  unconfirmed_ = axes;
+  for (std::size_t a = 0; released != 0 && a < kNodeAxes; ++a) {
+    if ((released & bit(a)) != 0) core_.device.trigger(a);
+  }
 }
 
 void Forwarding::sent(std::size_t axis) {
@@ -206,17 +218,27 @@ void Forwarding::withdraw(std::size_t axis) {
 }
 
 void Forwarding::miss(std::size_t axis) {
-  if (core_.objects.not_forwarded < UINT32_MAX) ++core_.objects.not_forwarded;
+  count(core_.objects.not_forwarded);
   if ((waits_ & bit(axis)) == 0) return;  // none came: as without this node
+  ++axis_[axis].missed;
+}
+
+// The drive has taken the one before it once more.
+void Forwarding::be_late(std::size_t axis) {
+  late_ |= bit(axis);
+  count(core_.objects.forwarded_late);
   ++axis_[axis].missed;
 }
 
 void Forwarding::end_cycle() {
   bool stood_still = false;
+  late_ = 0;
   for (std::size_t a = 0; axes_ != 0 && a < kNodeAxes; ++a) {
     if (!has(a)) continue;
     const bool left = (left_ & bit(a)) != 0 && (waits_ & bit(a)) == 0;
-    if (left) axis_[a].missed = 0;
+    const bool late = left && (unconfirmed_ & bit(a)) != 0;
+    if (left && !late) axis_[a].missed = 0;
+    if (late && follows(a)) be_late(a);
     if (!left && follows(a)) miss(a);
     stood_still = stood_still || axis_[a].missed > core_.objects.late_cycles;
     if ((waits_ & bit(a)) != 0) withdraw(a);

@@ -12,9 +12,10 @@
 //      the offset is 0 while the drive is known not to follow targets, and then for as many targets
 //      as can be under way; then it comes softly.
 //   4. A node that stood still and went on would make a drive jump. Targets that came but did not
-//      leave before the next SYNC, more than 2200h:04 in a row, end the forwarding for all axes,
-//      and so do frames lost and bus-off. It begins anew only with a drive that has been seen not
-//      to follow, as after a start of the node.
+//      leave before the next SYNC, or left and were on the bus only after it (where the port
+//      tells), more than 2200h:04 in a row, end the forwarding for all axes, and so do frames lost
+//      and bus-off. It begins anew only with a drive that has been seen not to follow, as after a
+//      start of the node.
 //
 //   unseen ──does not follow──► ready ──follows──► beginning ──2 × 2200h:04 + 3 targets──┐
 //                                 ▲                    │                                 ▼
@@ -35,6 +36,8 @@ class Forwarding {
   void restart(bool operational);
 
   [[nodiscard]] bool any() const { return axes_ != 0; }
+  // One bit each, as in all that follows.
+  [[nodiscard]] std::uint32_t axes() const { return axes_; }
   [[nodiscard]] bool has(std::size_t axis) const { return (axes_ & bit(axis)) != 0; }
   // A drive follows targets of this node: it stops when they end.
   [[nodiscard]] bool drives_follow() const;
@@ -46,9 +49,15 @@ class Forwarding {
   [[nodiscard]] bool incomplete() const;
   // A sum has been cut at the end of INTEGER32.
   [[nodiscard]] bool cut(std::size_t axis) const { return (cut_ & bit(axis)) != 0; }
+  // The last target before SYNC was on the bus only after it.
+  [[nodiscard]] bool late(std::size_t axis) const { return (late_ & bit(axis)) != 0; }
 
   // --- tick
 
+  // Axes whose last target lies in the port, which tells when a frame has been on the bus: the next
+  // one waits until then, so that never two are under way and none is older than it seems. A port
+  // that does not tell has none.
+  void unconfirmed(std::uint32_t axes);
   // `at_once`: the offsets of the cycle are known, targets wait for nothing.
   void arrived(std::uint32_t bits, bool at_once, std::uint64_t now_us);
   // SYNC: what still waits has missed it.
@@ -89,6 +98,7 @@ class Forwarding {
   void listen(std::size_t axis);
   void note_actual(std::size_t axis);
   void miss(std::size_t axis);
+  void be_late(std::size_t axis);
   void send(std::size_t axis);
   void add(std::size_t axis);
   void withdraw(std::size_t axis);
@@ -107,6 +117,8 @@ class Forwarding {
   std::uint32_t left_ = 0;     // one has left since SYNC
   std::uint32_t stepped_ = 0;  // the gate knows of the offset of this cycle
   std::uint32_t cut_ = 0;
+  std::uint32_t unconfirmed_ = 0;
+  std::uint32_t late_ = 0;
   bool ended_ = false;
   bool starved_ = false;  // 2208h: a following axis has had no target for too long
 };

@@ -19,6 +19,11 @@ bool is_fixed(const canopen::ObjectDictionary& objects, canopen::ObjectId object
   return entry != nullptr && entry->has(canopen::kFixed);
 }
 
+void count_up(std::uint32_t& counter, std::uint32_t by) {
+  const std::uint32_t room = UINT32_MAX - counter;
+  counter += by < room ? by : room;
+}
+
 static_assert(kReceivePdos <= NodeDevice::kMostReceive &&
               kTransmitPdos <= NodeDevice::kMostTransmit);
 
@@ -105,10 +110,13 @@ void Node::poll_scrub(std::uint64_t now_us) {
 void Node::frames_lost(std::uint32_t count) {
   if (core_.booting()) return;
   if (count == 0) return core_.emergency().clear(ErrorCode::can_overrun, 0);
-  const std::uint32_t room = UINT32_MAX - core_.objects.frames_lost;
-  core_.objects.frames_lost += count < room ? count : room;
+  count_up(core_.objects.frames_lost, count);
   cycle_.end_forwarding();  // how many targets were among them nobody knows
   core_.emergency().raise(ErrorCode::can_overrun, 0);
+}
+
+void Node::controller_errors(std::uint32_t count) {
+  if (!core_.booting()) count_up(core_.objects.controller_errors, count);
 }
 
 void Node::bus_state(hal::CanBusState state) {

@@ -66,6 +66,13 @@ class Node final {
 
   // Since the last call so many frames were lost before the node saw them; 0: none.
   void frames_lost(std::uint32_t count);
+  // The same for errors that the CAN controller has reported.
+  void controller_errors(std::uint32_t count);
+  // Axes whose drives take targets from this node, a bit each.
+  [[nodiscard]] std::uint32_t forwarded_axes() const { return cycle_.forwarded_axes(); }
+  // Of these, those whose last target was handed to the port and is not known to have been on the
+  // bus; at every change, where the port tells.
+  void unconfirmed(std::uint32_t axes) { cycle_.unconfirmed(axes); }
   // The port is gone, and with it what waited to leave: nothing is forwarded as if it had not been.
   void port_lost() {
     if (!core_.booting()) cycle_.end_forwarding();

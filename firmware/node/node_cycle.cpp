@@ -343,7 +343,8 @@ void NodeCycle::report_axis_errors(std::size_t axis, std::uint16_t status) {
   const bool cut = forwarding_.cut(axis);
   const bool tripped = core_.gate[axis].tripped();
   const bool lost = position_[axis].lost();
-  const bool trouble = lost || silent || cut || tripped || (status & kAxisTrouble) != 0;
+  const bool late = forwarding_.late(axis);
+  const bool trouble = lost || silent || cut || late || tripped || (status & kAxisTrouble) != 0;
   if (!trouble && clean_cycles_[axis] > kCleanCycles) return;
   clean_cycles_[axis] =
       trouble ? std::uint16_t{0} : static_cast<std::uint16_t>(clean_cycles_[axis] + 1);
@@ -354,6 +355,7 @@ void NodeCycle::report_axis_errors(std::size_t axis, std::uint16_t status) {
   raise_if(has(kFarOutOfRange), ErrorCode::axis_out_of_range, axis, status);
   raise_if(cut || has(kClamped), ErrorCode::axis_clamped, axis, status);
   raise_if(has(kNoAuthority), ErrorCode::no_authority, axis, status);
+  raise_if(late, ErrorCode::forwarded_late, axis, status);
   raise_if(silent, ErrorCode::offset_not_confirmed, axis, status);
   raise_if(tripped, ErrorCode::memory_damaged, axis, status);
 }

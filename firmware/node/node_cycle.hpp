@@ -56,6 +56,8 @@ class NodeCycle : public NodePart {
   void sent(std::size_t transmit_pdo);
   // A drive has fallen silent or has booted: what it holds is not known any more.
   void drive_gone(std::uint8_t node, bool booted);
+  [[nodiscard]] std::uint32_t forwarded_axes() const { return forwarding_.axes(); }
+  void unconfirmed(std::uint32_t axes) { forwarding_.unconfirmed(axes); }
   void end_forwarding() { forwarding_.end(); }
   [[nodiscard]] bool drives_follow() const { return forwarding_.drives_follow(); }
   void report_status();

@@ -3,17 +3,25 @@
 
 #include <algorithm>
 
-#include "firmware/canopen/device_base.hpp"
+#include "firmware/node/node.hpp"
 #include "hal/linux/lasting_can.hpp"
 
 namespace volcomp::posix {
 
 class KernelFilter {
  public:
-  // After every turn: what is heard changes with 1005h, 1016h and the PDOs.
-  void follow(const canopen::DeviceBase& device, hal::LastingCan& port) {
-    canopen::DeviceBase::HeardIds ids{};
-    const std::size_t count = device.heard(ids);
+  // After every turn: what is heard changes with 1005h, 1016h and the PDOs. Forwarded targets are
+  // heard, too: they come back when they have been on the bus.
+  void follow(const node::Node& node, hal::LastingCan& port) {
+    Ids ids{};
+    std::size_t count = 0;
+    canopen::DeviceBase::HeardIds heard{};
+    for (const std::size_t all = node.device().heard(heard); count < all; ++count)
+      ids[count] = heard[count];
+    for (std::size_t a = 0; a < node::kNodeAxes; ++a) {
+      const canopen::Pdo& target = node.device().pdos().transmit()[a];
+      if ((node.forwarded_axes() >> a & 1U) != 0 && target.valid()) ids[count++] = target.id();
+    }
     if (count == count_ && std::equal(ids.begin(), ids.begin() + count, ids_.begin())) return;
     ids_ = ids;
     count_ = count;
@@ -22,7 +30,10 @@ class KernelFilter {
   }
 
  private:
-  canopen::DeviceBase::HeardIds ids_{};
+  using Ids = std::array<std::uint16_t, canopen::DeviceBase::kMostHeard + node::kNodeAxes>;
+  static_assert(Ids{}.size() <= hal::SocketCan::kMostFilters);
+
+  Ids ids_{};
   std::size_t count_ = 0;
 };
 

@@ -19,6 +19,7 @@
 #include "firmware/posix/kernel_filter.hpp"
 #include "firmware/posix/real_time.hpp"
 #include "firmware/posix/service_manager.hpp"
+#include "firmware/posix/timed_exchange.hpp"
 #include "hal/linux/file_blocks.hpp"
 #include "hal/linux/lasting_can.hpp"
 #include "hal/linux/node_pipe.hpp"
@@ -26,6 +27,7 @@
 
 namespace {
 
+using volcomp::hal::CanBusState;
 using volcomp::hal::FileBlocks;
 using volcomp::hal::LastingCan;
 using volcomp::hal::NodePipe;
@@ -37,6 +39,9 @@ using volcomp::node::Storage;
 
 constexpr int kUnusableInput = 2;
 constexpr int kInterfaceLost = 3;
+constexpr const char* kNoProof =
+    "the interface does not tell when a target has been on the bus: one that is late is not "
+    "noticed";
 
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int /*signal*/) { stop_requested = 1; }
@@ -70,46 +75,30 @@ bool outlives(LastingCan::News news, const Arguments& arguments) {
   return !ends;
 }
 
-// canopen/exchange.hpp with the time at which each frame came in and left: a process that was not
-// running sees how late it is (2620h), and a second SYNC producer by the time between two SYNCs.
-class TimedExchange {
- public:
-  void turn(Node& node, LastingCan& port) {
-    volcomp::hal::CanFrame frame;
-    while (port.receive(frame)) {
-      const std::uint64_t now = clock_.now_us();
-      const std::uint64_t age = std::min<std::uint64_t>(port.age_us(), now);
-      latest_us_ = std::max(latest_us_, now - age);  // the time of the node never goes back
-      node.device().receive(frame, latest_us_);
-    }
-    latest_us_ = std::max(latest_us_, clock_.now_us());
-    node.device().poll(latest_us_);
-    while (node.device().offer(frame, latest_us_) && port.send(frame))
-      node.device().taken(latest_us_ = clock_.now_us());
-  }
-
- private:
-  volcomp::hal::SteadyClock clock_;
-  std::uint64_t latest_us_ = 0;
-};
-
 int serve(Node& node, LastingCan& port, const Arguments& arguments) {
   const volcomp::hal::SteadyClock clock;
-  TimedExchange exchange;
+  volcomp::posix::TimedExchange<LastingCan, volcomp::hal::SteadyClock> exchange(clock);
   volcomp::posix::ServiceManager manager;
   volcomp::posix::KernelFilter filter;
   constexpr std::uint64_t kPoll_us = 1000;
+  static_cast<void>(port.hear_own());  // where it is refused, nothing comes back: told below
   node.power_on(clock.now_us());
   manager.ready("node " + std::to_string(arguments.node_id) + " on " + arguments.link);
   while (stop_requested == 0) {
     node.bus_state(port.bus_state());
+    if (port.bus_state() == CanBusState::off) exchange.forget_sent(node);
     exchange.turn(node, port);
     node.frames_lost(port.take_losses());
-    filter.follow(node.device(), port);
+    node.controller_errors(port.take_errors());
+    if (exchange.take_no_proof()) say(arguments.link, kNoProof);
+    filter.follow(node, port);
     const std::uint64_t now = clock.now_us();
     const LastingCan::News news = port.supervise(now);
     // What waits for an interface that is gone must not leave when it is back.
-    if (news == LastingCan::News::lost) node.port_lost();
+    if (news == LastingCan::News::lost) {
+      node.port_lost();
+      exchange.forget_sent(node);
+    }
     if (!outlives(news, arguments)) return kInterfaceLost;
     manager.alive(now);
     const std::uint64_t deadline = node.deadline_us();

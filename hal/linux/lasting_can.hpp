@@ -35,6 +35,7 @@ class LastingCan {
     if (!lost_ || now_us - tried_us_ < kRetry_us) return News::none;
     tried_us_ = now_us;
     lost_ = !can_.open(name_.c_str()).ok();
+    if (!lost_ && hears_own_) static_cast<void>(can_.hear_own());
     if (!lost_ && filtered_) static_cast<void>(hear_only({ids_.data(), count_}));
     return lost_ ? News::none : News::back;
   }
@@ -51,6 +52,13 @@ class LastingCan {
     std::copy(ids.begin(), ids.end(), ids_.begin());
     return true;
   }
+  // As SocketCan::hear_own(), also after the interface has come back.
+  bool hear_own() {
+    hears_own_ = can_.hear_own();
+    return hears_own_;
+  }
+  [[nodiscard]] bool own() const { return can_.own(); }
+  [[nodiscard]] std::uint32_t take_errors() { return can_.take_errors(); }
   [[nodiscard]] std::uint32_t take_losses() { return can_.take_losses(); }
   [[nodiscard]] bool wait(std::uint32_t timeout_us) const { return can_.wait(timeout_us); }
   [[nodiscard]] CanBusState bus_state() const { return can_.bus_state(); }
@@ -61,6 +69,7 @@ class LastingCan {
   std::array<std::uint16_t, SocketCan::kMostFilters> ids_{};
   std::size_t count_ = 0;
   bool filtered_ = false;
+  bool hears_own_ = false;
   std::uint64_t tried_us_ = 0;
   bool lost_ = false;
 };

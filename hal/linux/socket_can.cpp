@@ -117,7 +117,8 @@ void SocketCan::close() {
   descriptor_ = -1;
   network_down_ = false;
   skipped_ = {};
-  dropped_ = losses_taken_ = 0;
+  dropped_ = losses_taken_ = errors_ = 0;
+  own_ = false;
   bus_state_ = CanBusState::active;
 }
 
@@ -166,6 +167,7 @@ bool SocketCan::take(can_frame& raw) {
   message.msg_control = beside.data();
   message.msg_controllen = beside.size();
   if (::recvmsg(descriptor_, &message, 0) != ssize_t{sizeof raw}) return false;
+  own_ = (static_cast<unsigned>(message.msg_flags) & unsigned{MSG_CONFIRM}) != 0;
   taken_in_ns_ = 0;
   for (cmsghdr* told = CMSG_FIRSTHDR(&message); told != nullptr;
        told = CMSG_NXTHDR(&message, told)) {
@@ -197,10 +199,21 @@ bool SocketCan::hear_only(Span<const std::uint16_t> ids) const {
   return ::setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(), size) == 0;
 }
 
+// MSG_CONFIRM then marks them: Documentation/networking/can.rst, 4.1.7.
+bool SocketCan::hear_own() const {
+  return set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 1);
+}
+
 std::uint32_t SocketCan::take_losses() {
   const std::uint32_t lost = dropped_ - losses_taken_;
   losses_taken_ = dropped_;
   return lost;
+}
+
+std::uint32_t SocketCan::take_errors() {
+  const std::uint32_t errors = errors_;
+  errors_ = 0;
+  return errors;
 }
 
 bool SocketCan::skip(const can_frame& raw) {
@@ -225,6 +238,9 @@ bool SocketCan::skip(const can_frame& raw) {
 void SocketCan::note_error(const can_frame& raw) {
   constexpr std::uint8_t kPassive = CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE;
   constexpr std::uint8_t kWarning = CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING;
+  const bool good = (raw.can_id & CAN_ERR_RESTARTED) != 0 ||
+                    ((raw.can_id & CAN_ERR_CRTL) != 0 && raw.data[1] == CAN_ERR_CRTL_ACTIVE);
+  errors_ += good ? 0 : 1;
   if ((raw.can_id & CAN_ERR_BUSOFF) != 0) {
     bus_state_ = CanBusState::off;
   } else if ((raw.can_id & CAN_ERR_RESTARTED) != 0) {

@@ -46,6 +46,12 @@ class SocketCan {
 
   // False when nothing is there, and after kMaxSkippedAtOnce useless frames in a row.
   bool receive(CanFrame& frame);
+  // From now on frames of this socket come back among the received ones, in the order of the bus:
+  // with a driver that echoes (IFF_ECHO) when they have been on it, otherwise when the kernel has
+  // taken them. False: the kernel refuses.
+  bool hear_own() const;
+  // The frame of the last receive() is one that this socket has sent.
+  [[nodiscard]] bool own() const { return own_; }
   // How long ago the kernel took in the frame of the last receive(): what a process that was not
   // running has missed. At most kMostAge_us, 0 where it is not known.
   [[nodiscard]] std::uint32_t age_us() const;
@@ -58,6 +64,9 @@ class SocketCan {
   // Frames that the kernel has dropped since the last call because the receive buffer was full.
   // Known only with the next frame that arrives.
   [[nodiscard]] std::uint32_t take_losses();
+  // Errors that the controller has reported since the last call: warning, passive, bus-off, a
+  // buffer that was full, a frame that could not be sent.
+  [[nodiscard]] std::uint32_t take_errors();
 
   // Sleeps until there is something to receive or the time is over; true in the first case. A
   // signal ends it early with false.
@@ -90,6 +99,8 @@ class SocketCan {
   std::int64_t taken_in_ns_ = 0;  // the last frame, CLOCK_REALTIME; 0: not known
   std::uint32_t dropped_ = 0;     // by the kernel since the socket was opened; wraps
   std::uint32_t losses_taken_ = 0;
+  std::uint32_t errors_ = 0;  // since take_errors()
+  bool own_ = false;
   CanBusState bus_state_ = CanBusState::active;
 };
 

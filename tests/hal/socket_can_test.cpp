@@ -70,6 +70,7 @@ class KernelWithCan : public ::testing::Test {
       const std::size_t size = message->msg_iov->iov_len;
       std::memcpy(message->msg_iov->iov_base, &heard.front(), size);
       heard.pop_front();
+      message->msg_flags = heard_own ? MSG_CONFIRM : 0;
       tell_drops(*message);
       return static_cast<ssize_t>(size);
     };
@@ -103,6 +104,7 @@ class KernelWithCan : public ::testing::Test {
   int flags_error = 0;
   int receive_error = EAGAIN;
   std::deque<can_frame> heard;
+  bool heard_own = false;
   SocketCan port;
 };
 
@@ -275,6 +277,33 @@ TEST_F(KernelWithCan, FiltersAreExactIdentifiersOf11Bits) {
   EXPECT_FALSE(port.hear_only(ids));
 }
 
+// --- own frames (Documentation/networking/can.rst, CAN_RAW_RECV_OWN_MSGS; MSG_CONFIRM)
+
+TEST_F(KernelWithCan, OwnFramesComeBackMarked) {
+  ASSERT_TRUE(port.open("can0").ok());
+  int asked = 0;
+  calls.setsockopt = [&](int, int level, int name, const void* value, socklen_t size) {
+    std::uint32_t on = 0;
+    EXPECT_EQ(size, sizeof on);
+    std::memcpy(&on, value, sizeof on);
+    asked += level == SOL_CAN_RAW && name == CAN_RAW_RECV_OWN_MSGS && on == 1 ? 1 : 0;
+    return 0;
+  };
+  EXPECT_TRUE(port.hear_own());
+  EXPECT_EQ(asked, 1);
+  hal::CanFrame got;
+  heard = {raw_frame(0x301)};
+  heard_own = true;
+  ASSERT_TRUE(port.receive(got));
+  EXPECT_TRUE(port.own());
+  heard = {raw_frame(0x301)};
+  heard_own = false;
+  ASSERT_TRUE(port.receive(got));
+  EXPECT_FALSE(port.own());
+  calls.setsockopt = [](int, int, int, const void*, socklen_t) { return failing(ENOPROTOOPT); };
+  EXPECT_FALSE(port.hear_own());
+}
+
 // --- error reports (linux/can/error.h)
 
 TEST_F(KernelWithCan, ErrorReportsTellTheStateOfTheController) {
@@ -306,6 +335,8 @@ TEST_F(KernelWithCan, ErrorReportsTellTheStateOfTheController) {
     EXPECT_TRUE(receive_all(port).empty());
     EXPECT_EQ(port.bus_state(), reports[i].state) << i;
   }
+  EXPECT_EQ(port.take_errors(), 8U) << "neither active again nor restarted";
+  EXPECT_EQ(port.take_errors(), 0U);
   port.close();
   EXPECT_EQ(port.bus_state(), State::active);
 }
