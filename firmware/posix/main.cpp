@@ -16,6 +16,7 @@
 #include "firmware/node/node.hpp"
 #include "firmware/node/store/read_only_storage.hpp"
 #include "firmware/node/store/record_storage.hpp"
+#include "firmware/posix/interface_check.hpp"
 #include "firmware/posix/kernel_filter.hpp"
 #include "firmware/posix/real_time.hpp"
 #include "firmware/posix/service_manager.hpp"
@@ -36,6 +37,7 @@ using volcomp::node::Node;
 using volcomp::node::ReadOnlyStorage;
 using volcomp::node::RecordStorage;
 using volcomp::node::Storage;
+using volcomp::node::Way;
 
 constexpr int kUnusableInput = 2;
 constexpr int kInterfaceLost = 3;
@@ -75,6 +77,16 @@ bool outlives(LastingCan::News news, const Arguments& arguments) {
   return !ends;
 }
 
+// Ways of axes as they are stored, and as long as nobody writes others.
+void tell_setup(const Node& node, const std::string& interface) {
+  const auto& ways = node.objects().way;
+  const bool forwards = std::find(ways.begin(), ways.end(),
+                                  static_cast<std::uint8_t>(Way::forwarded_target)) != ways.end();
+  const volcomp::hal::CanInterface found = volcomp::hal::ask_link(interface.c_str());
+  for (const std::string& remark : volcomp::posix::remarks(found, forwards))
+    say(interface, remark);
+}
+
 int serve(Node& node, LastingCan& port, const Arguments& arguments) {
   const volcomp::hal::SteadyClock clock;
   volcomp::posix::TimedExchange<LastingCan, volcomp::hal::SteadyClock> exchange(clock);
@@ -83,6 +95,7 @@ int serve(Node& node, LastingCan& port, const Arguments& arguments) {
   constexpr std::uint64_t kPoll_us = 1000;
   static_cast<void>(port.hear_own());  // where it is refused, nothing comes back: told below
   node.power_on(clock.now_us());
+  tell_setup(node, arguments.link);
   manager.ready("node " + std::to_string(arguments.node_id) + " on " + arguments.link);
   while (stop_requested == 0) {
     node.bus_state(port.bus_state());

@@ -52,6 +52,8 @@ cansend "$interface" 20000040#0000000000000000 # bus-off
 sleep 1
 cansend "$interface" 20000100#0000000000000000 # restarted
 wait_for 'EMCY 8140h' heard 0A0#408111
+cansend "$interface" 620#4005260000000000
+wait_for '2605h has counted passive and bus-off' heard 5A0#4305260002000000
 
 # --- the interface is removed and comes back
 stop "$listener"
