@@ -37,13 +37,12 @@ class TimedExchange {
         node.device().receive(frame, time_of_frame(port));
     }
     latest_us_ = std::max(latest_us_, clock_.now_us());
+    // What the frames have made ready waits for none of the work of poll(), which may be long.
+    send_all(node, port);
     no_proof_ = proof_.finds_no_proof(latest_us_) || no_proof_;
     node.unconfirmed(proof_.unconfirmed());
     node.device().poll(latest_us_);
-    while (node.device().offer(frame, latest_us_) && port.send(frame)) {
-      node.device().taken(latest_us_ = clock_.now_us());
-      note_target(node, frame);
-    }
+    send_all(node, port);
   }
 
   // The port was closed or is off the bus.
@@ -59,6 +58,14 @@ class TimedExchange {
   }
 
  private:
+  void send_all(node::Node& node, Port& port) {
+    hal::CanFrame frame;
+    while (node.device().offer(frame, latest_us_) && port.send(frame)) {
+      node.device().taken(latest_us_ = clock_.now_us());
+      note_target(node, frame);
+    }
+  }
+
   std::uint64_t time_of_frame(const Port& port) {
     const std::uint64_t now = clock_.now_us();
     const std::uint64_t age = std::min<std::uint64_t>(port.age_us(), now);
