@@ -199,6 +199,20 @@ TEST_F(TimedTurns, WithoutProofEveryTargetLeavesAndThatIsToldOnce) {
   EXPECT_EQ(node().objects().forwarded_late, 0U);
 }
 
+// An emergency goes before every target; one that the clock raises is only found after they left.
+TEST_F(TimedTurns, TargetsDoNotWaitForTheWorkOfTheClock) {
+  for (int i = 0; i < 30; ++i)
+    cycle();
+  clock.now += 61'000'000;  // 1016h: drives are lost after 60 s
+  cycle();
+  std::vector<std::uint16_t> ids;
+  for (const hal::CanFrame& frame : port.sent)
+    ids.push_back(frame.id);
+  ASSERT_GE(ids.size(), 4U);
+  EXPECT_TRUE(std::equal(kTargets.begin(), kTargets.end(), ids.begin()));
+  EXPECT_NE(std::find(ids.begin(), ids.end(), canopen::kEmergency + 32), ids.end());
+}
+
 TEST_F(TimedTurns, WhatWasLostWithThePortIsForgotten) {
   cycle();
   for (const std::uint16_t id : kTargets)
