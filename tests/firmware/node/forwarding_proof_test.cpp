@@ -22,7 +22,7 @@ class ProvenForwarding : public ::testing::Test {
     ASSERT_TRUE(bus.drive[0].follows());
     bus.bench.emergencies.clear();
   }
-  void unconfirmed(std::uint32_t axes) { bus.bench.node->unconfirmed(axes); }
+  void unconfirmed(std::uint32_t axes) const { bus.bench.node->unconfirmed(axes); }
   std::uint64_t not_forwarded() { return bus.bench.number(0x2603, 0); }
   std::uint64_t late() { return bus.bench.number(0x2604, 0); }
 
