@@ -35,6 +35,11 @@ expect 2 '--node-id' "$volcomp" diagnose --can no-such-can0 --node-id 128
 expect 0 '1200  fits' "$volcomp" bus-load --json "$work/load.json"
 expect 0 '1000        115.1 ' "$volcomp" bus-load --axes 3
 expect 0 'does not fit' "$volcomp" bus-load --axes 3
+expect 0 'ways 1 1 1: at most 580 Hz' "$volcomp" bus-load --axes 3 --way 1
+expect 0 'ways 1 1 1 0 0: at most 335 Hz' "$volcomp" bus-load --way 1,1,1,0,0
+expect 0 'at most 636 Hz' "$volcomp" bus-load --axes 3 --unconfirmed
+expect 2 'ways of 2 axes' "$volcomp" bus-load --axes 3 --way 1,1
+expect 2 '--way' "$volcomp" bus-load --way 2
 grep -q '"computed_worst_load"' "$work/load.json" || { echo 'FAILED: no load in the JSON'; failed=1; }
 
 # A campaign with the node on the bus: the first seconds of its second machine, which is the first

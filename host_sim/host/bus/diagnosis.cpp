@@ -4,6 +4,7 @@
 
 #include "comp/tick/status_text.hpp"
 #include "firmware/node/store/storage.hpp"
+#include "host_sim/host/bus/latency_diagnosis.hpp"
 #include "host_sim/host/bus/stroke_diagnosis.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/bus/thermal_diagnosis.hpp"
@@ -66,6 +67,7 @@ json axis_facts(NodeClient& client, std::size_t axis, const std::string& letters
   facts["largest_offset"] =
       static_cast<double>(largest) * (rotary ? kMicroradPerTurn / kOffsetUnitsPerTurn : kUmPerNm);
   facts["unit"] = rotary ? "µrad" : "µm";
+  add_way_facts(client, axis, facts);
   facts["status_text"] = describe_status(facts["status"]);
   for (std::size_t bit = 0; bit < kStatusBits; ++bit)
     facts["began"][name_of_bit(bit)] = client.read(kBegan.at(axis)[bit]);
@@ -97,6 +99,7 @@ std::string describe_axis(const json& a) {
       "axis {}: {}\n  drive: node {}, {}\n  offset {:.3f} {}, largest so far {:.3f} {}\n",
       letter.empty() ? a["axis"] : json(letter), a["status_text"], a["drive"],
       describe_drive(a["drive_status"]), a["offset"], a["unit"], a["largest_offset"], a["unit"]);
+  text += describe_way(a);
   for (std::size_t bit = 1; bit < kStatusBits; ++bit) {
     const json& times = a["began"][name_of_bit(bit)];
     if (times != 0)
@@ -137,6 +140,8 @@ json diagnose(NodeClient& client) {
   d["saved"] = saved == StoreResult::nothing_stored ? "There was none." : sentence(saved);
   d["start"] = words(client.read<hal::ResetCause>(object::reset_cause));
   d["axes"] = axes_facts(client, crc != 0);
+  d["latency"] = diagnose_latency(client, d["axes"]);
+  d["forwarding"] = diagnose_forwarding(client, d["axes"]);
   d["strokes"] = diagnose_strokes(client);
   d["thermal"] = diagnose_thermal(client);
   return d;
@@ -162,6 +167,8 @@ std::string describe(const json& d) {
   line("SYNC:",
        fmt::format("{} missed, {} of another producer", d["sync_missed"], d["sync_foreign"]));
   line("frames lost:", fmt::format("{}", d["frames_lost"]));
+  line("latency:", describe_latency(d["latency"]));
+  if (!d["forwarding"].is_null()) line("forwarding:", describe_forwarding(d["forwarding"]));
   line("tables:",
        fmt::format("{} times activated, {} times refused", d["activations"], d["rejections"]));
   if (!d["thermal"].is_null()) add_thermal_lines(d["thermal"], lines);

@@ -10,6 +10,7 @@
 #include "firmware/canopen/emergency.hpp"
 #include "firmware/canopen/nmt.hpp"
 #include "firmware/node/object_handles.hpp"
+#include "firmware/node/ways.hpp"
 #include "host_sim/host/bus/cia402_objects.hpp"
 
 namespace volcomp::host {
@@ -22,14 +23,15 @@ std::pair<unsigned, std::string> named(Enum value, const char* name) {
   return {static_cast<unsigned>(value), name};
 }
 
-// "Bits: 0 valid, 1 not homed, …"
+// "Bits: 0 valid, 1 not homed, … 15 a forwarded axis is not served"
 std::string name_status_bits() {
   std::string names;
   for (unsigned bit = 0; bit < kStatusBits; ++bit)
     names += fmt::format("{} {} {}", bit == 0 ? "Bits:" : ",", bit,
                          code(static_cast<StatusBit>(1U << bit)));
   std::replace(names.begin(), names.end(), '_', ' ');
-  return names;
+  constexpr auto kNotServed = static_cast<unsigned>(__builtin_ctz(node::kForwardingIncomplete));
+  return names + fmt::format(", {} a forwarded axis is not served", kNotServed);
 }
 
 const std::vector<SignalText>& texts() {

@@ -279,7 +279,7 @@ class Checker {
 
 }  // namespace
 
-const char* words(Way way) {
+const char* words_of(Way way) {
   switch (way) {
     case Way::offset:
       return "offset by 60B0h";
@@ -287,6 +287,7 @@ const char* words(Way way) {
       return "forwarded target";
     case Way::controller_adds:
       return "the controller adds";
+    case Way::forwarded_frame:  // is not built, no check finds it
     case Way::none:
       return "none";
   }

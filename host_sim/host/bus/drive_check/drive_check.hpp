@@ -7,18 +7,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "firmware/node/ways.hpp"
 #include "host_sim/host/bus/drive_check/foreign_drive.hpp"
 
 namespace volcomp::host {
 
-// How a correction can reach an axis.
-enum class Way : std::uint8_t {
-  offset = 0,            // 60B0h of the drive by PDO
-  forwarded_target = 1,  // the node sends 607Ah with the offset in it
-  controller_adds = 3,   // the controller adds what the node tells it
-  none = 4,
-};
-[[nodiscard]] const char* words(Way way);
+using node::Way;
+[[nodiscard]] const char* words_of(Way way);
 // This node knows the first way only; the others are told, so that people know what to wait for.
 inline constexpr Way kWayOfNode = Way::offset;
 

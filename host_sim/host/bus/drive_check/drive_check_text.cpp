@@ -22,7 +22,7 @@ nlohmann::json table_of(const DriveCheck& check) {
 // "way 0 (offset by 60B0h), unconfirmed".
 std::string way_text(const DriveCheck& check) {
   if (check.best == Way::none) return "no way fits";
-  std::string text = fmt::format("way {} ({})", static_cast<int>(check.best), words(check.best));
+  std::string text = fmt::format("way {} ({})", static_cast<int>(check.best), words_of(check.best));
   if (check.best == Way::offset && check.confirmed)
     text += *check.confirmed ? ", confirmed" : ", unconfirmed";
   if (!check.best_is_sure)
