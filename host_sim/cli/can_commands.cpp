@@ -10,11 +10,14 @@
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/host/bus/diagnosis.hpp"
+#include "host_sim/host/bus/setup.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::cli {
 namespace {
+
+constexpr std::uint64_t kHeartbeat_us = 1'000'000;
 
 struct CanArguments {
   std::string link;
@@ -61,6 +64,7 @@ int download(const CanArguments& arguments) {
   std::FILE* const words = results.text();
   const std::vector<std::uint8_t> image = host::read_image_file(arguments.image);
   host::NodeClient client = connect(arguments);
+  if (arguments.store) host::refuse_while_following(client, client.await_heartbeat(kHeartbeat_us));
   send_with_progress(client, image);
   fmt::print(words, "{}: {} bytes sent to node {}\n", arguments.image, image.size(),
              client.node_id());

@@ -95,6 +95,17 @@ expect 0 'not stored' "$volcomp" setup --machine other.toml --can pipe:tables --
 expect 2 'node 33 does not answer' "$volcomp" setup --machine other.toml --can pipe:tables --node-id 33
 stop_node -TERM
 
+# --- units and bits of a drive
+sed 's/^units_per_turn = .*/units_per_turn = 360000/' machine.toml >degrees.toml
+expect 0 'Units of the drive per turn (axis A)' "$volcomp" setup --machine degrees.toml --dry-run
+sed '0,/^name = "C"/s//name = "C"\nunits_per_turn = 4294967295/' machine.toml >lost.toml
+expect 2 'beyond them the turn is lost' "$volcomp" setup --machine lost.toml --dry-run
+sed '0,/^name = "X"/s//name = "X"\ndrive = "elmo_gold"/' machine.toml >named.toml
+expect 2 'axis X needs referenced_mask' "$volcomp" setup --machine named.toml --dry-run
+one_line "$volcomp" setup --machine named.toml --dry-run
+sed -i 's/^drive = .*/&\nreferenced_mask = 4096/' named.toml
+expect 0 '1000h' "$volcomp" setup --machine named.toml --dry-run
+
 # --- input that is refused before the bus is touched
 grep -v -e '^node_id = 32' -e '^\[bus\]' -e '^cycle_hz' machine.toml >no_bus.toml
 expect 2 'no_bus.toml: there is no [bus]' "$volcomp" setup --machine no_bus.toml --can pipe:new

@@ -207,7 +207,7 @@ class ForwardedDrive : public testing::TestWithParam<const char*> {
   static std::unique_ptr<BusAxes> machine() {
     host::BusSettings settings = bus_machine_settings();
     for (host::BusAxis& axis : settings.axes)
-      axis.way = host::DriveWay::forwarded;
+      axis.way = host::Way::forwarded_target;
     if (*GetParam() != '\0') settings = host::with_models(settings, {GetParam()});
     auto axes = std::make_unique<BusAxes>(settings, bus_machine().image);
     axes->stand_at({-250.0, -150.0, -200.0});
@@ -298,8 +298,8 @@ TEST(DriveProfiles, MayBeCorrectedInThreeWays) {
   BusWorld today(5);
   ASSERT_TRUE(today.go_to(kElsewhere));
   host::BusSettings settings = bus_machine_settings();
-  settings.axes[1].way = host::DriveWay::forwarded;
-  settings.axes[2].way = host::DriveWay::controller;
+  settings.axes[1].way = host::Way::forwarded_target;
+  settings.axes[2].way = host::Way::controller_adds;
   BusAxes axes(settings, bus_machine().image);
   axes.stand_at({-250.0, -150.0, -200.0});
   axes.bring_up();

@@ -255,6 +255,36 @@ TEST(MachineRun, OverTheBusTheSameComesOut) {
   expect_same(beside.after.sphere, on_bus.after.sphere);
 }
 
+// A counts 0.001° (2036h): its target and its offset are rounded to half a unit of 17.5 µrad each,
+// and no place is 600 mm from it.
+TEST(MachineRun, DecimalDegreesLeaveWhatTheirRoundingDoes) {
+  host::MachineFile file = trunnion();
+  file.correction.tick_hz = kBusCycleOfFive_hz;
+  any_machine::MachineOptions options = quick();
+  options.places = 15;
+  const TrueMachine truth = sim::draw_machine(file, 1);
+  const any_machine::MachineResult exact = run(file, truth, options);
+  constexpr std::uint32_t kUnits = 360'000;
+  host::DriveFile& drive = file.axes[3].drive;
+  drive.scale_numerator = drive.scale_denominator = 1;
+  drive.units_per_turn = kUnits;
+  options.make_cell = bus_cells(file, kBusCycleOfFive_hz);
+  const any_machine::MachineResult rounded = run(file, truth, options);
+  constexpr double kUnit_rad = 2.0 * kPi / kUnits;
+  constexpr double kHalfUnit = 0x1p39 / kUnits;  // 2^-40 turn
+  ASSERT_EQ(exact.after.place.size(), rounded.after.place.size());
+  double largest = 0.0;
+  for (std::size_t i = 0; i < exact.after.place.size(); ++i) {
+    const any_machine::PlaceReading& a = exact.after.place[i];
+    const any_machine::PlaceReading& b = rounded.after.place[i];
+    EXPECT_LE(std::abs(static_cast<double>(a.offset[3] - b.offset[3])), 1.01 * kHalfUnit) << i;
+    const double apart = (a.deviation_mm - b.deviation_mm).norm();
+    EXPECT_LT(apart, kUnit_rad * 600.0) << i;
+    largest = std::max(largest, apart);
+  }
+  EXPECT_GT(largest, kUnit_rad * 10.0) << "nothing was rounded";
+}
+
 // --- the campaign
 
 // However the values are meant, the tables are the same.

@@ -28,6 +28,12 @@ void take_drive(const MachineFile& machine, const DriveFile& drive, BusAxis& axi
 
 }  // namespace
 
+node::WireScale wire_scale(const BusAxis& axis) {
+  return {axis.scale_numerator, axis.scale_denominator, axis.rotary, axis.units_per_turn};
+}
+
+double unit_size(const BusAxis& axis) { return node::units_per_wire(wire_scale(axis)); }
+
 std::uint8_t sync_counter_overflow(const BusSettings& settings) {
   constexpr std::uint8_t kUsual = 240;
   const bool all = std::all_of(settings.axes.begin(), settings.axes.end(), [](const BusAxis& axis) {
@@ -38,13 +44,13 @@ std::uint8_t sync_counter_overflow(const BusSettings& settings) {
 
 bool forwards_targets(const BusSettings& settings) {
   return std::any_of(settings.axes.begin(), settings.axes.end(),
-                     [](const BusAxis& axis) { return axis.way == DriveWay::forwarded; });
+                     [](const BusAxis& axis) { return axis.way == Way::forwarded_target; });
 }
 
 bool counts_on_node(const BusSettings& settings) {
   return forwards_targets(settings) ||
          std::any_of(settings.axes.begin(), settings.axes.end(),
-                     [](const BusAxis& axis) { return axis.way == DriveWay::controller; });
+                     [](const BusAxis& axis) { return axis.way == Way::controller_adds; });
 }
 
 BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
@@ -66,6 +72,7 @@ BusSettings bus_settings(const MachineFile& machine, double cycle_hz) {
     a.rotary = kinds.rotary[i];
     a.scale_numerator = drive.scale_numerator;
     a.scale_denominator = drive.scale_denominator;
+    a.units_per_turn = drive.units_per_turn;
     if (drive.software_limits_mm) {
       const auto units = [&a](double mm) {
         return static_cast<std::int32_t>(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "comp/tick/instances.hpp"
+#include "firmware/node/wire_scale.hpp"
 #include "host_sim/host/bus/watched_strokes.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 
@@ -26,9 +27,11 @@ struct BusAxis {
   bool rotary = false;
   std::uint32_t scale_numerator = 1;  // run-time units (nm or 2^-40 turn) per drive unit
   std::uint32_t scale_denominator = 1;
-  std::int32_t lowest = 0;  // software limits 607Dh, drive units; equal: none
+  std::uint32_t units_per_turn = 0;       // rotary: 2036h, instead of the fraction; 0: none
+  std::uint16_t referenced_mask = 0x100;  // 2033h; a simulated drive sets bit 8 of 6041h
+  std::int32_t lowest = 0;                // software limits 607Dh, drive units; equal: none
   std::int32_t highest = 0;
-  DriveWay way = DriveWay::offset;
+  Way way = Way::offset;
   // Nothing: every object and the PDOs of host_sim/host/bus/cia402.def.
   std::shared_ptr<const DriveModel> model;
   // 60B0h by TPDO. Otherwise a client writes the held offset to 2206h when the node starts.
@@ -37,6 +40,11 @@ struct BusAxis {
   // The units of the drive where they differ from those of the controller.
   std::optional<DriveScale> counts_otherwise;
 };
+
+// Run-time units (nm or 2^-40 turn) in a position unit of the drive.
+[[nodiscard]] double unit_size(const BusAxis& axis);
+// As the node counts.
+[[nodiscard]] node::WireScale wire_scale(const BusAxis& axis);
 
 struct BusSettings {
   std::uint8_t controller = 127;

@@ -4,6 +4,7 @@
 
 #include "comp/tick/status_text.hpp"
 #include "firmware/node/store/storage.hpp"
+#include "firmware/node/wire_scale.hpp"
 #include "host_sim/host/bus/latency_diagnosis.hpp"
 #include "host_sim/host/bus/stroke_diagnosis.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
@@ -58,11 +59,12 @@ json axis_facts(NodeClient& client, std::size_t axis, const std::string& letters
   json facts{{"axis", axis + 1}, {"letter", letters.substr(std::min(axis, letters.size()), 1)}};
   read_facts(client, facts, object::drive[axis], object::drive_status[axis], object::status[axis]);
   const bool rotary = client.read(object::rotary[axis]) != 0;
-  const std::uint32_t numerator = client.read(object::scale_numerator[axis]);
-  const std::uint32_t denominator = client.read(object::scale_denominator[axis]);
+  const node::WireScale scale{client.read(object::scale_numerator[axis]),
+                              client.read(object::scale_denominator[axis]), rotary,
+                              client.read(object::units_per_turn[axis])};
   const std::int32_t offset = client.read(object::offset[axis]);
   const std::int32_t largest = client.read(object::largest[axis]);
-  facts["offset"] = static_cast<double>(offset) * numerator / denominator *
+  facts["offset"] = static_cast<double>(offset) * node::units_per_wire(scale) *
                     (rotary ? kMicroradPerTurn / kPositionUnitsPerTurn : kUmPerNm);
   facts["largest_offset"] =
       static_cast<double>(largest) * (rotary ? kMicroradPerTurn / kOffsetUnitsPerTurn : kUmPerNm);

@@ -65,7 +65,7 @@ bool DriveModel::counts_edges() const {
   return latches() && may_map(PdoKind::transmit, cia402::positive_1_edge_count.id());
 }
 
-std::string DriveModel::obstacle(DriveWay way) const {
+std::string DriveModel::obstacle(Way way) const {
   const auto unmapped = [this](canopen::ObjectId object, PdoKind kind) {
     return fmt::format("{:04X}h {}", object.index,
                        has(object)
@@ -80,14 +80,14 @@ std::string DriveModel::obstacle(DriveWay way) const {
   if (what.empty()) what = need(cia402::target.id(), PdoKind::receive);
   if (what.empty()) what = need(cia402::actual.id(), PdoKind::transmit);
   if (what.empty()) what = need(cia402::statusword.id(), PdoKind::transmit);
-  if (what.empty() && way == DriveWay::offset) what = need(cia402::offset.id(), PdoKind::receive);
-  if (what.empty() && way == DriveWay::forwarded)
+  if (what.empty() && way == Way::offset) what = need(cia402::offset.id(), PdoKind::receive);
+  if (what.empty() && way == Way::forwarded_target)
     what = need(cia402::mode_display.id(), PdoKind::transmit);
   return what;
 }
 
-DriveWay DriveModel::fitting_way() const {
-  return obstacle(DriveWay::offset).empty() ? DriveWay::offset : DriveWay::forwarded;
+Way DriveModel::fitting_way() const {
+  return obstacle(Way::offset).empty() ? Way::offset : Way::forwarded_target;
 }
 
 DriveScale DriveModel::usual_scale(bool rotary) const {
@@ -110,8 +110,8 @@ std::shared_ptr<const DriveModel> find_drive_model(const std::string& name_or_pa
 void put_model(BusAxis& axis, std::shared_ptr<const DriveModel> model) {
   if (const std::string what = model->obstacle(axis.way); !what.empty())
     throw UserError(fmt::format("axis {}: the drive {} cannot be corrected by way \"{}\": {}",
-                                axis.letter, model->name(), words(axis.way), what));
-  axis.reports_offset = axis.way == DriveWay::offset && model->reports_offset();
+                                axis.letter, model->name(), word_of_way(axis.way), what));
+  axis.reports_offset = axis.way == Way::offset && model->reports_offset();
   axis.model = std::move(model);
 }
 
@@ -121,6 +121,7 @@ void change_scale(BusAxis& axis, const DriveScale& scale) {
   axis.highest = rescaled(axis.highest, before, scale);
   axis.scale_numerator = scale.numerator;
   axis.scale_denominator = scale.denominator;
+  axis.units_per_turn = 0;
 }
 
 BusSettings with_models(BusSettings settings, const std::vector<std::string>& names) {
@@ -131,7 +132,7 @@ BusSettings with_models(BusSettings settings, const std::vector<std::string>& na
   for (std::size_t a = 0; a < settings.axes.size(); ++a) {
     BusAxis& axis = settings.axes[a];
     auto model = find_drive_model(names.size() == 1 ? names.front() : names[a]);
-    if (axis.way == DriveWay::offset) axis.way = model->fitting_way();
+    if (axis.way == Way::offset) axis.way = model->fitting_way();
     put_model(axis, std::move(model));
     change_scale(axis, axis.model->usual_scale(axis.rotary));
   }

@@ -33,10 +33,10 @@ class DriveModel {
   [[nodiscard]] bool counts_edges() const;
 
   // Why an axis cannot be corrected in this way, what is missing as an object; empty: it can.
-  [[nodiscard]] std::string obstacle(DriveWay way) const;
+  [[nodiscard]] std::string obstacle(Way way) const;
 
   // The first way that nothing stands in: the offset, or the forwarded target.
-  [[nodiscard]] DriveWay fitting_way() const;
+  [[nodiscard]] Way fitting_way() const;
 
   // What a simulated drive of this model counts in, see docs/drives.md.
   [[nodiscard]] DriveScale usual_scale(bool rotary) const;

@@ -27,12 +27,12 @@ struct WantedPdo {
 };
 using WantedPdos = std::vector<WantedPdo>;
 
-WantedPdos received_by(DriveWay way) {
+WantedPdos received_by(Way way) {
   const Mapping both{cia402::controlword.mapped(), cia402::target.mapped()};
   switch (way) {
-    case DriveWay::offset:
+    case Way::offset:
       return {{kCyclic, both}, {kCyclic, {cia402::offset.mapped()}}};
-    case DriveWay::forwarded:
+    case Way::forwarded_target:
       return {{kCyclic, {cia402::controlword.mapped()}}, {kCyclic, {cia402::target.mapped()}}};
     default:
       return {{kCyclic, both}};
@@ -44,7 +44,7 @@ bool latches(const BusAxis& axis) { return axis.model == nullptr || axis.model->
 
 // What the drive says every cycle, of a latch, of the edge behind it, of the offset it has taken.
 WantedPdos sent_by(const BusAxis& axis, bool probes) {
-  const bool forwarded = axis.way == DriveWay::forwarded;
+  const bool forwarded = axis.way == Way::forwarded_target;
   WantedPdos pdos(kTransmitPdos);
   Mapping& actual = pdos[kActualPdo].mapping;
   actual = {cia402::actual.mapped(), cia402::statusword.mapped()};
@@ -62,7 +62,7 @@ WantedPdos sent_by(const BusAxis& axis, bool probes) {
       pdos[kEdgePdo] = {kAfterEvent,
                         {cia402::positive_1_edge_count.mapped(), cia402::following_error.mapped()}};
   }
-  if (axis.way == DriveWay::offset && axis.reports_offset)
+  if (axis.way == Way::offset && axis.reports_offset)
     pdos[kOffsetPdo].mapping = {cia402::offset.mapped()};
   return pdos;
 }
@@ -162,7 +162,7 @@ SetupPlan drive_plan(const BusSettings& settings, std::size_t axis) {
       plan, canopen::object::consumer_heartbeat[1].id(),
       std::uint32_t{settings.node} << 16U | settings.heartbeat_timeout_ms,
       fmt::format("{}: compensation node", canopen::object::consumer_heartbeat.name));
-  if (a.model == nullptr && a.way == DriveWay::offset) return plan;
+  if (a.model == nullptr && a.way == Way::offset) return plan;
   const auto missing = [&](const PlannedValue& value) {
     return a.model != nullptr && !a.model->has(value.object);
   };
@@ -173,14 +173,14 @@ SetupPlan drive_plan(const BusSettings& settings, std::size_t axis) {
 }
 
 std::vector<std::uint32_t> forwarded_mapping(std::size_t receive_pdo) {
-  return received_by(DriveWay::forwarded).at(receive_pdo).mapping;
+  return received_by(Way::forwarded_target).at(receive_pdo).mapping;
 }
 
 SetupPlan heard_plan(const BusSettings& settings, std::size_t axis) {
   namespace object = node::object;
   const BusAxis& a = settings.axes.at(axis);
   SetupPlan plan;
-  if (a.model == nullptr || a.way == DriveWay::forwarded) return plan;
+  if (a.model == nullptr || a.way == Way::forwarded_target) return plan;
   const WantedPdos sent = sent_by(a, settings.probes);
   const auto id = [&](std::size_t pdo) {
     return static_cast<std::uint32_t>(canopen::kTpdo1 + 0x100U * pdo + a.drive);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "comp/tables/image.hpp"
+#include "firmware/node/cia402_words.hpp"
 #include "firmware/node/object_handles.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
@@ -32,6 +33,7 @@ void check_device(NodeClient& client, SetupResult& result) {
 void check_state(NodeClient& client) {
   constexpr std::uint64_t kHeartbeatTimeout_us = 1'000'000;
   const std::optional<NmtState> state = client.await_heartbeat(kHeartbeatTimeout_us);
+  refuse_while_following(client, state);
   if (state == NmtState::operational)
     throw UserError(
         fmt::format("node {} is OPERATIONAL: stop the machine first, settings are written "
@@ -134,6 +136,22 @@ class Writing {
   std::size_t written_ = 0;
 };
 
+// Which bit of 6041h means referenced stands in the manual of a drive only: bit 8 of some is
+// another one. The complete drive without a name has bit 8.
+void take_referenced_masks(const MachineFile& machine, BusSettings& settings) {
+  for (std::size_t i = 0; i < settings.axes.size(); ++i) {
+    const DriveFile& drive = machine.axes[i].drive;
+    if (drive.referenced_mask) {
+      settings.axes[i].referenced_mask = *drive.referenced_mask;
+    } else if (!drive.model.empty()) {
+      throw UserError(fmt::format(
+          "{}: axis {} needs referenced_mask: which bits of the statusword of {} mean referenced "
+          "stands in its manual, and \"none\" is for one that has no such bit",
+          machine.path, machine.axes[i].letter, drive.model));
+    }
+  }
+}
+
 }  // namespace
 
 BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz,
@@ -151,6 +169,7 @@ BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz
                     machine.path));
   BusSettings settings = bus_settings(machine, *cycle_hz);
   settings.node = node.value_or(settings.node);
+  take_referenced_masks(machine, settings);
   const auto taken = [&](std::uint8_t other, const std::string& who) {
     if (settings.node == other)
       throw UserError(
@@ -160,6 +179,23 @@ BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz
   for (const BusAxis& axis : settings.axes)
     taken(axis.drive, fmt::format("the drive of axis {}", axis.letter));
   return settings;
+}
+
+void refuse_while_following(NodeClient& client, std::optional<NmtState> state) {
+  namespace object = node::object;
+  if (state != NmtState::operational) return;
+  for (std::size_t axis = 0; axis < node::kNodeAxes; ++axis) {
+    const auto way = client.find(object::way[axis]);
+    const bool forwarded = way && static_cast<Way>(*way) == Way::forwarded_target &&
+                           client.read(object::drive[axis]) != 0;
+    if (!forwarded || !node::operation_enabled(client.read(object::drive_status[axis])) ||
+        client.read(object::drive_mode[axis]) != node::kCyclicPosition)
+      continue;
+    throw UserError(fmt::format(
+        "axis {} (drive {}) follows targets that node {} forwards and would stop: disable the "
+        "drives first",
+        axis + 1, client.read(object::drive[axis]), client.node_id()));
+  }
 }
 
 bool SetupResult::ok() const {

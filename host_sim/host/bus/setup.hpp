@@ -15,7 +15,8 @@
 namespace volcomp::host {
 
 // How the machine is wired to a real bus. `cycle_hz` and `node` take precedence over the file.
-// Throws UserError when the file has no [bus] or no cycle rate, or when two devices would have one
+// Throws UserError when the file has no [bus] or no cycle rate, when an axis names its drive but
+// not what bits of 6041h mean referenced (2033h), or when two devices would have one
 // node id: on a real bus a wrong default of any of them moves axes wrongly.
 [[nodiscard]] BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz,
                                     std::optional<std::uint8_t> node);
@@ -45,6 +46,11 @@ struct SetupResult {
   // Every object holds what was written; nothing is stored otherwise.
   [[nodiscard]] bool ok() const;
 };
+
+// For what takes the node out of OPERATIONAL: an axis whose targets it forwards stops then. Throws
+// UserError with the axis when one follows (2034h = 1, its drive enabled in mode 8). `state`: as
+// heard; nothing is read unless the node is OPERATIONAL, as the objects are old otherwise.
+void refuse_while_following(NodeClient& client, std::optional<canopen::NmtState> state);
 
 // Throws UserError or NodeRefused when the node is none of volcomp, runs, belongs to another
 // machine or cannot store what it should: nothing has been written then. Throws UserError when the

@@ -6,7 +6,6 @@
 
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
-#include "host_sim/host/bus/cia402_status.hpp"
 #include "host_sim/host/bus/drive_plan.hpp"
 #include "host_sim/host/bus/probe_setup.hpp"
 #include "host_sim/host/io/user_error.hpp"
@@ -86,13 +85,14 @@ void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
                            supervision(a.drive, b),
                            heartbeat_name(fmt::format("drive {}", a.letter), a.drive, b));
   set(node::object::drive, a.drive);
-  if (a.way != DriveWay::offset) set(node::object::way, static_cast<std::uint8_t>(a.way));
+  if (a.way != Way::offset) set(node::object::way, static_cast<std::uint8_t>(a.way));
   set(node::object::scale_numerator, a.scale_numerator, position);
   set(node::object::scale_denominator, a.scale_denominator);
   set(node::object::rotary, static_cast<std::uint8_t>(a.rotary));
-  set(node::object::homed_mask, kStatusReferenced);
+  if (a.units_per_turn != 0) set(node::object::units_per_turn, a.units_per_turn);
+  set(node::object::homed_mask, a.referenced_mask);
   plan.back().hexadecimal = true;
-  if (a.way == DriveWay::offset && !a.reports_offset) set(node::object::confirms, std::uint8_t{0});
+  if (a.way == Way::offset && !a.reports_offset) set(node::object::confirms, std::uint8_t{0});
   set(node::object::limit, l.limit, offset);
   set(node::object::slew, l.rate, offset);
   set(node::object::soft_rate, l.soft_rate, offset);
@@ -176,8 +176,10 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
     plan.back().name += fmt::format(" (no axis {})", i + 1);
   }
   // An earlier set-up may have said otherwise.
-  for (std::size_t i = 0; i < node::kNodeAxes; ++i)
+  for (std::size_t i = 0; i < node::kNodeAxes; ++i) {
     plan_value(plan, node::object::way[i], 0);
+    plan_value(plan, node::object::units_per_turn[i], 0);
+  }
   plan_value(plan, node::object::drives_report, 1);
   append(plan, node_plan(settings));
   if (probe != nullptr)

@@ -11,7 +11,10 @@ inline constexpr double kLeastCycle_hz = 50.0;
 inline constexpr double kMostCycle_hz = 1000.0;
 
 // As in the file.
-[[nodiscard]] const char* words(DriveWay way);
+[[nodiscard]] const char* word_of_way(Way way);
+
+// Position units of the drive of a rotary axis in a turn.
+[[nodiscard]] double units_per_turn(const DriveFile& drive);
 
 // Fields of an [[axis]].
 [[nodiscard]] const std::vector<std::string>& drive_fields();

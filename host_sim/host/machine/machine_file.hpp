@@ -13,25 +13,24 @@
 #include "comp/metrology/tables/abbe.hpp"
 #include "comp/metrology/tables/error_table.hpp"
 #include "comp/tables/thermal.hpp"
+#include "firmware/node/ways.hpp"
 
 namespace volcomp::host {
 
 // How a correction reaches an axis: 2034h of the node.
-enum class DriveWay : std::uint8_t {
-  offset = 0,      // 60B0h of the drive, from the node
-  forwarded = 1,   // 607Ah of the drive, from the node
-  controller = 3,  // the controller adds it to its targets
-  none = 4,
-};
+using node::Way;
 
 // The drive of an axis on the bus.
 struct DriveFile {
   std::uint8_t node = 0;
   std::uint32_t scale_numerator = 1;  // run-time units (nm or 2^-40 turn) per unit of the drive
   std::uint32_t scale_denominator = 1;
+  std::uint32_t units_per_turn =
+      0;  // 2036h: instead of the fraction, which cannot hold it; 0: none
+  std::optional<std::uint16_t> referenced_mask;  // bits of 6041h that mean it, 2033h; not said
   std::optional<std::array<double, 2>> software_limits_mm;  // 607Dh
   std::string model;  // name of a data sheet that comes with the program, or path; empty: not said
-  DriveWay way = DriveWay::offset;
+  Way way = Way::offset;
   std::optional<bool> reports_offset;  // 60B0h in a TPDO; not said: as the model, or it does
 };
 

@@ -68,8 +68,8 @@ json body_facts(const MachineFile& m) {
 
 // Units of the drive in one mm or turn, as written in a machine file.
 double units_of_drive(const AxisFile& axis) {
-  const double inside = axis.rotary ? static_cast<double>(kUnitsPerTurn) : kNmPerMm;
-  return inside * axis.drive.scale_denominator / axis.drive.scale_numerator;
+  if (axis.rotary) return units_per_turn(axis.drive);
+  return kNmPerMm * axis.drive.scale_denominator / axis.drive.scale_numerator;
 }
 
 json axis_facts(const MachineFile& m) {
@@ -87,10 +87,12 @@ json axis_facts(const MachineFile& m) {
              {"scale", {axis.drive.scale_numerator, axis.drive.scale_denominator}},
              {"error_motions", motion_errors(axis.letter)},
              {"location_errors", location_errors(m.chain.axis(a))}};
+    if (axis.drive.units_per_turn != 0) one["scale"] = nullptr;  // a turn, no fraction
+    if (axis.drive.referenced_mask) one["referenced_mask"] = *axis.drive.referenced_mask;
     if (axis.drive.reports_offset == false) one["reports_offset"] = false;
     if (!axis.drive.model.empty()) one["drive"] = axis.drive.model;
-    if (!axis.drive.model.empty() || axis.drive.way != DriveWay::offset)
-      one["way"] = words(axis.drive.way);
+    if (!axis.drive.model.empty() || axis.drive.way != Way::offset)
+      one["way"] = word_of_way(axis.drive.way);
     if (axis.drive.software_limits_mm) one["software_limits_mm"] = *axis.drive.software_limits_mm;
     axes.push_back(one);
   }

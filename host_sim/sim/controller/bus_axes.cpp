@@ -38,11 +38,11 @@ std::uint32_t position_unit(double nm) {
 // Converts the settings of a drive to the units of this axis; the machine stays the same.
 void apply_drive_units(const host::BusAxis& axis, Cia402Drive::Settings& s) {
   s.scaled_for_axis = s.profile != nullptr;
-  const host::DriveScale scale = axis.counts_otherwise.value_or(
-      host::DriveScale{axis.scale_numerator, axis.scale_denominator});
-  const std::uint32_t usual = axis.rotary ? 512 : 1;
-  if (scale.numerator == usual && scale.denominator == 1) return;
-  const double size = static_cast<double>(scale.numerator) / scale.denominator;
+  const auto& other = axis.counts_otherwise;
+  const double size =
+      other ? static_cast<double>(other->numerator) / other->denominator : host::unit_size(axis);
+  const double usual = axis.rotary ? 512.0 : 1.0;
+  if (!(size < usual || size > usual)) return;
   const double more = usual / size;  // units of the drive in a default one
   const auto scaled = [more](std::uint32_t value) {
     return static_cast<std::uint32_t>(std::clamp(std::round(value * more), 1.0, 4294967295.0));
@@ -118,9 +118,23 @@ void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& n
   drive.power_on(0);
 }
 
+namespace {
+
+// A turn has 2^40 run-time units: in two halves of 20 bits, as one product would overflow.
+std::int64_t units_of_turn(std::int64_t run_time_units, std::uint32_t per_turn) {
+  constexpr std::int64_t kHalf = std::int64_t{1} << 20U;
+  const std::int64_t high = run_time_units / kHalf;
+  const std::int64_t low = run_time_units % kHalf;
+  return std::llround(
+      (static_cast<double>(high * per_turn) + static_cast<double>(low * per_turn) / kHalf) / kHalf);
+}
+
+}  // namespace
+
 // The nearest unit of the drive.
 std::int64_t BusAxes::drive_units(std::size_t a, std::int64_t run_time_units) const {
   const host::BusAxis& axis = controller_.settings().axes[a];
+  if (axis.units_per_turn != 0) return units_of_turn(run_time_units, axis.units_per_turn);
   const std::int64_t scaled = run_time_units * axis.scale_denominator;
   const std::int64_t half = axis.scale_numerator / 2;
   return (scaled + (scaled < 0 ? -half : half)) / axis.scale_numerator;
@@ -141,8 +155,7 @@ std::vector<std::int32_t> BusAxes::on_wire(const host::Targets& target) const {
 void BusAxes::couple(std::size_t a, ForeignMechanics mechanics) {
   const host::BusAxis& axis = controller_.settings().axes.at(a);
   const std::int64_t finer = axis.rotary ? kWireUnit : 1;
-  const double size = static_cast<double>(axis.scale_numerator) / axis.scale_denominator /
-                      static_cast<double>(finer);
+  const double size = host::unit_size(axis) / static_cast<double>(finer);
   drive_.at(a)->couple({[this, a, finer, read = std::move(mechanics.read)] {
                           return drive_units(a, finer * read());
                         },
@@ -276,9 +289,9 @@ host::Offsets BusAxes::offset() const {
     const host::BusAxis& axis = controller_.settings().axes[a];
     double units = drive_[a]->offset_taken();
     // In the target that the drive took at the last SYNC.
-    if (axis.way != host::DriveWay::offset)
+    if (axis.way != host::Way::offset)
       units = sent_.empty() ? 0 : wrapped(drive_[a]->demand() - sent_.at(a));
-    offsets[a] = std::llround(units * axis.scale_numerator / axis.scale_denominator);
+    offsets[a] = std::llround(units * host::unit_size(axis));
   }
   return offsets;
 }
@@ -305,8 +318,8 @@ double BusAxes::following_error() const {
     const host::BusAxis& axis = controller_.settings().axes[a];
     const double units =
         std::abs(static_cast<double>(drive_[a]->demand()) - drive_[a]->position_units());
-    worst = std::max(worst, units * axis.scale_numerator / axis.scale_denominator /
-                                (axis.rotary ? double{kWireUnit} : 1.0));
+    worst =
+        std::max(worst, units * host::unit_size(axis) / (axis.rotary ? double{kWireUnit} : 1.0));
   }
   return worst;
 }
@@ -314,8 +327,7 @@ double BusAxes::following_error() const {
 double BusAxes::largest_unit_nm() const {
   double largest = 0.0;
   for (const host::BusAxis& axis : controller_.settings().axes) {
-    const double nm = static_cast<double>(axis.scale_numerator) / axis.scale_denominator;
-    if (!axis.rotary) largest = std::max(largest, nm);
+    if (!axis.rotary) largest = std::max(largest, host::unit_size(axis));
   }
   return largest;
 }

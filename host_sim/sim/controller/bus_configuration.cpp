@@ -109,9 +109,7 @@ void BusController::check_scaling(Station& s, std::size_t axis) {
       if (i + 1 < ratio->size()) return;
       // 6092h counts position units per revolution of the shaft, which is the axis.
       const double per_turn = (*ratio)[2] / (*ratio)[3];
-      const double expected = static_cast<double>(kUnitsPerTurn) *
-                              static_cast<double>(a.scale_denominator) /
-                              static_cast<double>(a.scale_numerator);
+      const double expected = static_cast<double>(kUnitsPerTurn) / host::unit_size(a);
       if (std::abs(per_turn - expected) > 0.5)
         differ(fmt::format("{:.0f} units per turn", per_turn));
     });
@@ -167,13 +165,13 @@ void BusController::tell_held_offset(std::size_t axis) {
   Station& drive = stations_[axis];
   Station& node = stations_.back();
   if (drive.phase != Station::Phase::running || node.phase != Station::Phase::running) return;
-  const node::WireScale scale{a.scale_numerator, a.scale_denominator, a.rotary};
-  if (a.way == host::DriveWay::controller) {
+  const node::WireScale scale = host::wire_scale(a);
+  if (a.way == host::Way::controller_adds) {
     node.channel.write(node::object::start_offset[axis],
                        node::offset_from_wire(added_[axis], scale));
     return;
   }
-  if (a.model == nullptr || a.reports_offset || a.way != host::DriveWay::offset) return;
+  if (a.model == nullptr || a.reports_offset || a.way != host::Way::offset) return;
   drive.channel.read(host::cia402::offset, [&node, axis, scale](std::int32_t wire) {
     node.channel.write(node::object::start_offset[axis], node::offset_from_wire(wire, scale));
   });
@@ -187,7 +185,7 @@ void BusController::confirm_mapping(std::size_t axis) {
   const bool ready = drive.phase == Station::Phase::running &&
                      drive.state == canopen::NmtState::operational &&
                      node.phase == Station::Phase::running;
-  if (settings_.axes[axis].way != host::DriveWay::forwarded || drive.confirmed || !ready) return;
+  if (settings_.axes[axis].way != host::Way::forwarded_target || drive.confirmed || !ready) return;
   drive.confirmed = true;
   auto right = std::make_shared<bool>(true);
   const auto expect = [&drive, right](canopen::ObjectId object, std::size_t bytes,
@@ -206,7 +204,7 @@ void BusController::confirm_mapping(std::size_t axis) {
   drive.channel.read(host::cia402::statusword, [&node, axis, right](std::uint16_t) {
     if (*right)
       node.channel.write(node::object::mapped_way[axis],
-                         static_cast<std::uint8_t>(host::DriveWay::forwarded));
+                         static_cast<std::uint8_t>(host::Way::forwarded_target));
   });
 }
 

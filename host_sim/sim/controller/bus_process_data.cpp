@@ -41,7 +41,7 @@ void BusController::take_process_data(const hal::CanFrame& frame) {
 void BusController::take_offsets_to_add(const hal::CanFrame& frame) {
   std::size_t rank = 0;
   for (std::size_t a = 0; a < axis_.size(); ++a) {
-    if (settings_.axes[a].way != host::DriveWay::controller) continue;
+    if (settings_.axes[a].way != host::Way::controller_adds) continue;
     const std::size_t pdo = rank / 2;
     const std::size_t at = 4 * (rank % 2);
     ++rank;
@@ -57,7 +57,7 @@ void BusController::watch_node() {
   bool follows = false;
   for (std::size_t a = 0; a < axis_.size(); ++a)
     follows =
-        follows || (settings_.axes[a].way == host::DriveWay::forwarded && axis_[a].following());
+        follows || (settings_.axes[a].way == host::Way::forwarded_target && axis_[a].following());
   for (AxisCommander& axis : axis_) {
     if (follows) axis.stop_quickly();
   }
@@ -147,14 +147,14 @@ void BusController::send_time(std::int64_t unix_s) {
 void BusController::send_targets(const std::vector<std::int32_t>& path) {
   for (std::size_t a = 0; a < axis_.size(); ++a) {
     if (stations_[a].phase != Station::Phase::running) continue;
-    if (settings_.axes[a].way == host::DriveWay::forwarded)
+    if (settings_.axes[a].way == host::Way::forwarded_target)
       axis_[a].may_enable(served_ >= kServedCycles);
     axis_[a].step(path.at(a));
     hal::CanFrame frame;
     frame.id = static_cast<std::uint16_t>(canopen::kRpdo1 + settings_.axes[a].drive);
     frame.size = 6;
     store_le(frame.data.data(), 2, axis_[a].control_word());
-    const bool adds = settings_.axes[a].way == host::DriveWay::controller;
+    const bool adds = settings_.axes[a].way == host::Way::controller_adds;
     const auto added = static_cast<std::uint32_t>(adds ? added_[a] : 0);
     store_le(&frame.data[2], 4, static_cast<std::uint32_t>(axis_[a].target()) + added);
     if (adds) axis_[a].held(added_[a]);

@@ -60,8 +60,7 @@ Latches BusAxes::latches() const {
     const std::int64_t near = drive_units(a, target_[a]);
     const std::int64_t units =
         axis.rotary ? near + wrapped(report.position - near) : std::int64_t{report.position};
-    const double run_time_units =
-        static_cast<double>(units) * axis.scale_numerator / axis.scale_denominator;
+    const double run_time_units = static_cast<double>(units) * host::unit_size(axis);
     latches[a] = {report.latches, run_time_units / (axis.rotary ? kUnitsPerRad : kNmPerMm),
                   report.time_ns};
   }

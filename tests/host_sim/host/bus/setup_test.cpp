@@ -324,5 +324,74 @@ TEST(Setup, AFailingStoreIsReportedWithItsReason) {
               AllOf(HasSubstr("failure while erasing"), HasSubstr("nothing was stored")));
 }
 
+// --- units and referenced bits
+
+MachineFile with_fields(const std::string& axis, const std::string& fields) {
+  std::string text = text_of_file(bundled_machine("trunnion"));
+  const std::size_t at = text.find("name = \"" + axis + "\"");
+  return parse_machine(text.insert(text.find('\n', at), "\n" + fields), "m.toml");
+}
+
+std::uint64_t planned(const MachineFile& machine, Object object) {
+  std::uint64_t bits = UINT64_MAX;
+  for (const PlannedValue& value : plan_of(machine)) {
+    if (value.object.index == object.first && value.object.sub == object.second) bits = value.bits;
+  }
+  return bits;
+}
+
+// Bit 8 of 6041h is another one in some drives.
+TEST(SetUpReferenced, ANamedDriveHasNoDefault) {
+  EXPECT_EQ(planned(with_fields("X", ""), {0x2033, 1}), 256U);
+  EXPECT_THAT(
+      complaint_of([] { return plan_of(with_fields("X", "drive = \"epos4_0170\"")).size(); }),
+      AllOf(HasSubstr("axis X needs referenced_mask"), HasSubstr("epos4_0170")));
+  EXPECT_EQ(
+      planned(with_fields("X", "drive = \"epos4_0170\"\nreferenced_mask = 32768"), {0x2033, 1}),
+      32768U);
+  EXPECT_EQ(
+      planned(with_fields("X", "drive = \"epos4_0170\"\nreferenced_mask = \"none\""), {0x2033, 1}),
+      0U);
+}
+
+TEST(SetUpUnits, UnitsPerTurnReachTheNodeAndGoAgain) {
+  MachineFile machine = with_fields("X", "");
+  EXPECT_EQ(planned(machine, {0x2036, 4}), 0U);
+  machine.axes[3].drive.scale_numerator = machine.axes[3].drive.scale_denominator = 1;
+  machine.axes[3].drive.units_per_turn = 360'000;
+  EXPECT_EQ(planned(machine, {0x2036, 4}), 360'000U);
+  ServiceBench bench;
+  ASSERT_TRUE(set_up_by_file(bench, machine).ok());
+  EXPECT_EQ(number(bench.client.read({0x2036, 4}, 4, "units")), 360'000U);
+  ASSERT_TRUE(set_up_by_file(bench, with_fields("X", "")).ok());
+  EXPECT_EQ(number(bench.client.read({0x2036, 4}, 4, "units")), 0U);
+}
+
+// --- a forwarded axis that follows
+
+// 6041h = 0137h is "operation enabled", 6061h = 8 cyclic synchronous position (CiA 402-2).
+TEST(SetUpWhileFollowing, IsRefusedWithTheAxis) {
+  ServiceBench bench;
+  bench.write({0x1029, 1}, {1});
+  bench.write({0x1017, 0}, {100, 0});
+  bench.write({0x2010, 2}, {7});
+  bench.write({0x2034, 2}, {1});
+  const MachineFile machine = machine_of("trunnion");
+  const auto refusal = [&] {
+    return complaint_of([&] { return set_up_by_file(bench, machine).ok(); });
+  };
+  bench.send({0x000, 2, {1, ServiceBench::kNodeId}});
+  EXPECT_THAT(refusal(), HasSubstr("is OPERATIONAL: stop the machine first"));
+  bench.send({0x187, 7, {0, 0, 0, 0, 0x37, 0x01, 8}});
+  EXPECT_THAT(refusal(), HasSubstr("axis 2 (drive 7) follows targets that node 32 forwards"));
+  EXPECT_THAT(complaint_of([&] {
+                refuse_while_following(bench.client, canopen::NmtState::operational);
+                return 0;
+              }),
+              HasSubstr("disable the drives first"));
+  bench.send({0x187, 7, {0, 0, 0, 0, 0x37, 0x01, 6}});  // homing
+  EXPECT_THAT(refusal(), HasSubstr("is OPERATIONAL: stop the machine first"));
+}
+
 }  // namespace
 }  // namespace volcomp::host

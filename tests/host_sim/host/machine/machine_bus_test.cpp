@@ -49,7 +49,7 @@ TEST(MachineBus, ADriveIsNamedAndItsDataSheetSaysWhatItReports) {
   const BusAxis named = axis_of(trunnion_with("X", "drive = \"epos4_0170\""), 0);
   ASSERT_NE(named.model, nullptr);
   EXPECT_EQ(named.model->name(), "epos4_0170");
-  EXPECT_EQ(named.way, DriveWay::offset);
+  EXPECT_EQ(named.way, Way::offset);
   EXPECT_FALSE(named.reports_offset);
   const std::string stated = "drive = \"epos4_0170\"\nreports_offset = true";
   EXPECT_TRUE(axis_of(trunnion_with("X", stated), 0).reports_offset);
@@ -75,7 +75,7 @@ TEST(MachineBus, WhatADriveCannotDoIsRefused) {
   EXPECT_THAT(refusal("drive = \"eyou\""), HasSubstr("axis X: the drive eyou"));
   EXPECT_THAT(refusal("drive = \"eyou\""), HasSubstr("60B0h is missing"));
   EXPECT_EQ(axis_of(trunnion_with("X", "drive = \"eyou\"\nway = \"forwarded\""), 0).way,
-            DriveWay::forwarded);
+            Way::forwarded_target);
   EXPECT_THAT(machine_refusal(trunnion_with("X", "way = \"forward\"")),
               HasSubstr("must be one of: offset, forwarded, controller, none"));
 }
@@ -95,6 +95,52 @@ TEST(MachineBus, UnitsAreExactRationals) {
       axis_of(trunnion_with("A", "units_per_turn = 1509949440", "units_per_turn"), 3);
   EXPECT_EQ(worm.scale_numerator, 32768U);
   EXPECT_EQ(worm.scale_denominator, 45U);
+}
+
+// 0.001° is 2^40 / 360 000 = 2^34 / 5625 units of the run time: no fraction of 2^20.
+TEST(MachineBus, ATurnOfDecimalDegreesIsCountedInUnitsPerTurn) {
+  const BusAxis degrees =
+      axis_of(trunnion_with("A", "units_per_turn = 360000", "units_per_turn"), 3);
+  EXPECT_EQ(degrees.units_per_turn, 360'000U);
+  EXPECT_NEAR(unit_size(degrees), 17179869184.0 / 5625.0, 1e-6);
+  EXPECT_EQ(axis_of(trunnion_with("A", ""), 3).units_per_turn, 0U);
+  EXPECT_THAT(machine_refusal(trunnion_with("A", "units_per_turn = 4294967297", "units_per_turn")),
+              HasSubstr("neither may be above"));
+}
+
+// Half of 2^32 - 1 units are half a turn; C goes through a whole one.
+TEST(MachineBus, ATravelThatLosesItsTurnsIsRefused) {
+  EXPECT_THAT(machine_refusal(trunnion_with("C", "units_per_turn = 4294967295")),
+              HasSubstr("units per turn only to 3.14159 rad, and beyond them the turn is lost"));
+}
+
+// Node and drives count 0.001°: A goes to the nearest unit, 17.5 µrad, and the others as ever.
+TEST(MachineBus, AMachineOfDecimalDegreesGoesWhereItIsTold) {
+  const MachineFile file =
+      parse_machine(trunnion_with("A", "units_per_turn = 360000", "units_per_turn"), "m.toml");
+  sim::TrueMachine truth;
+  truth.chain = file.chain;
+  const auto cell = sim::bus_cells(file, sim::kBusCycleOfFive_hz)(truth, file.correction, {});
+  const Pose start{10.0, -20.0, -100.0, 0.1, 1.0};
+  cell->place(start);
+  const Pose to{12.0, -21.0, -101.0, 0.15, 1.1};
+  cell->move_to(to, 50.0);
+  constexpr double kUnit = 2.0 * kPi / 360'000.0;
+  EXPECT_NEAR(cell->axes().position()[3], kUnit * std::round(0.15 / kUnit), 1e-9);
+  EXPECT_NEAR(cell->axes().position()[0], 12.0, 1e-6);
+  EXPECT_NEAR(cell->axes().position()[4], 1.1, 1e-8);
+}
+
+TEST(MachineBus, BitsThatMeanReferencedAreAMaskOrNone) {
+  const auto mask_of = [](const std::string& field) {
+    return parse_machine(trunnion_with("X", field), "m.toml").axes[0].drive.referenced_mask;
+  };
+  EXPECT_EQ(mask_of(""), std::nullopt);
+  EXPECT_EQ(mask_of("referenced_mask = 4096"), 4096);
+  EXPECT_EQ(mask_of("referenced_mask = \"none\""), 0);
+  for (const char* const field :
+       {"referenced_mask = 0", "referenced_mask = 65536", "referenced_mask = \"bit 8\""})
+    EXPECT_THAT(machine_refusal(trunnion_with("X", field)), HasSubstr("referenced_mask"));
 }
 
 TEST(MachineBus, NodesAreWhereTheFileSays) {
