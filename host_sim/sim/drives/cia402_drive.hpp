@@ -48,6 +48,7 @@ class Cia402Drive final {
     std::int32_t software_min = INT32_MIN;       // 607Dh:01
     std::int32_t software_max = INT32_MAX;       // 607Dh:02
     std::uint32_t following_window = 5'000'000;  // 6065h
+    std::uint16_t following_timeout_ms = 0;      // 6066h
     std::uint32_t deceleration = 2'000'000'000;  // 6085h, units/s²: 2 m/s² or 0.93 turn/s²
     std::uint32_t feed_per_turn = 10'000'000;    // 6092h:01, linear axes: a 10 mm screw
     std::int64_t latch_delay_ns = 0;             // from an edge of the probe to its latch, ≥ 0
@@ -206,7 +207,8 @@ class Cia402Drive final {
   std::uint8_t targets_missed_ = 0;            // in a row
   std::uint64_t last_period_us_ = 0;           // when the last servo period began
   std::uint64_t periods_ = 0;
-  std::vector<Edge> edges_;  // not latched yet
+  std::uint64_t large_error_us_ = 0;  // how long the following error has been above 6065h
+  std::vector<Edge> edges_;           // not latched yet
   std::uint16_t last_controlword_ = 0;
   bool powered_ = false;
   bool operational_ = false;     // NMT

@@ -41,10 +41,13 @@ void Cia402Drive::take_target() {
     return;
   }
   const bool patient = targets_missed_ < behaviour.patience;
-  if (patient) ++targets_missed_;
+  if (targets_missed_ < UINT8_MAX) ++targets_missed_;
   if (behaviour.missing_target == Missing::extrapolated && patient)
     target_taken_ = wrapped(std::int64_t{target_taken_} + target_step_);
-  if (behaviour.missing_target == Missing::fault && !patient) fail(kTargetMissing);
+  const bool timer_ran_out =
+      behaviour.target_timer != 0 && targets_missed_ >= behaviour.target_timer;
+  if (timer_ran_out || (behaviour.missing_target == Missing::fault && !patient))
+    fail(kTargetMissing);
 }
 
 void Cia402Drive::follow_at_once() {
@@ -117,8 +120,12 @@ void Cia402Drive::brake() {
 void Cia402Drive::supervise() {
   const std::int64_t error = demand_ - axis_.reading();
   objects_.following_error = saturated(error);
+  if (!in_cyclic_position()) large_error_us_ = 0;
   if (!in_cyclic_position() || objects_.following_window == host::kNoFollowingWindow) return;
-  if (std::abs(error) > std::int64_t{objects_.following_window}) fail(host::kFollowingErrorCode);
+  const bool large = std::abs(error) > std::int64_t{objects_.following_window};
+  large_error_us_ = large ? large_error_us_ + period_us_ : 0;
+  if (large && large_error_us_ > 1000U * std::uint64_t{settings_.following_timeout_ms})
+    fail(host::kFollowingErrorCode);
 }
 
 void Cia402Drive::publish() {

@@ -43,6 +43,9 @@ struct DriveBehaviour {
   AtEnabling at_enabling = AtEnabling::stands;
   MissingTarget missing_target = MissingTarget::held;
   std::uint8_t patience = 3;  // targets in a row that are extrapolated; missing before the fault
+  // RPDO timer (140xh:05): a fault after so many SYNCs in a row without a 607Ah, whatever is made
+  // of each; 0: none.
+  std::uint8_t target_timer = 0;
   TargetActs target_acts = TargetActs::at_sync;
   BeyondLimit beyond_limit = BeyondLimit::clipped;
   std::optional<PositionRange> range;  // none: linear saturates, rotary wraps at 32 bits

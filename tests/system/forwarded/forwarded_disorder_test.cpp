@@ -30,6 +30,7 @@ constexpr int kSequences = 48;  // every choice of behaviours once
 constexpr int kSequences = 6;
 #endif
 constexpr int kCycles = 1200;
+constexpr std::uint16_t kShutdown = 0x06;  // 6040h
 
 int number_from(const char* name, int otherwise) {
   const char* const wanted = std::getenv(name);
@@ -173,8 +174,8 @@ class Disorder {
       case 1:
         return world_.restart_controller();
       case 2:
-        world_.disable(true);
-        return later(some(1, 40), [this] { world_.disable(false); });
+        world_.command(kShutdown);
+        return later(some(1, 40), [this] { world_.command({}); });
       case 3:
         return second_sync();
       case 4:

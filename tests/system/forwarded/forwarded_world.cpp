@@ -51,6 +51,9 @@ Cia402Drive::Settings drive_settings(std::size_t axis, const DriveKind& kind) {
   s.node_id = static_cast<std::uint8_t>(axis + 1);
   s.period_s = 1e-6 * kForwardedPeriod_us;
   s.behaviour = kind.behaviour;
+  s.following_window = kind.following_window;
+  s.following_timeout_ms = kind.following_timeout_ms;
+  s.deceleration = kind.deceleration;
   return s;
 }
 
@@ -97,8 +100,9 @@ hal::CanFrame as_taken_by(const DriveKind& kind, hal::CanFrame frame) {
   const bool at_once =
       (index == 0x1400 && kind.controlword_at_once) || (index == 0x1401 && kind.target_at_once);
   if (at_once && frame.data[0] == kDownloadOfOne) frame.data[4] = kAtOnce;
-  if (index == 0x1016 && !kind.watches_node && frame.data[0] == kDownloadOfFour)
-    store_le(&frame.data[4], 4, 0);
+  if (index != 0x1016 || frame.data[0] != kDownloadOfFour) return frame;
+  if (kind.watch_ms != 0) store_le(&frame.data[4], 2, kind.watch_ms);
+  if (!kind.watches_node) store_le(&frame.data[4], 4, 0);
   return frame;
 }
 
@@ -127,7 +131,6 @@ ForwardedWorld::ForwardedWorld(std::uint64_t seed, host::BusSettings settings,
 }
 
 void ForwardedWorld::attach_controller() {
-  constexpr std::uint16_t kShutdown = 0x06;
   controller_port_ =
       &bus_.attach_served("controller", [this](SimulatedBus::Port& port, std::uint64_t now_us) {
         hal::CanFrame frame;
@@ -136,7 +139,7 @@ void ForwardedWorld::attach_controller() {
         controller_.poll(now_us);
         while (controller_.offer(frame, now_us)) {
           const unsigned axis = frame.id - canopen::kRpdo1 - 1U;
-          if (disabled_ && axis < kForwardedAxes) store_le(frame.data.data(), 2, kShutdown);
+          if (controlword_ && axis < kForwardedAxes) store_le(frame.data.data(), 2, *controlword_);
           if (!port.send(frame)) return;
           controller_.taken(now_us);
         }
@@ -244,6 +247,7 @@ void ForwardedWorld::cycle(const std::array<std::int32_t, kForwardedAxes>& step)
     path_[a] = axis.following() ? path_[a] + step.at(a) : axis.standing_at();
   }
   controller_.send_targets(path_);
+  if (pretends_) pretend();
   bus_.run_until((cycle_ + 1) * kPeriod_ns);
   constexpr std::uint16_t kIncomplete = 0x8000;  // 2600h:03
   const bool serves = node_.device().state() == canopen::NmtState::operational &&
@@ -253,6 +257,16 @@ void ForwardedWorld::cycle(const std::array<std::int32_t, kForwardedAxes>& step)
   controller_.send_sync();
   bus_.run_until((cycle_ + 1) * kPeriod_ns + kSyncPhase_ns);
   judge_.begin_cycle(++cycle_);
+}
+
+void ForwardedWorld::pretend() {
+  hal::CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(canopen::kTpdo1 + settings().node);
+  frame.size = 8;
+  store_le(frame.data.data(), 4, controller_.report().active_crc);
+  frame.data[4] = controller_.report().state;
+  frame.data[5] = controller_.sync_counter();
+  send(frame);
 }
 
 bool ForwardedWorld::bring_up() {

@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "firmware/node/node.hpp"
@@ -22,9 +23,13 @@ namespace volcomp::sim {
 // A drive beyond its data sheet.
 struct DriveKind {
   DriveBehaviour behaviour;
-  bool controlword_at_once = false;  // RPDO1 of type 255, whatever is written
-  bool target_at_once = false;       // RPDO2
-  bool watches_node = true;          // 1016h has a second entry
+  bool controlword_at_once = false;            // RPDO1 of type 255, whatever is written
+  bool target_at_once = false;                 // RPDO2
+  bool watches_node = true;                    // 1016h has a second entry
+  std::uint16_t watch_ms = 0;                  // its time; 0: that of the settings
+  std::uint32_t following_window = 5'000'000;  // 6065h, nm
+  std::uint16_t following_timeout_ms = 0;      // 6066h
+  std::uint32_t deceleration = 2'000'000'000;  // 6085h, nm/s²
 };
 using DriveKinds = std::array<DriveKind, kForwardedAxes>;
 
@@ -103,8 +108,10 @@ class ForwardedWorld {
   }
   void silence_controller(bool on) { controller_port_->connect(!on); }
   void restart_controller() { controller_.power_on(bus_.now_us()); }
-  // The controller disables every drive.
-  void disable(bool on) { disabled_ = on; }
+  // 6040h for every drive in place of what the controller would send; nothing: what it sends.
+  void command(std::optional<std::uint16_t> controlword) { controlword_ = controlword; }
+  // The controller goes on hearing that the node is well (180h + 32), though it is dead.
+  void pretend_node(bool on) { pretends_ = on; }
   void to_drive(std::size_t axis, DriveEvent::Kind kind);
   // SYNC does not reach the node.
   void deafen_node(bool on) { deaf_node_ = on; }
@@ -128,6 +135,7 @@ class ForwardedWorld {
   void attach_controller();
   void attach_node();
   void attach_drives();
+  void pretend();
   void note(std::uint64_t time_ns, const hal::CanFrame& frame, const SimulatedBus::Port& sender);
   [[nodiscard]] hal::LoopbackBus::Fate fate(const hal::CanFrame& frame,
                                             const SimulatedBus::Port& sender,
@@ -162,7 +170,8 @@ class ForwardedWorld {
   bool dead_ = false;
   bool full_ = false;
   bool served_ = false;
-  bool disabled_ = false;
+  bool pretends_ = false;
+  std::optional<std::uint16_t> controlword_;
 };
 
 }  // namespace volcomp::sim

@@ -78,6 +78,36 @@ TEST(DriveBehaviour, AMissingTargetIsAFault) {
   EXPECT_EQ(bench.emergencies.back().data[1], 0x82);
 }
 
+// 140xh:05 of a drive that extrapolates meanwhile.
+TEST(DriveBehaviour, ATimerMakesAFaultOfTheThirdMissingTarget) {
+  DriveBehaviour behaviour;
+  behaviour.missing_target = DriveBehaviour::MissingTarget::extrapolated;
+  behaviour.target_timer = 3;
+  Bench bench(behaving(behaviour));
+  const std::vector<std::int64_t> demands = without_targets(bench);
+  EXPECT_EQ(demands[0], 400);
+  EXPECT_EQ(demands[1], 500);
+  EXPECT_NE(bench.drive.power_state(), host::PowerState::operation_enabled);
+  ASSERT_EQ(bench.emergencies.size(), 1U);
+  EXPECT_EQ(bench.emergencies.back().data[0], 0x50);  // 8250h
+}
+
+// 6066h: above 6065h for longer than that. A period is 1 ms, the lag of the axis a few.
+TEST(DriveBehaviour, AFollowingErrorIsAFaultAfterItsTimeOut) {
+  for (const std::uint16_t timeout_ms : {std::uint16_t{0}, std::uint16_t{2}}) {
+    Cia402Drive::Settings settings = Bench::node_three();
+    settings.following_window = 100;
+    settings.following_timeout_ms = timeout_ms;
+    Bench bench(settings);
+    bench.enable();
+    bench.cycle(kEnable, 100'000);
+    EXPECT_EQ(bench.emergencies.empty(), timeout_ms != 0);
+    bench.cycle(kEnable, 100'000);
+    bench.cycle(kEnable, 100'000);
+    EXPECT_EQ(bench.emergencies.size(), 1U);
+  }
+}
+
 // RPDO1 of type 255: the controlword acts when it comes; the position loop still waits for SYNC.
 TEST(DriveBehaviour, ATargetActsAtSyncOrAtReception) {
   for (const bool at_reception : {false, true}) {
