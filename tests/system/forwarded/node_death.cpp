@@ -24,8 +24,8 @@ constexpr int kLongestStop = 2000;
 host::BusSettings machine(const NodeDeath& death) {
   host::BusSettings settings = bus_machine_settings();
   settings.heartbeat_ms = kHeartbeat_ms;
-  settings.axes[0].way = host::DriveWay::forwarded;
-  if (death.both_forwarded) settings.axes[1].way = host::DriveWay::forwarded;
+  settings.axes[0].way = node::Way::forwarded_target;
+  if (death.both_forwarded) settings.axes[1].way = node::Way::forwarded_target;
   return settings;
 }
 
