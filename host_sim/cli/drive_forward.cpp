@@ -1,9 +1,12 @@
 #include "host_sim/cli/drive_forward.hpp"
 
+#include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "firmware/node/object_handles.hpp"
 #include "host_sim/cli/drive_bus.hpp"
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/cli/number_check.hpp"
@@ -17,6 +20,8 @@ namespace {
 struct ForwardArguments {
   DriveBusOptions bus;
   int drive = 1;
+  int axis = 0;  // of the node, from 1; 0: the node is told nothing
+  int node = 32;
   int way = 0;
   bool way_given = false;
   bool off = false;
@@ -36,6 +41,9 @@ std::string question_of(const ForwardArguments& a, const std::vector<host::PdoPl
                   a.store ? ", and stores all it holds (1010h)" : " until it is switched off");
   for (const host::PdoPlan& one : plan)
     text += "\n  " + host::describe(one);
+  if (a.axis != 0)
+    text += fmt::format("\nand then node {} gets the way of its axis {} (2034h, 2037h).", a.node,
+                        a.axis);
   return text;
 }
 
@@ -44,9 +52,22 @@ nlohmann::json json_of(const ForwardArguments& a, const std::vector<host::PdoPla
   for (const host::PdoPlan& one : done)
     pdos.push_back(host::describe(one));
   return {{"node", a.drive},
+          {"axis", a.axis != 0 ? nlohmann::json(a.axis) : nlohmann::json()},
           {"way", a.off ? nlohmann::json() : nlohmann::json(a.way)},
           {"pdos", pdos},
           {"stored", a.store}};
+}
+
+// What the user has to do next.
+void tell_next(std::FILE* out, const ForwardArguments& a) {
+  if (a.axis == 0) return;
+  fmt::print(out, "node {}: axis {} goes way {} (2034h) until its power fails; 1010h stores it\n",
+             a.node, a.axis, a.off ? 4 : a.way);
+  if (a.off || a.way != 1) return;
+  fmt::print(out,
+             "2037h = 1 is forgotten when the drive boots or leaves OPERATIONAL: your controller "
+             "reads RPDO1 and RPDO2 of the drive back and writes it at every start, when the drive "
+             "is OPERATIONAL\n");
 }
 
 // The order of the whole: node out of OPERATIONAL, drive, 2034h, 2037h.
@@ -55,6 +76,12 @@ int forward(const ForwardArguments& a) {
   if (a.off == a.way_given)
     throw host::UserError("drive forward needs --way or --off, one of them");
   DriveBus bus(a.bus);
+  std::optional<host::NodeClient> node;
+  if (a.axis != 0) {
+    node.emplace(bus.client_of(static_cast<std::uint8_t>(a.node)));
+    host::require_node_ready(*node, static_cast<std::size_t>(a.axis),
+                             static_cast<std::uint8_t>(a.drive));
+  }
   host::NodeClient client = bus.client_of(static_cast<std::uint8_t>(a.drive));
   const host::ForeignDrive drive = read_with_bar(client);
   bus.require_ready(client, drive);
@@ -64,11 +91,12 @@ int forward(const ForwardArguments& a) {
   bus.change(client,
              [&](host::DriveChanges& changes) { done = host::set_route(changes, drive, plan); });
   if (a.store) host::store_in_drive(client);
-  // Here the node is told: 2034h (way of the axis), then 2037h (the mapping that was read back).
+  if (node) host::set_node_way(*node, static_cast<std::size_t>(a.axis), route_of(a));
   results.add(a.json_file, json_text(json_of(a, done)));
   results.write();
   for (const host::PdoPlan& one : done)
     fmt::print(results.text(), "{}\n", host::describe(one));
+  tell_next(results.text(), a);
   return number(ExitCode::done);
 }
 
@@ -83,6 +111,15 @@ void add_drive_forward(CLI::App& drive, int& code) {
   command->add_option("--node", a->drive, "CANopen node id of the drive")
       ->check(CLI::Range(1, 127))
       ->required();
+  CLI::Option* const axis =
+      command->add_option("--axis", a->axis,
+                          "Axis of the compensation node, from 1: its way is written, too (2034h, "
+                          "and 2037h for way 1)");
+  axis->check(CLI::Range(1, static_cast<int>(node::kNodeAxes)));
+  command->add_option("--node-id", a->node, "With --axis: CANopen node id of the compensation node")
+      ->check(CLI::Range(1, 127))
+      ->needs(axis)
+      ->capture_default_str();
   CLI::Option* const way = command->add_option(
       "--way", a->way,
       "0: the offset 60B0h comes from the node; 1: the target 607Ah comes from the node");

@@ -145,6 +145,10 @@ expect 2 'needs --way or --off, one of them' "${forward[@]}"
 expect 2 'needs --way or --off, one of them' "${forward[@]}" --way 1 --off
 expect 2 'only on consent: --yes' "${forward[@]}" --way 1 </dev/null; met
 unchanged 'drive forward without consent'
+expect 2 'node 32 must be PRE-OPERATIONAL, and sends no heartbeat' "${forward[@]}" --way 1 --axis 1 --yes; met
+unchanged 'drive forward for an axis of a node that is not there'
+expect 2 '--axis' "${forward[@]}" --way 1 --node-id 33 --yes
+expect 2 '--axis' "${forward[@]}" --way 1 --axis 6 --yes
 expect 0 'RPDO2: 303h {607Ah}, type 1' "${forward[@]}" --way 1 --yes; met
 [ -z "$(ls "$journals")" ] || { echo 'FAILED: a journal is left after drive forward'; failed=1; }
 cmp -s "$work/bus/state" "$work/before" && { echo 'FAILED: drive forward changed nothing'; failed=1; }

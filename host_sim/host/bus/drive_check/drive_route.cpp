@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include "firmware/canopen/cob_id.hpp"
+#include "firmware/node/object_handles.hpp"
+#include "firmware/node/ways.hpp"
+#include "host_sim/host/bus/setup.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -200,6 +203,37 @@ std::vector<PdoPlan> set_route(DriveChanges& changes, const ForeignDrive& drive,
       done.push_back(PdoWriter(changes, drive, one).write());
   });
   return done;
+}
+
+void require_node_ready(NodeClient& client, std::size_t axis, std::uint8_t drive) {
+  constexpr std::uint64_t kHeartbeat_us = 1'000'000;
+  const auto state = client.await_heartbeat(kHeartbeat_us);
+  refuse_while_following(client, state);
+  if (state != canopen::NmtState::pre_operational)
+    throw UserError(fmt::format("node {} must be PRE-OPERATIONAL, and {}: nothing was written",
+                                client.node_id(),
+                                state ? "is not" : "sends no heartbeat that tells"));
+  const auto way = client.find(node::object::way[axis - 1]);
+  if (!way)
+    throw UserError(
+        fmt::format("node {} is no compensation node that knows ways (2034h)", client.node_id()));
+  const unsigned own = client.read(node::object::drive[axis - 1]);
+  if (own != drive)
+    throw UserError(
+        fmt::format("axis {} of node {} has drive {} (2010h), not {}: volcomp setup "
+                    "writes it",
+                    axis, client.node_id(), own, drive));
+}
+
+void set_node_way(NodeClient& client, std::size_t axis, DriveRoute route) {
+  const auto write = [&](const auto& object, auto value) {
+    client.write(object.id(), {static_cast<std::uint8_t>(value)}, object.name);
+  };
+  const node::Way way = route == DriveRoute::direct      ? node::Way::none
+                        : route == DriveRoute::forwarded ? node::Way::forwarded_target
+                                                         : node::Way::offset;
+  write(node::object::way[axis - 1], way);
+  if (way == node::Way::forwarded_target) write(node::object::mapped_way[axis - 1], way);
 }
 
 void store_in_drive(NodeClient& client) {

@@ -46,4 +46,14 @@ struct PdoPlan {
 // 1010h:01 = "save": what the drive holds now is there after power-on, too.
 void store_in_drive(NodeClient& client);
 
+// --- the side of the node: before the drive is changed, and after its mapping was read back
+
+// `axis`: from 1. Throws UserError unless the heartbeat of the node says PRE-OPERATIONAL and its
+// axis has that drive (2010h), with the axis while one follows targets of the node.
+void require_node_ready(NodeClient& client, std::size_t axis, std::uint8_t drive);
+
+// 2034h: 0, 1, or 4 for a drive that needs no node; then, for targets, 2037h = 1. The node forgets
+// 2037h when the drive boots or leaves OPERATIONAL: the controller writes it again at every start.
+void set_node_way(NodeClient& client, std::size_t axis, DriveRoute route);
+
 }  // namespace volcomp::host

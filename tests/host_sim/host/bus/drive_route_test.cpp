@@ -6,6 +6,7 @@
 #include "host_sim/host/bus/drive_check/drive_route.hpp"
 #include "host_sim/host/io/interruption.hpp"
 #include "tests/complaint.hpp"
+#include "tests/host_sim/host/bus/service_bench.hpp"
 #include "tests/host_sim/host/bus/trial_bench.hpp"
 
 namespace volcomp::host {
@@ -181,6 +182,55 @@ TEST(DriveRoute, WritesNothingButPdos) {
   go(bench, DriveRoute::forwarded);
   for (const std::uint16_t index : bench.written)
     EXPECT_TRUE(canopen::PdoTable::owns(index)) << std::hex << index;
+}
+
+// --- the side of the node
+
+// A node with drive 7 at its axis 2, and a heartbeat every 100 ms.
+class NodeSide : public testing::Test {
+ protected:
+  NodeSide() {
+    bench.write({0x1017, 0}, {100, 0});
+    bench.write({0x2010, 2}, {7});
+  }
+  std::string refusal(std::size_t axis, std::uint8_t drive) {
+    return complaint_of([&] {
+      require_node_ready(bench.client, axis, drive);
+      return 0;
+    });
+  }
+  std::uint64_t value(std::uint16_t index) {
+    return number(bench.client.read({index, 2}, 1, "test"));
+  }
+
+  ServiceBench bench;
+};
+
+TEST_F(NodeSide, HasTheDriveAndIsPreOperational) {
+  require_node_ready(bench.client, 2, 7);
+  EXPECT_THAT(refusal(2, 3), HasSubstr("axis 2 of node 32 has drive 7 (2010h), not 3"));
+  bench.send({0x000, 2, {1, ServiceBench::kNodeId}});
+  EXPECT_THAT(refusal(2, 7), HasSubstr("must be PRE-OPERATIONAL, and is not"));
+}
+
+TEST_F(NodeSide, KnowsTheWayAndThatTheMappingWasReadBack) {
+  set_node_way(bench.client, 2, DriveRoute::forwarded);
+  EXPECT_EQ(value(0x2034), 1U);
+  EXPECT_EQ(value(0x2037), 1U);
+  set_node_way(bench.client, 2, DriveRoute::offset);
+  EXPECT_EQ(value(0x2034), 0U);
+  EXPECT_EQ(value(0x2037), 255U);
+  set_node_way(bench.client, 2, DriveRoute::direct);
+  EXPECT_EQ(value(0x2034), 4U);
+  EXPECT_EQ(value(0x2037), 255U);
+}
+
+TEST_F(NodeSide, IsNotTouchedWhileTheAxisFollows) {
+  bench.write({0x1029, 1}, {1});
+  set_node_way(bench.client, 2, DriveRoute::forwarded);
+  bench.send({0x000, 2, {1, ServiceBench::kNodeId}});
+  bench.send({0x187, 7, {0, 0, 0, 0, 0x37, 0x01, 8}});
+  EXPECT_THAT(refusal(2, 7), HasSubstr("axis 2 (drive 7) follows targets that node 32 forwards"));
 }
 
 }  // namespace
