@@ -22,7 +22,7 @@ constexpr double kPeriod_s = 1e-6 * kForwardedPeriod_us;
 host::BusSettings forwarded_settings() {
   host::BusSettings settings = bus_machine_settings();
   for (host::BusAxis& axis : settings.axes)
-    axis.way = host::DriveWay::forwarded;
+    axis.way = node::Way::forwarded_target;
   return settings;
 }
 
