@@ -83,7 +83,7 @@ class Cia402Drive final {
   // As of canopen::Device, so that canopen::exchange() can serve a drive. poll() also runs the
   // servo periods that no SYNC has started: call it, not the one of the device.
   void receive(const hal::CanFrame& frame, std::uint64_t now_us) {
-    if (powered_ && !refuse_dummy(frame)) device_.receive(frame, now_us);
+    if (powered_ && !refuse_dummy(frame) && !refuse_length(frame)) device_.receive(frame, now_us);
   }
   void poll(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
@@ -131,6 +131,7 @@ class Cia402Drive final {
  private:
   friend Cia402Device;
   [[nodiscard]] bool refuse_dummy(const hal::CanFrame& frame);
+  [[nodiscard]] bool refuse_length(const hal::CanFrame& frame);
   void reset_application();
   void reset_communication();
   void state_changed(canopen::NmtState state, std::uint64_t now_us);

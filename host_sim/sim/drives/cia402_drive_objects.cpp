@@ -143,6 +143,16 @@ bool Cia402Drive::refuse_dummy(const hal::CanFrame& frame) {
   return true;
 }
 
+bool Cia402Drive::refuse_length(const hal::CanFrame& frame) {
+  constexpr auto kTooLong = static_cast<canopen::ErrorCode>(0x8220);
+  if (!settings_.behaviour.exact_length || !operational_) return false;
+  const bool refused = std::any_of(receive_.begin(), receive_.end(), [&](const canopen::Pdo& pdo) {
+    return pdo.valid() && pdo.parameters().cob_id == frame.id && frame.size > pdo.bytes();
+  });
+  if (refused) device_.emergency().raise(kTooLong, 0);
+  return refused;
+}
+
 bool Cia402Drive::offer(hal::CanFrame& frame, std::uint64_t now_us) {
   offered_refusal_ = powered_ && refusal_.has_value();
   if (!offered_refusal_) return powered_ && device_.offer(frame, now_us);

@@ -48,6 +48,9 @@ struct DriveBehaviour {
   std::uint8_t target_timer = 0;
   TargetActs target_acts = TargetActs::at_sync;
   BeyondLimit beyond_limit = BeyondLimit::clipped;
+  // A PDO that is longer than what is mapped is an error (8220h) instead of being used as far as
+  // mapped (CiA 301, 7.2.2.2): {6040h} alone does not hear {6040h, 607Ah}, dummies must fill it.
+  bool exact_length = false;
   std::optional<PositionRange> range;  // none: linear saturates, rotary wraps at 32 bits
 };
 

@@ -2,8 +2,11 @@
 // the node keeps the controller from enabling it. A controller that does not heed it makes the axis
 // jump; how far is measured, not promised (docs/drives.md).
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
+#include "tests/system/bus_world.hpp"
 #include "tests/system/forwarded/old_target.hpp"
 
 namespace volcomp::sim {
@@ -60,6 +63,24 @@ TEST_P(EnablingWithoutTarget, JumpsLessWithAHeavyAxis) {
   EXPECT_LT(at_once.moved_mm, 0.2);
   EXPECT_GT(late.moved_mm, 0.5);
   EXPECT_LT(late.moved_mm, 1.5);
+}
+
+// It does not hear {6040h, 607Ah} as {6040h}: nothing moves, and its EMCY says why.
+TEST(ForwardedDriveOfExactLength, IsNeverEnabledByAMappingThatIsTooShort) {
+  DriveKind exact;
+  exact.behaviour.exact_length = true;
+  host::BusSettings settings = bus_machine_settings();
+  for (host::BusAxis& axis : settings.axes)
+    axis.way = host::DriveWay::forwarded;
+  ForwardedWorld world(1, settings, {exact, exact, exact}, {});
+  EXPECT_FALSE(world.bring_up());
+  for (std::size_t a = 0; a < kForwardedAxes; ++a) {
+    EXPECT_EQ(world.drive(a).objects().controlword, 0U);
+    EXPECT_EQ(world.drive(a).position_units(), kForwardedBegin_nm);
+  }
+  const std::vector<EmergencyRecord>& all = world.controller().emergencies();
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                          [](const EmergencyRecord& e) { return e.code == 0x8220; }));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfTypes1And255, EnablingWithoutTarget, testing::Bool());

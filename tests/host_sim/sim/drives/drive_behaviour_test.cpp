@@ -108,6 +108,32 @@ TEST(DriveBehaviour, AFollowingErrorIsAFaultAfterItsTimeOut) {
   }
 }
 
+// {6040h} alone out of a frame of six bytes, or {6040h, 4 × 0005h}.
+TEST(DriveBehaviour, AFrameThatIsLongerThanMappedIsUsedOrAnError) {
+  for (const bool exact : {false, true}) {
+    for (const bool filled : {false, true}) {
+      DriveBehaviour behaviour;
+      behaviour.exact_length = exact;
+      Bench bench(behaving(behaviour));
+      bench.give(0x000, {0x80, 0x03});  // PRE-OPERATIONAL
+      ASSERT_EQ(bench.write(0x1400, 1, 0x8000'0203, 4), 0U);
+      ASSERT_EQ(bench.write(0x1600, 0, 0, 1), 0U);
+      ASSERT_EQ(bench.write(0x1600, 1, 0x6040'0010, 4), 0U);
+      for (std::uint8_t i = 2; filled && i <= 5; ++i)
+        ASSERT_EQ(bench.write(0x1600, i, 0x0005'0008, 4), 0U);
+      ASSERT_EQ(bench.write(0x1600, 0, filled ? 5 : 1, 1), 0U);
+      ASSERT_EQ(bench.write(0x1400, 1, 0x0000'0203, 4), 0U);
+      bench.give(0x000, {0x01, 0x03});
+      bench.cycle(0x06, 0);
+      const bool heard = !exact || filled;
+      EXPECT_EQ(bench.drive.objects().controlword, heard ? 0x06 : 0);
+      ASSERT_EQ(bench.emergencies.size(), heard ? 0U : 1U);
+      for (const hal::CanFrame& emergency : bench.emergencies)
+        EXPECT_EQ(emergency.data[0], 0x20);  // 8220h
+    }
+  }
+}
+
 // RPDO1 of type 255: the controlword acts when it comes; the position loop still waits for SYNC.
 TEST(DriveBehaviour, ATargetActsAtSyncOrAtReception) {
   for (const bool at_reception : {false, true}) {
