@@ -38,7 +38,7 @@ bool Forwarding::drives_follow() const {
 }
 
 bool Forwarding::takes_offset(std::size_t axis) const {
-  return axis_[axis].phase == Phase::following && !axis_[axis].deaf;
+  return axis_[axis].phase == Phase::following && !axis_[axis].unmoved;
 }
 
 bool Forwarding::may_send(std::size_t axis) const {
@@ -47,7 +47,7 @@ bool Forwarding::may_send(std::size_t axis) const {
 }
 
 bool Forwarding::silent(std::size_t axis) const {
-  return has(axis) && (!may_send(axis) || axis_[axis].deaf);
+  return has(axis) && (!may_send(axis) || axis_[axis].unmoved);
 }
 
 bool Forwarding::incomplete() const {
@@ -77,8 +77,18 @@ void Forwarding::see(std::size_t axis, bool follows) {
 
 // Homing in the drive reports "operation enabled", too, and takes no target: the mode counts.
 void Forwarding::see_status(std::size_t axis) {
+  axis_[axis].unclear = false;
   see(axis, operation_enabled(core_.objects.drive_status[axis]) &&
                 core_.objects.drive_mode[axis] == kCyclicPosition);
+}
+
+// A status that is missing tells nothing, unless the controller has disabled the drive and enables
+// it again meanwhile. To take the offset away as soon as it disables would be a step for a drive
+// that lost that controlword.
+void Forwarding::see_control(std::size_t axis) {
+  const bool enables = enables_operation(core_.objects.control[axis]);
+  if (enables && axis_[axis].unclear) see(axis, false);
+  axis_[axis].unclear = !enables;
 }
 
 // The drive moves by the offset when the offset is in the target it takes: one that stands where
@@ -105,7 +115,7 @@ void Forwarding::listen(std::size_t axis) {
   const auto moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(o.actual[axis]) -
                                                static_cast<std::uint32_t>(o.target[axis]));
   const std::int64_t twice = 2 * std::int64_t{moved};
-  x.deaf = x.deaf || (offset > 0 ? twice < offset : twice > offset);
+  x.unmoved = x.unmoved || (offset > 0 ? twice < offset : twice > offset);
 }
 
 void Forwarding::arrived(std::uint32_t bits, bool at_once, std::uint64_t now_us) {
@@ -114,6 +124,7 @@ void Forwarding::arrived(std::uint32_t bits, bool at_once, std::uint64_t now_us)
   for (std::size_t a = 0; (reported | wanted) != 0 && a < kNodeAxes; ++a) {
     if ((reported & bit(a)) != 0) see_status(a);
     if ((wanted & bit(a)) == 0) continue;
+    see_control(a);
     axis_[a].target_us = now_us;
     if (at_once) send(a);
   }
@@ -138,7 +149,6 @@ void Forwarding::note_actual(std::size_t axis) {
                                 static_cast<std::uint32_t>(core_.gate[axis].last()));
 }
 
-// A status that is missing tells nothing, unless the controller has disabled the drive meanwhile.
 void Forwarding::judge() {
   if (axes_ == 0) return;
   bool all_ready = true;
@@ -147,9 +157,6 @@ void Forwarding::judge() {
     Axis& x = axis_[a];
     if (known_stopped(a)) forget_mapping(a);
     note_actual(a);
-    const bool unheard = !core_.has(Arrival::kActual, a);
-    if (unheard && core_.has(Arrival::kTarget, a) && !enables_operation(core_.objects.control[a]))
-      see(a, false);
     if (core_.objects.mapped_way[a] != core_.objects.way[a]) lose(a);
     const unsigned window = 2U * core_.objects.late_cycles + 2U;
     if (x.phase == Phase::beginning && x.begun > window) x.phase = Phase::following;

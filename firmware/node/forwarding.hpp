@@ -10,7 +10,8 @@
 //   2. None is made up, none is sent twice, none is kept beyond the next SYNC.
 //   3. A controller sets its target to 6064h when it enables a drive, or after homing. Therefore
 //      the offset is 0 while the drive is known not to follow targets, and then for as many targets
-//      as can be under way; then it comes softly.
+//      as can be under way; then it comes softly. A drive that was told to disable and enable again
+//      without a status in between counts as one that did not follow.
 //   4. A node that stood still and went on would make a drive jump. Targets that came but did not
 //      leave before the next SYNC, or left and were on the bus only after it (where the port
 //      tells), more than 2200h:04 in a row, end the forwarding for all axes, and so do frames lost
@@ -90,11 +91,13 @@ class Forwarding {
     std::uint8_t begun = 0;   // targets since it began to follow
     std::uint8_t missed = 0;  // targets in a row that came and did not leave
     std::uint8_t rested = 0;  // cycles at rest
-    bool deaf = false;        // it does not move with the offset
+    bool unmoved = false;     // it does not move with the offset
+    bool unclear = false;     // told to disable, no status since
   };
 
   void see(std::size_t axis, bool follows);
   void see_status(std::size_t axis);
+  void see_control(std::size_t axis);
   void listen(std::size_t axis);
   void note_actual(std::size_t axis);
   void miss(std::size_t axis);

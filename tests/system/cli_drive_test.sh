@@ -18,7 +18,7 @@ for eds in "$source_dir"/host_sim/drives/*.eds; do
 done
 expect 1 'by PDO; not in a TPDO' "${check[@]}" --eds epos4_0170
 expect 1 'RPDO2 hears 305h: an offset there would be taken for 6040h, 6060h' "${check[@]}" --eds epos4_0170 --node 5
-expect 1 'which this node does not know yet' "${check[@]}" --eds eyou
+expect 1 'way 1 (forwarded target)' "${check[@]}" --eds eyou
 
 # --- the user's own file; a linear axis; standard input
 sed 's/^DefaultValue=0xFF410000/DefaultValue=0x00B50000/' "$source_dir/host_sim/drives/nanotec_cl4e.eds" >"$work/own.eds"

@@ -200,7 +200,7 @@ void ForwardingBench::take(FollowingDrive& d) {
   } else {
     ASSERT_LE(std::abs(d.waits->offset() - d.taken->offset()), slew);
   }
-  d.actual = d.deaf ? d.waits->target : d.waits->sent;
+  d.actual = d.unmoved ? d.waits->target : d.waits->sent;
   d.taken = d.waits;
   d.waits.reset();
 }

@@ -23,7 +23,7 @@ struct ForwardedTarget {
 struct FollowingDrive {
   bool enabled = false;
   bool referenced = true;
-  bool deaf = false;                     // takes 607Ah from elsewhere, as the controller means it
+  bool unmoved = false;                  // takes 607Ah from elsewhere, as the controller means it
   std::int8_t mode = 8;                  // 6061h
   std::int32_t target = 0;               // that the controller sends next
   std::int32_t actual = 0;               // 6064h: it stands where it was told, at the next SYNC

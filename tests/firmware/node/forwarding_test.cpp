@@ -278,7 +278,7 @@ TEST_F(NodeForwarding, HeartbeatEndsWithTheTargetsWhereItIsAskedTo) {
 TEST_F(NodeForwarding, FindsADriveThatDoesNotHearIt) {
   follow();
   ASSERT_GT(std::abs(bus.drive[0].taken->offset()), bus.slew) << "it is looked for";
-  bus.drive[0].deaf = true;
+  bus.drive[0].unmoved = true;
   bus.cycles(150);
   EXPECT_TRUE(bus.bench.emergency(ErrorCode::offset_not_confirmed, 1));
   EXPECT_FALSE(bus.bench.emergency(ErrorCode::offset_not_confirmed, 2));

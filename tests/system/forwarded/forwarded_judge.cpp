@@ -63,18 +63,18 @@ void ForwardedJudge::said(const hal::CanFrame& frame) {
 
 void ForwardedJudge::node_hears(const hal::CanFrame& frame) {
   if (node_.device().state() != canopen::NmtState::operational) return;
-  if (frame.id == canopen::kSync) {
-    for (Axis& x : axis_)
-      x.reported = false;
-  }
   if (const auto a = axis_of(frame, canopen::kRpdo1); a && frame.size == 6) {
-    axis_.at(*a).heard = target_in(frame, 2);
-    axis_.at(*a).control = static_cast<std::uint16_t>(load_le(frame.data.data(), 2));
+    Axis& x = axis_.at(*a);
+    constexpr std::uint16_t kEnables = 0x0F;
+    const bool enables = (load_le(frame.data.data(), 2) & kEnables) == kEnables;
+    x.heard = target_in(frame, 2);
+    if (enables && x.disabled_unseen) x.presumed = x.sent + 1;
+    x.disabled_unseen = !enables;
   }
   if (const auto a = axis_of(frame, canopen::kTpdo1); a && frame.size == 7) {
     const auto word = static_cast<std::uint16_t>(load_le(&frame.data[4], 2));
     Axis& x = axis_.at(*a);
-    x.reported = true;
+    x.disabled_unseen = false;
     if (!follows(word, static_cast<std::int8_t>(frame.data[6]))) x.told = x.sent;
   }
 }
@@ -87,8 +87,6 @@ void ForwardedJudge::node_sends(const hal::CanFrame& frame) {
   if (!x.heard) return wrong(*a, "a target that the controller has not sent");
   const SentTarget target{*x.heard, target_in(frame, 0), cycle_, ++x.sent};
   x.heard.reset();
-  constexpr std::uint16_t kEnables = 0x0F;
-  if (!x.reported && (x.control & kEnables) != kEnables) x.presumed = target.number;
   if (target.offset() != node_.objects().offset[*a])
     wrong(*a, fmt::format("{} is not {} plus an offset of the gate", target.sent, target.target));
   if (std::abs(target.offset()) > limit_) wrong(*a, fmt::format("offset {}", target.offset()));

@@ -6,10 +6,9 @@
 //     gate gives out (2020h), which is at most 2201h; none is sent twice or older than four cycles
 //   - a drive that would take it for something else gets none
 //   - from one target that a drive takes to the next: what the controller moved plus 2202h
-//   - the same, and once at most 2201h: the status of a drive was lost on its way to the node in
-//   the
-//     very cycle in which the controller disabled it, and the drive has not heard that (or takes
-//     targets when they come). The node presumes that it stops, and begins anew with offset 0.
+//   - the same, and once at most 2201h: the controller told a drive to disable and to enable again,
+//     every status in between was lost on its way to the node, and the drive has not heard the
+//     first. The node presumes that it stopped, and begins anew with offset 0.
 //   - the first target that a drive takes has no offset once the node knows that it did not follow
 
 #include <array>
@@ -70,7 +69,7 @@ class ForwardedJudge {
   [[nodiscard]] std::uint64_t taken() const { return taken_; }
   [[nodiscard]] std::uint64_t corrected() const { return corrected_; }
   [[nodiscard]] std::uint64_t switched_on() const { return switched_on_; }
-  // Steps of drives that were presumed disabled.
+  // Steps of drives that were presumed to have stopped.
   [[nodiscard]] std::uint64_t presumed() const { return presumed_; }
   // First targets that were under way when the node did not know yet.
   [[nodiscard]] std::uint64_t under_way() const { return under_way_; }
@@ -90,9 +89,8 @@ class ForwardedJudge {
     std::optional<SentTarget> taken;             // since it follows
     std::optional<std::uint64_t> told;           // sent() when the node heard that it does not
     std::optional<std::int32_t> input;           // at this SYNC
-    std::uint16_t control = 0;                   // as the node heard it
-    bool reported = false;                       // 6041h, to the node since SYNC
-    std::uint64_t presumed = 0;  // number of the last target sent to a drive presumed disabled
+    bool disabled_unseen = false;                // the node heard 6040h, and no 6041h since
+    std::uint64_t presumed = 0;  // number of the first target after it was enabled so
     bool served = false;         // a target has come since the drive was started
     std::uint64_t sent = 0;
     std::uint64_t periods = 0;

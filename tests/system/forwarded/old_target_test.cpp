@@ -71,7 +71,7 @@ TEST(ForwardedDriveOfExactLength, IsNeverEnabledByAMappingThatIsTooShort) {
   exact.behaviour.exact_length = true;
   host::BusSettings settings = bus_machine_settings();
   for (host::BusAxis& axis : settings.axes)
-    axis.way = host::DriveWay::forwarded;
+    axis.way = node::Way::forwarded_target;
   ForwardedWorld world(1, settings, {exact, exact, exact}, {});
   EXPECT_FALSE(world.bring_up());
   for (std::size_t a = 0; a < kForwardedAxes; ++a) {

@@ -169,8 +169,11 @@ class Checker {
       const std::optional<bool> target = may_be_forwarded(drive_);
       check_.best = target != false ? Way::forwarded_target : Way::controller_adds;
       check_.best_is_sure = target ? std::optional(true) : std::nullopt;
-      miss(drive_.has(kOffset) ? "60B0h cannot be mapped into an RPDO"
-                               : "60B0h, the position offset, is absent");
+      const std::string reason = drive_.has(kOffset) ? "60B0h cannot be mapped into an RPDO"
+                                                     : "60B0h, the position offset, is absent";
+      warn(fmt::format("{}: {}", reason,
+                       target != false ? "its target has to come from the node, and stops with it"
+                                       : "the controller has to add what the node tells it"));
     }
   }
 
@@ -260,7 +263,8 @@ class Checker {
       warn(fmt::format("units: {}", units.unknown));
       return;
     }
-    if (!units.scale) miss("its units do not fit 2030h : 2031h of the node, each at most 2^20");
+    if (!units.scale && !units.fits_units_per_turn())
+      miss("its units fit neither 2030h : 2031h of the node, each at most 2^20, nor 2036h");
     if (const std::string sentence = coarseness(units); !sentence.empty()) warn(sentence);
     if (units.per_turn && !units.nm_per_unit && !units.survives_wrap())
       warn(fmt::format(

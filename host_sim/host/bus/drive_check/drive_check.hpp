@@ -14,8 +14,6 @@ namespace volcomp::host {
 
 using node::Way;
 [[nodiscard]] const char* words_of(Way way);
-// This node knows the first way only; the others are told, so that people know what to wait for.
-inline constexpr Way kWayOfNode = Way::offset;
 
 // One line of the check.
 struct DriveFact {
@@ -35,9 +33,9 @@ struct DriveCheck {
   std::vector<std::string> missing;   // for the best way, a sentence each
   std::vector<std::string> warnings;  // what to look after, a sentence each
 
-  // The way fits as far as can be read, this node knows it, and nothing is missing.
+  // A way fits as far as can be read, and nothing is missing for it.
   [[nodiscard]] bool good() const {
-    return best == kWayOfNode && best_is_sure.value_or(true) && missing.empty();
+    return best != Way::none && best_is_sure.value_or(true) && missing.empty();
   }
 };
 

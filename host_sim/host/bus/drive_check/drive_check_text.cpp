@@ -27,7 +27,6 @@ std::string way_text(const DriveCheck& check) {
     text += *check.confirmed ? ", confirmed" : ", unconfirmed";
   if (!check.best_is_sure)
     text += fmt::format(" fits if a PDO takes {}h", check.best == Way::offset ? "60B0" : "607A");
-  if (check.best != kWayOfNode) text += ", which this node does not know yet";
   return text;
 }
 
@@ -59,7 +58,6 @@ nlohmann::json to_json(const DriveCheck& check) {
                                           : nlohmann::json(static_cast<int>(check.best))},
           {"way_is_sure", truth_of(check.best_is_sure)},
           {"confirmed", truth_of(check.confirmed)},
-          {"known_to_this_node", check.best == kWayOfNode},
           {"good", check.good()},
           {"missing", check.missing},
           {"warnings", check.warnings}};

@@ -105,6 +105,11 @@ bool DriveUnits::survives_wrap() const {
   return n > 0 && (n & (n - 1U)) == 0 && n <= (std::uint64_t{1} << 32U);
 }
 
+bool DriveUnits::fits_units_per_turn() const {
+  const std::uint64_t n = whole_per_turn.value_or(0);
+  return !nm_per_unit && n > 0 && n <= UINT32_MAX;
+}
+
 DriveUnits units_of(const ForeignDrive& drive) {
   DriveUnits units;
   const auto code = drive.number(0x60A8);
@@ -130,6 +135,8 @@ std::string describe(const DriveUnits& units) {
                                     : fmt::format("{:.9g} nm", *units.nm_per_unit);
   if (units.scale)
     text += fmt::format(", 2030h : 2031h = {} : {}", units.scale->first, units.scale->second);
+  else if (units.fits_units_per_turn())
+    text += fmt::format(", rotary: 2036h = {}", *units.whole_per_turn);
   return text;
 }
 

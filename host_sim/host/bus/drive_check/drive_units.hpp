@@ -24,6 +24,8 @@ struct DriveUnits {
   // A whole number of units in a turn that divides 2^32: the turn survives the wrap of an
   // INTEGER32.
   [[nodiscard]] bool survives_wrap() const;
+  // A rotary axis that 2036h of the node describes.
+  [[nodiscard]] bool fits_units_per_turn() const;
 };
 
 [[nodiscard]] DriveUnits units_of(const ForeignDrive& drive);
