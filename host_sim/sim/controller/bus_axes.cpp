@@ -244,17 +244,28 @@ bool BusAxes::node_answers() {
   return running && reports > reports_before_start_;
 }
 
+// A node that forwards targets takes a SYNC without counter for a foreign one when it comes less
+// than half a period after the last.
+std::uint64_t BusAxes::shortest_cycle_us() const {
+  const host::BusSettings& settings = controller_.settings();
+  return host::forwards_targets(settings) && host::sync_counter_overflow(settings) == 0
+             ? static_cast<std::uint64_t>(std::llround(0.75 * period_us_))
+             : 0;
+}
+
 // Lock step while the node answers every cycle; before that, its own time.
 void BusAxes::await_node() {
   const std::uint64_t begin_us = gateway_->now_us();
   const auto period_us = static_cast<std::uint64_t>(std::llround(period_us_));
+  const std::uint64_t shortest_us = shortest_cycle_us();
   const bool answers = node_answers();
   while (true) {
     bus_.run_until_quiet();
     gateway_->exchange(*gateway_port_);
     bus_.run_until_quiet();
     const std::uint64_t passed_us = gateway_->now_us() - begin_us;
-    if (answers ? controller_.sync_answered() : passed_us >= period_us) return;
+    const bool answered = controller_.sync_answered() && passed_us >= shortest_us;
+    if (answers ? answered : passed_us >= period_us) return;
     if (passed_us > kAnswerTimeout_us)
       throw host::UserError("the compensation node does not answer any more");
     gateway_->wait(kWait_us);

@@ -25,7 +25,8 @@ class BusAxes final : public AxisGroup {
           hal::FrameLength length = hal::FrameLength::nominal);
   // Node somewhere on the bus behind `gateway`, which must outlive this. Cycles run in lock step:
   // the next SYNC leaves when the node has answered the last one. Machine time is counted in
-  // cycles and may run faster or slower than the clock on the wall.
+  // cycles and may run faster or slower than the clock on the wall; not faster by more than a third
+  // where the node judges SYNC by the clock.
   BusAxes(const host::BusSettings& settings, const std::vector<std::uint8_t>& image,
           CanGateway& gateway);
 
@@ -83,6 +84,7 @@ class BusAxes final : public AxisGroup {
   void build(const host::BusSettings& settings);
   void attach(const Cia402Drive::Settings& settings, const std::string& name);
   [[nodiscard]] bool node_answers();
+  [[nodiscard]] std::uint64_t shortest_cycle_us() const;
   void await_node();
   void serve_drives(std::uint64_t now_us);
   void feel();
