@@ -74,6 +74,7 @@ for test in "$project"/tests/system/cli_*_test.sh "$project/tests/system/cli_tes
   case $name in
     cli_pipe_test | cli_can_test) continue ;; # bytes of a bus, in the order of the moment
     cli_setup_test | cli_shell_test) arguments=("$node" "$project") ;;
+    cli_drive_test) arguments=("$project" "$build/tests/system/volcomp_drive_on_pipe") ;;
     *) arguments=("$project") ;;
   esac
   export TRANSCRIPT=$work/$name
