@@ -147,7 +147,7 @@ bool tick_leaves_everything_alone() {
   return check(never_early, "no tick comes early") && kept;
 }
 
-// Half a period after a tick, and not a tick the less for it.
+// Set for half a period after a tick.
 bool alarm_goes_off_between_ticks() {
   constexpr std::uint32_t kAlarms = 20;
   const volcomp::hal::virt::Clock clock;
