@@ -167,6 +167,25 @@ TEST_F(NodeForwarding, AddsNothingWhileADriveHomes) {
   EXPECT_NE(bus.drive[0].taken->offset(), 0);
 }
 
+// The status that would have told is lost: a controller that enables sets its target to 6064h.
+TEST_F(NodeForwarding, BeginsAnewWhereNoStatusToldOfADisable) {
+  follow();
+  const std::int64_t before = bus.drive[0].taken->offset();
+  bus.drives_speak = false;
+  bus.enable(false);
+  bus.cycle();
+  ASSERT_TRUE(bus.drive[0].waits);
+  EXPECT_EQ(bus.drive[0].waits->offset(), before) << "the drive may not have heard it";
+  for (FollowingDrive& d : bus.drive)
+    d.waits.reset();  // it has heard it, and takes nothing
+  bus.enable(true);
+  bus.cycle();
+  for (const FollowingDrive& d : bus.drive) {
+    ASSERT_TRUE(d.waits);
+    EXPECT_EQ(d.waits->offset(), 0);
+  }
+}
+
 // Enabled without reference the drive follows all the same: the offset must not jump.
 TEST_F(NodeForwarding, RampsDownWhereAFollowingDriveLosesItsReference) {
   follow();
