@@ -49,6 +49,10 @@ set(volcomp_target_cxx_flags -fno-exceptions -fno-rtti -fno-threadsafe-statics -
 target_compile_options(volcomp_target_rules INTERFACE
   "$<$<COMPILE_LANGUAGE:CXX>:${volcomp_target_cxx_flags}>")
 target_link_libraries(volcomp_target_rules INTERFACE volcomp_eigen)
+if(CMAKE_CROSSCOMPILING)
+  # Compiled for size, GCC calls the functions that copy one number of a matrix: the calls are longer than they.
+  target_compile_definitions(volcomp_target_rules INTERFACE "EIGEN_STRONG_INLINE=inline __attribute__((always_inline))")
+endif()
 if(NOT VOLCOMP_SANITIZE AND NOT VOLCOMP_COVERAGE)
   # Not for host programs: GCC sees null pointers inside the JSON library, wherever a sanitizer adds a check, and with -O1
   # in Eigen (the preset "dev", which for the same reason goes without -Wmaybe-uninitialized).

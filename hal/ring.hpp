@@ -34,6 +34,11 @@ class Ring {
     return true;
   }
 
+  // For the context that pops.
+  [[nodiscard]] bool empty() const {
+    return written_.load(std::memory_order_acquire) == read_.load(std::memory_order_relaxed);
+  }
+
   // For the context that pushes: so many will be taken at least.
   [[nodiscard]] std::size_t room() const {
     return Capacity -

@@ -21,9 +21,9 @@ comp/machine:              comp/core
 comp/tables:               comp/machine
 comp/tick:                 comp/tables
 comp/probe comp/strokes:   comp/tick
-comp/metrology/tables:     comp/probe comp/strokes
+comp/metrology/statistics comp/metrology/tables: comp/probe comp/strokes
 comp/metrology/fits:       comp/metrology/tables
-comp/metrology/gears comp/metrology/faces: comp/metrology/fits
+comp/metrology/circles comp/metrology/gears comp/metrology/faces: comp/metrology/fits
 hal:                       comp/core
 firmware/canopen:          hal
 firmware/node:             firmware/canopen comp/probe comp/strokes
@@ -41,6 +41,7 @@ host_sim/sim/controller:   host_sim/sim/drives host_sim/sim/instruments firmware
 host_sim/sim/campaign host_sim/sim/live: host_sim/sim/controller
 host_sim/experiments/any_machine host_sim/experiments/xyfz host_sim/experiments/l300g: host_sim/sim/campaign
 host_sim/experiments/face_gear host_sim/experiments/internal_helical: host_sim/sim/campaign
+host_sim/experiments/reversal: host_sim/sim/campaign
 host_sim/cli:              host_sim/experiments host_sim/sim
 """
 # Folder of tests -> what its files must not include.

@@ -35,9 +35,9 @@ build_measured() {
   local board
   need qemu-system-arm llvm-mca
   for board in m7 m4; do
-    build_preset "$board" --target volcomp-node volcomp-servo volcomp-ticks volcomp-latency volcomp-services volcomp-touches
+    build_preset "$board" --target volcomp-node volcomp-servo volcomp-ticks volcomp-worst volcomp-latency volcomp-services volcomp-touches
   done
-  build_preset m7 --target volcomp-grinder volcomp-strokes
+  build_preset m7 --target volcomp-grinder volcomp-strokes volcomp-trace
   build_preset host --target volcomp
   make_tables
   build_preset a53 --target volcomp-node

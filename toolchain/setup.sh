@@ -10,8 +10,8 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 
 build_packages=(g++ cmake ninja-build binutils ca-certificates pkg-config libeigen3-dev libfmt-dev libcli11-dev
   libinih-dev libtoml11-dev libutfcpp-dev nlohmann-json3-dev libssl-dev libcpp-httplib-dev libgtest-dev libgmock-dev libbenchmark-dev)
-check_packages=(ccache chromium doxygen fish git clang clang-format clang-tidy cppcheck llvm man-db mandoc python3 python3-pyelftools
-  shellcheck systemd zsh)
+check_packages=(ccache chromium doxygen fish git clang clang-format clang-tidy cppcheck liborocos-kdl-dev lld llvm man-db mandoc parallel python3
+  python3-pyelftools shellcheck systemd valgrind zsh)
 bus_packages=(can-utils iproute2 python3-can python3-canmatrix)
 board_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi libstdc++-arm-none-eabi-newlib g++-aarch64-linux-gnu
   qemu-system-arm gdb-multiarch)

@@ -15,13 +15,21 @@ class Published {
 
   // For the context that writes.
   [[nodiscard]] const T& own() const { return value_; }
-  void set(T value) { __atomic_store_n(&value_, value, __ATOMIC_RELAXED); }
+  void set(T value) { __atomic_store(&value_, &value, __ATOMIC_RELAXED); }
   // Whatever was written before it is seen by a reader that acquires.
-  void release(T value) { __atomic_store_n(&value_, value, __ATOMIC_RELEASE); }
+  void release(T value) { __atomic_store(&value_, &value, __ATOMIC_RELEASE); }
 
   // For any context.
-  [[nodiscard]] T get() const { return __atomic_load_n(&value_, __ATOMIC_RELAXED); }
-  [[nodiscard]] T acquire() const { return __atomic_load_n(&value_, __ATOMIC_ACQUIRE); }
+  [[nodiscard]] T get() const {
+    T value{};
+    __atomic_load(&value_, &value, __ATOMIC_RELAXED);
+    return value;
+  }
+  [[nodiscard]] T acquire() const {
+    T value{};
+    __atomic_load(&value_, &value, __ATOMIC_ACQUIRE);
+    return value;
+  }
 
  private:
   T value_{};

@@ -20,6 +20,12 @@ constexpr std::array kLoadingSentences{
 
 }  // namespace
 
+Where::Where() = default;
+
+Status::Status() = default;
+
+Status::Status(Reason why, const Where& place) : reason(why), where(place) {}
+
 Status refuse(Reason reason) { return {reason, {}}; }
 
 Status refuse(Reason reason, const Where& where) { return {reason, where}; }

@@ -16,6 +16,8 @@ enum class Reason : std::uint8_t {
 
 // What a Status points at. A negative number or an empty name means "does not apply".
 struct Where {
+  Where();
+
   char axis = '\0';                 // axis letter
   const char* direction = nullptr;  // "up" or "down"
   const char* field = nullptr;      // name of the offending field or setting
@@ -31,14 +33,18 @@ struct Where {
   bool has_deviation = false;
 };
 
+// Its constructors and refuse() are functions of their own, for the sake of flash: a place is
+// larger than the calls that fill it in, and boards have many.
 struct [[nodiscard]] Status {
+  Status();  // ok
+  Status(Reason why, const Where& place);
+
   Reason reason = Reason::ok;
-  Where where{};
+  Where where;
 
   [[nodiscard]] constexpr bool ok() const { return reason == Reason::ok; }
 };
 
-// Functions of their own: a place is larger than the calls that fill it in, and boards have many.
 Status refuse(Reason reason);
 Status refuse(Reason reason, const Where& where);
 

@@ -11,9 +11,9 @@ namespace volcomp {
 inline constexpr double kMinAuthority = 0.1;
 
 struct MotionOffset {
-  Pose offset{};           // by NC axis, mm or rad; 0 for axes that do not correct
-  Vec3 remainder{};        // position error left over, base, mm
-  double authority = 0.0;  // |det| of the unit columns, or the sine of the angle between two
+  Pose offset{};                  // by NC axis, mm or rad; 0 for axes that do not correct
+  Vec3 remainder = Vec3::Zero();  // position error left over, base, mm
+  double authority = 0.0;         // |det| of the unit columns, or the sine of the angle between two
 };
 
 // Column of ∂p/∂q for one NC axis, tool relative to work, base frame: mm/mm or mm/rad.

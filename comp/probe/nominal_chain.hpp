@@ -28,9 +28,10 @@ class NominalChain {
  public:
   NominalChain() = default;
   // `machine` as MachineChain::build accepts it.
-  explicit NominalChain(const MachineDescription& machine) { build(machine); }
-  // As if constructed anew; without a second chain, for small stacks.
-  void build(const MachineDescription& machine);
+  [[gnu::cold]] explicit NominalChain(const MachineDescription& machine) { build(machine); }
+  // As if constructed anew; without a second chain, for small stacks. Cold: for size where at() is
+  // compiled for speed.
+  [[gnu::cold]] void build(const MachineDescription& machine);
 
   [[nodiscard]] std::size_t axes() const { return axes_; }
   [[nodiscard]] bool rotary(std::size_t axis) const { return rotary_[axis]; }
@@ -49,7 +50,7 @@ class NominalChain {
     Vec3 offset;  // nm
     Mat3 orientation;
   };
-  void append(const MachineDescription& machine, const BodyPath& bodies);
+  [[gnu::cold]] void append(const MachineDescription& machine, const BodyPath& bodies);
 
   void walk_to_base(const LatchedPose& q, NominalPoint& nominal) const;
   void walk_to_work(const LatchedPose& q, NominalPoint& nominal) const;

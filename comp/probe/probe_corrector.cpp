@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "comp/core/to_double.hpp"
 #include "comp/core/units.hpp"
 #include "comp/machine/double3.hpp"
 #include "comp/machine/machine_limits.hpp"
@@ -11,15 +12,6 @@ namespace volcomp {
 namespace {
 
 constexpr double kRadPerUnit = 1.0 / kUnitsPerRad;
-
-constexpr double kWord = 4294967296.0;  // 2^32
-
-// As a cast does it, in pieces that processors know: exact below 2^53.
-double to_double(std::int64_t value) {
-  const auto bits = static_cast<std::uint64_t>(value);
-  return static_cast<double>(static_cast<std::int32_t>(bits >> 32U)) * kWord +
-         static_cast<double>(static_cast<std::uint32_t>(bits));
-}
 
 // Counted through to at most half a turn either way: what a double holds exactly.
 double within_a_turn(std::int64_t position) {

@@ -64,7 +64,7 @@ class ProbeCorrector {
  public:
   ProbeCorrector() = default;
   // Machine and tool point from now on; the settings stay. As MachineChain::build accepts it.
-  void set_machine(const MachineDescription& machine);
+  [[gnu::cold]] void set_machine(const MachineDescription& machine);
 
   ProbeSettings settings{};
 

@@ -37,9 +37,9 @@ struct LatchReport {
 class TouchCollector {
  public:
   // Forgets an edge that is under way.
-  void configure(const TouchRules& rules);
+  [[gnu::cold]] void configure(const TouchRules& rules);
   // The counters of the drives are not known any more.
-  void restart();
+  [[gnu::cold]] void restart();
 
   void report(std::size_t axis, const LatchReport& report);
 

@@ -1,6 +1,6 @@
 #pragma once
-// The offset of C while a helical slot is ground: T1(z, direction) + T2(slot), through a slew limit
-// (docs/papers/internal-helical.md, "What we do").
+// The offset of C while a helical slot is ground: T1(z, direction) + T2(slot), through the limiter
+// of offsets (docs/papers/internal-helical.md, "What we do").
 //
 // Tables are staged in the background and taken over at the end of a stroke, outside the face: a
 // change in the middle of a slot would be a step on the flank.
@@ -13,11 +13,13 @@
 #include "comp/core/units.hpp"
 #include "comp/tables/direction.hpp"
 #include "comp/tick/limiter.hpp"
+#include "comp/tick/offset_limiter.hpp"
 #include "comp/tick/tick_types.hpp"
 
 namespace volcomp {
 
-// Beside the bits of StatusBit.
+// In the place of kAccelerationLimited: an offset that its acceleration holds back shows
+// kRateLimited.
 inline constexpr std::uint16_t kOtherFeed = 1U << 14U;  // the tables are for another feed rate
 
 // What the background fills in, in rad.
@@ -33,6 +35,7 @@ struct StrokeTableSource {
 struct StrokeOffsetSettings {
   std::int32_t rate = 1'000;       // largest change per tick, 2^-32 turn, ≥ 1
   std::uint32_t stale_ticks = 20;  // without a fresh frame for more: the offset goes to 0
+  std::int32_t acceleration = 0;   // largest change of the change per tick; 0 or ≥ 2·rate: none
 };
 
 struct StrokeState {
@@ -54,10 +57,13 @@ class StrokeOffsets {
   // Forgets all tables. Refused: bad_setting (field). Only while no tick can come.
   Status configure(const StrokeOffsetSettings& settings) {
     Where where;
+    const OffsetLimits limits{kMostRounded, settings.rate, settings.rate, settings.acceleration};
+    where.field = refused_field(limits);
     if (settings.rate < 1 || settings.rate > kMostRounded) where.field = "rate";
     if (settings.stale_ticks < 1) where.field = "stale_ticks";
     if (where.field != nullptr) return refuse(Reason::bad_setting, where);
     settings_ = settings;
+    output_.change(OffsetBounds(limits));
     staged_ = active_ = false;
     request_.store(Request::none, std::memory_order_relaxed);
     restart();
@@ -66,7 +72,7 @@ class StrokeOffsets {
 
   // The offset starts at 0 again; tables stay what they are. Only while no tick can come.
   void restart() {
-    output_ = 0;
+    output_.start(0);
     status_ = 0;
     stale_for_ = 0;
   }
@@ -103,7 +109,7 @@ class StrokeOffsets {
     return {};
   }
 
-  // The offset goes to 0 at the slew limit, at once.
+  // The offset goes to 0 at its rate, at once.
   void deactivate() { request_.store(Request::deactivate, std::memory_order_release); }
 
   [[nodiscard]] bool pending() const {
@@ -130,12 +136,11 @@ class StrokeOffsets {
   std::int32_t tick(const StrokeState& state) {
     take_request(state);
     status_ = 0;
-    bool hit = false;
-    const Limiter<std::int32_t> limiter{kMostRounded, settings_.rate};
-    output_ = limiter.slew(wanted(state), output_, hit);
-    if (hit) status_ = static_cast<std::uint16_t>(status_ | kRateLimited);
+    const bool holds = !state.fresh && stale_again() <= settings_.stale_ticks;
+    const std::uint32_t limited = holds ? output_.hold() : output_.follow(wanted(state));
+    if (limited != 0) flag(kRateLimited);
     if (status_ == 0) status_ = kValid;
-    return output_;
+    return output_.offset();
   }
 
   // Status of the last tick: bits of StatusBit and kOtherFeed.
@@ -211,13 +216,17 @@ class StrokeOffsets {
     if (counter < UINT32_MAX) ++counter;
   }
 
-  // Before the slew limit.
+  // One more tick without a fresh frame; how many they are.
+  std::uint32_t stale_again() {
+    count(stale_count_);
+    count(stale_for_);
+    flag(kStale);
+    return stale_for_;
+  }
+
+  // Before the limiter. Not fresh: for too long.
   std::int32_t wanted(const StrokeState& state) {
     if (!state.fresh) {
-      count(stale_count_);
-      count(stale_for_);
-      flag(kStale);
-      if (stale_for_ <= settings_.stale_ticks) return output_;
       flag(kDropped);
       return 0;
     }
@@ -226,10 +235,11 @@ class StrokeOffsets {
     if (!state.homed) flag(kNotHomed);
     if (active_ && other_feed(state.feed_nm_per_s)) flag(kOtherFeed);
     if (status_ != 0) return 0;
-    bool hit = false;
-    const float sum = Limiter<float>{kMaxRounded, 0.0F}.clamp(offset(state), hit);
-    if (hit) flag(kClamped);
-    return round_half_even(sum);
+    const float sum = offset(state);
+    const Magnitude most(kMaxRounded);
+    if (!exceeds(sum, most)) return round_half_even(sum);
+    flag(kClamped);
+    return Magnitude::finite(sum) ? round_half_even(most.signed_like(sum)) : 0;
   }
 
   // More than 2 % off.
@@ -269,7 +279,7 @@ class StrokeOffsets {
   std::uint32_t spare_ = 0;  // written by the tick, read by the background while nothing is pending
   bool staged_ = false;
   bool active_ = false;
-  std::int32_t output_ = 0;
+  OffsetLimiter<true> output_{};
   std::uint16_t status_ = 0;
   std::uint32_t stale_for_ = 0;
   std::uint32_t stale_count_ = 0;

@@ -56,11 +56,16 @@ VOLCOMP_INLINE void interpolate(const Knot& knot, float t, ChannelValues& out) {
     out[c] = k.v[c] + t * k.d[c];
 }
 
-// A row that gives the mean of two others at t: v + t·0.
-inline void set_mean(Knot& mean, const Knot& a, const Knot& b, float t) {
+// Makes `mean` a row that gives the mean of two others at t: v + t·0. Its differences are 0 and
+// stay so.
+VOLCOMP_INLINE void set_mean(Knot& mean, const Knot& a, const Knot& b, float t) {
+  ChannelValues first;
+  ChannelValues second;
+  interpolate(a, t, first);
+  interpolate(b, t, second);
+  VOLCOMP_UNROLL
   for (std::size_t c = 0; c < 6; ++c)
-    mean.v[c] = 0.5F * ((a.v[c] + t * a.d[c]) + (b.v[c] + t * b.d[c]));
-  mean.d = {};
+    mean.v[c] = 0.5F * (first[c] + second[c]);
 }
 
 inline constexpr unsigned kFractionBits = 22;
@@ -96,8 +101,6 @@ struct Located {
   };
 };
 
-enum class RangeState : std::uint8_t { inside, outside, far_outside };
-
 // Distance from the first knot in the units of the lookup: nm, or 2^-32 turn, to which 2^-40 turn
 // is reduced so that it wraps like the axis does; `offset` is in these units. Positions at the ends
 // of the integers wrap, too: to the other side, still far outside.
@@ -116,13 +119,12 @@ VOLCOMP_INLINE bool outside(const AxisLookup& axis, std::int64_t distance, bool 
   return static_cast<std::uint32_t>(distance) > travel;
 }
 
-// Holds a distance beyond the table at its end.
-inline RangeState hold_inside(const AxisLookup& axis, bool rotary, std::int64_t& distance) {
-  if (!outside(axis, distance, rotary, axis.travel)) return RangeState::inside;
+// Holds a distance beyond the table at its end. Returns whether it was beyond the margin, too.
+VOLCOMP_INLINE bool hold_inside(const AxisLookup& axis, std::int64_t& distance) {
   const bool below = distance < 0;
   const std::int64_t excess = below ? -distance : distance - axis.travel;
   distance = below ? 0 : std::int64_t{axis.travel};
-  return excess > axis.margin ? RangeState::far_outside : RangeState::outside;
+  return excess > axis.margin;
 }
 
 // `distance` lies inside the table of these `rows`, [knot][direction].
@@ -144,9 +146,9 @@ VOLCOMP_INLINE void locate(const AxisLookup& axis, std::uint32_t distance, bool 
 }
 
 // As locate(); while the direction is unknown `mean` becomes the row between both.
-inline void locate_any(const AxisLookup& axis, std::uint32_t distance, bool rotary,
-                       const std::array<Knot, 2>* rows, Direction direction, Knot& mean,
-                       Located& at) {
+VOLCOMP_INLINE void locate_any(const AxisLookup& axis, std::uint32_t distance, bool rotary,
+                               const std::array<Knot, 2>* rows, Direction direction, Knot& mean,
+                               Located& at) {
   const bool known = direction != Direction::unknown;
   locate(axis, distance, rotary, rows, known ? direction : Direction::forward, at);
   if (known) return;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "comp/core/to_double.hpp"
+
 namespace volcomp {
 namespace {
 
@@ -35,7 +37,7 @@ Levers levers_of(const TablesView& tables, const RuntimeChain& chain) {
     if (step.kind == JointKind::fixed) continue;
     const TableGrid& grid = tables.axis[step.nc_axis].grid();
     for (const std::int64_t end : {grid.q0, grid.last()}) {
-      const float lever = static_cast<float>(end) * step.sense;
+      const float lever = static_cast<float>(to_double(end)) * step.sense;
       for (std::size_t k = 0; k < 3; ++k) {
         const bool any = chain.has_orientation;  // joints are rotated against base
         if (any || k == index(step.axis)) levers[k].include(lever);

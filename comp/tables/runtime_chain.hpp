@@ -29,6 +29,7 @@ struct RuntimeStep {
   std::uint8_t body = 0;
   std::uint8_t nc_axis = 0;
   std::uint8_t correcting = kNotCorrecting;  // index among the correcting axes
+  std::uint8_t orienting = kNotOrienting;    // of a rotary axis: index among the orienting axes
   std::uint8_t column = kNotCarried;         // where the walk carries its Jacobian column
   std::uint8_t columns_before = 0;           // carried ones of its branch nearer to the tip
   float sign = 1.0F;                         // of the NC coordinate
@@ -248,6 +249,7 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
     RuntimeStep& step = chain.step[i];
     if (step.kind != JointKind::fixed) {
       step.correcting = chain.correcting_index[step.nc_axis];
+      if (step.kind == JointKind::rotary) step.orienting = chain.orienting_index(step.nc_axis);
       chain.first_folded = static_cast<std::uint8_t>(i);
     }
     any_rotary = any_rotary || step.kind == JointKind::rotary;

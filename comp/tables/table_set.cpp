@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "comp/core/to_double.hpp"
 #include "comp/core/units.hpp"
 #include "comp/machine/inverse.hpp"
 #include "comp/machine/machine_limits.hpp"
@@ -22,7 +23,7 @@ Float3 to_float(const Vec3& v) {
 AxisLookup make_lookup(const TableGrid& table, bool rotary) {
   AxisLookup l;
   l.q0 = table.q0;
-  l.origin_nm = rotary ? 0.0F : static_cast<float>(table.q0);
+  l.origin_nm = rotary ? 0.0F : static_cast<float>(to_double(table.q0));
   l.phase = rotary ? static_cast<std::uint32_t>(table.q0 >> 8) : 0U;
   if (table.periodic) {
     l.counted = 0;
@@ -98,7 +99,7 @@ class RowSource {
   [[nodiscard]] ErrorMotion value(std::size_t travel, std::size_t knot) const {
     ErrorMotion e = channels_of(table_, travel, knot);
     const TableGrid& grid = table_.grid();
-    const auto q_nm = static_cast<double>(grid.q0 + grid.pitch * static_cast<std::int64_t>(knot));
+    const double q_nm = to_double(grid.q0 + grid.pitch * static_cast<std::int64_t>(knot));
     if (grows_)
       e(static_cast<Eigen::Index>(joint_.axis)) += thermal_growth(joint_, strain_, q_nm, fixed_nm_);
     if (folded_ == nullptr) return e;
@@ -155,7 +156,7 @@ class Bounds {
       }
     }
     add(displacement, turn);
-    const double slope = rotary ? 0.0 : steepest / static_cast<double>(table.pitch);
+    const double slope = rotary ? 0.0 : steepest / to_double(table.pitch);
     contraction_ = std::max(contraction_, turn + slope);
   }
 
@@ -249,8 +250,7 @@ Status fold_inverse(const MachineChain& chain, const RuntimeChain& runtime, cons
 }
 
 double largest_position(const TableGrid& table) {
-  return std::max(std::abs(static_cast<double>(table.q0)),
-                  std::abs(static_cast<double>(table.last())));
+  return std::max(std::abs(to_double(table.q0)), std::abs(to_double(table.last())));
 }
 
 // Longest lever an angle acts on in the kernel: the travel of every axis and, where they are not

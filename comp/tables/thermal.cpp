@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "comp/core/to_double.hpp"
 #include "comp/core/units.hpp"
 #include "comp/tables/tables_view.hpp"
 #include "comp/tables/thermal_check.hpp"
@@ -46,8 +47,8 @@ double largest_growth_nm(const TablesView& tables, const Strains& strain) {
   for (std::size_t a = 0; a < tables.chain.axis_count(); ++a) {
     const TableGrid& grid = tables.axis[a].grid();
     const double fixed = kNmPerMm * static_cast<double>(tables.expansion[a].fixed_mm);
-    const double reach = std::max(std::abs(static_cast<double>(grid.q0) - fixed),
-                                  std::abs(static_cast<double>(grid.last()) - fixed));
+    const double reach =
+        std::max(std::abs(to_double(grid.q0) - fixed), std::abs(to_double(grid.last()) - fixed));
     largest = std::max(largest, std::abs(strain[a] - tables.strain[a]) * reach);
   }
   return largest;

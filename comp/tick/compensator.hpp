@@ -1,14 +1,14 @@
 #pragma once
 // The compensator: positions in, offsets out, once per tick.
 //
-//   error → inverse Jacobian → clamp → ramp → round → slew → output
+//   error → inverse Jacobian → clamp → ramp → round → rate and acceleration → output
 //
 // Where axes orient the tool, they come first, and what their offsets do to the tool point is
 // part of the error that the others take away.
 //
-// The slew limit comes last because it is the promise made to the drive: whatever happened before,
+// The limiter comes last because it is the promise made to the drive: whatever happened before,
 // including a change of tables in the middle of a ramp, no output moves by more than `rate` in one
-// tick.
+// tick, nor changes its step by more than `acceleration` (offset_limiter.hpp).
 //
 // Two contexts use it, on one core or on two. The interrupt calls tick() only. The background calls
 // everything else; it writes into the spare half of a double buffer, then a pointer to the tables
@@ -23,9 +23,10 @@
 #include "comp/core/published.hpp"
 #include "comp/core/span.hpp"
 #include "comp/tables/direction.hpp"
-#include "comp/tick/fast_path_tally.hpp"
 #include "comp/tick/limiter.hpp"
 #include "comp/tick/motion_inverse.hpp"
+#include "comp/tick/offset_limiter.hpp"
+#include "comp/tick/status_tally.hpp"
 #include "comp/tick/tick_types.hpp"
 #include "comp/tick/tool_turning.hpp"
 #include "comp/tick/touch.hpp"
@@ -37,15 +38,20 @@ inline constexpr std::size_t kDefaultKnots = 128;
 
 namespace detail {
 
-// Slow path. Internal linkage lets the compiler tail-jump, which frees the fast path's frame: GCC
-// tail-jumps to nothing the linker may replace, such as instances of templates.
+// What is not on the fast path. Internal linkage lets the compiler tail-jump, which frees the fast
+// path's frame: GCC tail-jumps to nothing the linker may replace, such as instances of templates.
 template <class Unit>
-static void tick_slow_path(Unit& unit, const typename Unit::Input& in, float ramp,
-                           typename Unit::Output& out);
+static void tick_limited(Unit& unit, std::uint32_t limited, std::uint32_t ended, float ramp,
+                         typename Unit::Output& out);
+template <class Unit>
+static void tick_slow_path(Unit& unit, const typename Unit::Input& in, std::size_t first,
+                           float ramp, typename Unit::Output& out);
 
 }  // namespace detail
 
-template <class Machine, std::size_t Knots = kDefaultKnots>
+// `Limiter`: OffsetLimiter<false> for a board whose drives need no bound on the acceleration of an
+// offset. Settings with one are then refused.
+template <class Machine, std::size_t Knots = kDefaultKnots, class Limiter = OffsetLimiter<true>>
 class Compensator {
  public:
   static constexpr std::size_t kAxes = Machine::kAxes;
@@ -85,7 +91,7 @@ class Compensator {
   // once, then it follows by soft_rate. Between two ticks, in the context of the tick.
   [[gnu::cold]] void begin_at_zero(std::size_t axis) {
     AxisState& s = axis_[axis];
-    s.output = 0;
+    s.out.start(0);
     s.ramp_from = 0.0F;
     s.soft = true;
     guarded_axes_ |= 1U << axis;
@@ -113,13 +119,13 @@ class Compensator {
   [[nodiscard]] bool at_rest() const { return (ramps_.get() & 1U) == 0 && !pending(); }
 
   // Hands the staged set over: active from the next tick, ramped in. Refuses not_staged.
-  Status activate();
+  [[gnu::cold]] Status activate();
 
   // Corrections ramp to 0 and stay there until the next activate().
-  void deactivate();
+  [[gnu::cold]] void deactivate();
 
   // Does at once what the next tick would begin with. Only while no tick can come.
-  void settle() {
+  [[gnu::cold]] void settle() {
     if (pending()) take_request();
   }
 
@@ -174,9 +180,8 @@ class Compensator {
 
   // No two accepted positions of a linear axis are further apart.
   static constexpr std::int64_t kAnyStep = 2 * kMaxPosition;
+  static constexpr std::uint32_t kNoAxes = 1U << 31U;              // guarded without tables
   static constexpr std::int64_t kAnyTurn = std::int64_t{1} << 62;  // half of what wraps
-  static constexpr std::uint16_t kNoStatusYet = 1U << 15U;
-
   struct AxisState {
     // what the fast path reads and writes, in its order
     std::int64_t seen = 0;    // position given last, good or implausible
@@ -185,22 +190,18 @@ class Compensator {
     DirectionTracker direction;
     Magnitude limit;
     float ramp_from = 0.0F;  // 0 unless a ramp is under way
-    std::int32_t output = 0;
-    std::int32_t rate = 1;
-    Published<std::int32_t> largest = 0;
+    Limiter out;
 
     // what only the exceptions need
     std::uint64_t fast_path_step = 0;    // samples of the fast path are closer to the last one
     std::uint64_t most_step = kAnyStep;  // largest plausible |Δposition|
     std::int64_t position = 0;           // last good one, unless steady: then it is the one seen
-    std::int32_t soft_rate = 1;
     std::uint16_t stale_ticks = 0;
-    std::uint16_t status = kNoStatusYet;  // of the last tick, 0 if it had tallied bits only
-    std::uint16_t exception = 0;          // status bits that the sample of this tick raised
-    bool known = false;                   // has ever had a valid position
-    bool steady = false;                  // known, and the last sample was good
-    bool soft = false;  // dropped, not homed or coming back: soft_rate instead of rate
-    Knot mean{};        // row in use until a direction is known
+    std::uint16_t exception = 0;  // status bits that the sample of this tick raised
+    bool known = false;           // has ever had a valid position
+    bool steady = false;          // known, and the last sample was good
+    bool soft = false;            // dropped, not homed or coming back: soft_rate instead of rate
+    Knot mean{};                  // row in use until a direction is known
   };
 
   // What the last change brought. The tick writes it.
@@ -217,6 +218,7 @@ class Compensator {
   struct Orienting {
     std::array<TurnRange, kMaxOrienting> range;
     std::array<float, kMaxOrienting> excess;  // found within it
+    kernel::StepAngles angle;
   };
   struct NotOrienting {};
 
@@ -244,6 +246,8 @@ class Compensator {
   void for_each_axis(const Visit& visit) const;
   template <class Visit>
   void for_each_correcting(const Visit& visit) const;
+  [[nodiscard]] bool ordinary() const;
+  float advance_ramp(std::uint32_t& common);
   template <bool Turns>
   static bool within_reach(const AxisState& s, std::int64_t position);
   template <bool Turns>
@@ -252,10 +256,24 @@ class Compensator {
   template <bool Turns>
   bool follow(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
   bool follow_one(std::size_t axis, const AxisSample& sample, const Tables& set, Located& at);
-  bool follow_fast_path(const Input& in, const Tables& set, std::uint32_t status, Places& at,
-                        Output& out);
+  std::size_t follow_fast_path(const Input& in, const Tables& set, std::uint32_t status, Places& at,
+                               Output& out);
+  void keep_places(const Places& at, std::size_t count);
   bool find_excess(const Tables& set, Work& work, Float3& error_nm) const;
   bool find_kept_excess(const Tables& set, Work& work, Float3& error_nm) const;
+  template <bool Ramps>
+  bool put_out(std::size_t axis, AxisState& s, float excess, float ramp, std::uint32_t common,
+               Output& out);
+  template <bool Ramps>
+  std::uint32_t put_out_all(const Work& work, float ramp, std::uint32_t common, Output& out);
+
+  // compensator_limited.inl
+  void put_out_limited(std::size_t axis, AxisState& s, float excess, float ramp,
+                       std::uint32_t ramping, Output& out);
+  void tick_limited(std::uint32_t limited, std::uint32_t ended, float ramp, Output& out);
+  template <class Unit>
+  friend void detail::tick_limited(Unit& unit, std::uint32_t limited, std::uint32_t ended,
+                                   float ramp, typename Unit::Output& out);
 
   // compensator_orienting.inl; nothing where the machine does not orient
   static Status check_orienting(const MachineChain& chain);
@@ -264,56 +282,53 @@ class Compensator {
   [[nodiscard]] float* excess_of(std::size_t axis);
   template <class Visit>
   void for_each_orienting(const Visit& visit);
-  void put_out_turns(const Work& work, float ramp, std::uint32_t common, Output& out);
-
-  void put_out(std::size_t correcting, float excess, float ramp, std::uint32_t common,
-               FastPathBits& changed, Output& out);
 
   // compensator_exceptions.inl
   void take_request();
   void begin_change();
   void end_change();
   bool all_known(const Input& in);
-  std::uint32_t take_sample(std::size_t axis, const AxisSample& sample);
-  void place(std::size_t axis, const Tables& set, Located& at, std::uint32_t& status);
-  bool follow_slow_path(const Input& in);
-  void put_out_slow_path(AxisState& s, float excess, float ramp, std::uint32_t& status);
-  std::uint32_t idle(const Input& in);
+  std::uint32_t take_sample(AxisState& s, const AxisSample& sample, std::int32_t least, bool turns);
+  void follow_slowly(AxisState& s, std::int32_t least, bool turns) const;
+  std::uint32_t place(const AxisState& s, const AxisLookup& lookup, const std::array<Knot, 2>* rows,
+                      bool turns, Knot& mean, Located& at) const;
+  template <class Visit>
+  void for_axes_from(std::size_t first, const Visit& visit) const;
+  void follow_slow_path(const Input& in, std::size_t first, const Tables* set);
+  std::uint32_t put_out_slow_path(AxisState& s, float excess, float ramp, std::uint32_t status);
+  void report(std::size_t axis, const AxisState& s, std::uint32_t status, std::uint32_t ramping,
+              Output& out);
+  static std::uint32_t hold(AxisState& s);
+  void let_go(std::size_t axis, float ramp, std::uint32_t ramping, Output& out);
   void finish_slow_path(std::uint32_t gate, float ramp, Output& out);
-  void tick_slow_path(const Input& in, float ramp, Output& out);
+  void tick_slow_path(const Input& in, std::size_t first, float ramp, Output& out);
   template <class Unit>
-  friend void detail::tick_slow_path(Unit& unit, const typename Unit::Input& in, float ramp,
-                                     typename Unit::Output& out);
-  bool count_changes(std::size_t axis, std::uint32_t status);
+  friend void detail::tick_slow_path(Unit& unit, const typename Unit::Input& in, std::size_t first,
+                                     float ramp, typename Unit::Output& out);
 
   // compensator_background.inl
-  void request(const Tables* tables);
-  void take_machine();
-  void apply_limits(std::size_t axis);
-  void apply_directions();
-  void apply_hysteresis();
+  [[gnu::cold]] void request(const Tables* tables);
+  [[gnu::cold]] void take_machine();
+  [[gnu::cold]] void apply_limits(std::size_t axis);
+  [[gnu::cold]] void apply_directions();
+  [[gnu::cold]] void apply_hysteresis();
   // The hysteresis of the settings, or wider: no offset of the tables in either buffer then turns a
   // direction.
-  [[nodiscard]] std::int32_t needed_hysteresis(std::size_t axis) const;
+  [[nodiscard, gnu::cold]] std::int32_t needed_hysteresis(std::size_t axis) const;
   [[nodiscard, gnu::cold]] std::uint32_t settings_checksum() const;
   [[nodiscard, gnu::cold]] bool settings_intact() const;
-  Status open_spare(const Provenance& provenance);
+  [[gnu::cold]] Status open_spare(const Provenance& provenance);
   [[gnu::cold]] Status fold_into_spare(const RuntimeChain& chain, const TablesView& tables,
                                        const Vec3& tool_point, std::uint32_t image_crc);
-  Status reject(const Status& status);
+  [[gnu::cold]] Status reject(const Status& status);
   template <class Value>
   static Span<const std::uint8_t> bytes_of(const Value& value) {
     return {reinterpret_cast<const std::uint8_t*>(&value),
             std::is_empty_v<Value> ? 0 : sizeof value};
   }
-  static std::uint32_t checksum(const Tables& set);
+  [[gnu::cold]] static std::uint32_t checksum(const Tables& set);
   [[nodiscard]] bool activation_waits() const {
     return wanted_.load(std::memory_order_relaxed) != nullptr && pending();
-  }
-  // Where the axis is, or where its ramp began; a smaller limit or the start may have left it
-  // there.
-  static bool beyond_limit(const AxisState& s) {
-    return exceeds(static_cast<float>(s.output), s.limit) || exceeds(s.ramp_from, s.limit);
   }
   [[nodiscard]] bool rotary(std::size_t axis) const {
     return machine_.chain.kind[axis] == JointKind::rotary;
@@ -325,14 +340,16 @@ class Compensator {
     std::int32_t target = -1;  // all ones where the offset is to be added to the position
     std::int32_t follow = 0;   // all ones where the direction is that of both
   } masks_;
-  std::uint32_t guarded_axes_ = 0;  // slow path pending, bit per axis
+  std::uint32_t guarded_axes_ = kNoAxes;  // slow path pending, bit per axis, or kNoAxes
+  std::uint32_t limited_axes_ = 0;        // whose last status was not kValid alone, bit per axis
   Published<std::uint32_t> ticks_ = 0;
   Change now_{};
   Float3 error_nm_{};
   std::array<AxisState*, kMaxCorrecting> corrected_{};
   Work work_{};
   std::array<AxisState, kAxes> axis_{};
-  FastPathTally tally_{};
+  std::array<StatusTally, kAxes> tally_{};
+  std::array<Knot, kAxes> mean_{};  // rows in use until a direction is known
 
   std::atomic<const Tables*> wanted_{nullptr};  // to be in force
   const Tables* latest_ = nullptr;              // ever handed over
@@ -347,7 +364,6 @@ class Compensator {
   AtomicWord<> damaged_{0};
   FoldReport report_{};
   std::array<std::array<std::int32_t, kMaxAxes>, 2> reversal_nm_{};  // of both buffers
-  std::array<std::array<Published<std::uint16_t>, kStatusBits>, kAxes> began_{};
   std::uint32_t rejections_ = 0;
   Status last_rejection_{};
   Settings settings_{};
@@ -371,5 +387,6 @@ class Compensator {
 #include "comp/tick/compensator_background.inl"
 #include "comp/tick/compensator_exceptions.inl"
 #include "comp/tick/compensator_latch.inl"
+#include "comp/tick/compensator_limited.inl"
 #include "comp/tick/compensator_orienting.inl"
 #include "comp/tick/compensator_tick.inl"

@@ -9,20 +9,17 @@
 
 namespace volcomp {
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::configure(const Settings& settings) {
-  constexpr std::int32_t kMost = 4'194'303;             // what the rounding can represent
-  constexpr std::int32_t kMostRate = 1'000'000'000;     // in effect unlimited
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::configure(const Settings& settings) {
   constexpr std::uint32_t kMostRampTicks = 16'777'216;  // what a float counts exactly
   Where where;
   for (std::size_t a = 0; a < kAxes; ++a) {
     const AxisLimits& l = settings.axis[a];
     where.index = static_cast<int>(a);
     where.axis = machine_.chain.letter[a];
-    if (l.limit < 1 || l.limit > kMost) where.field = "limit";
-    if (l.rate < 1 || l.rate > kMostRate) where.field = "rate";
-    if (l.soft_rate < 1 || l.soft_rate > l.rate) where.field = "soft_rate";
-    if (l.hysteresis < 0 || l.hysteresis > kMost) where.field = "hysteresis";
+    where.field = refused_field(l);
+    if (!Limiter::kAccelerates && l.acceleration != 0) where.field = "acceleration";
+    if (l.hysteresis < 0 || l.hysteresis > kMostOffsetLimit) where.field = "hysteresis";
     if (l.max_step < 0) where.field = "max_step";
     if (where.field != nullptr) return refuse(Reason::bad_setting, where);
   }
@@ -39,8 +36,8 @@ Status Compensator<Machine, Knots>::configure(const Settings& settings) {
   return {};
 }
 
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::apply_limits(std::size_t axis) {
   const AxisLimits& l = settings_.axis[axis];
   AxisState& s = axis_[axis];
   const std::int64_t any = rotary(axis) ? kAnyTurn : kAnyStep;
@@ -50,15 +47,14 @@ void Compensator<Machine, Knots>::apply_limits(std::size_t axis) {
       rotary(axis) || s.most_step < kMaxFastPathStep ? s.most_step : kMaxFastPathStep;
   if (s.reach != 0) s.reach = s.fast_path_step;
   s.limit = Magnitude(static_cast<float>(l.limit));
-  s.rate = l.rate;
-  s.soft_rate = l.soft_rate;
+  s.out.change(OffsetBounds(l));
   guarded_axes_ |= 1U << axis;  // the offset may be beyond the new limit
 }
 
 // Which offsets count for positions and directions; last of what is derived from settings and
 // machine.
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::apply_directions() {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::apply_directions() {
   masks_.target = settings_.source == PositionSource::target ? -1 : 0;
   masks_.follow = directions_follow_offsets(machine_.chain) ? masks_.target : 0;
   apply_hysteresis();
@@ -67,14 +63,14 @@ void Compensator<Machine, Knots>::apply_directions() {
 
 // Also while ticks come: a hysteresis that becomes wider turns no direction, and one that becomes
 // narrower fits the tables that are left.
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::apply_hysteresis() {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::apply_hysteresis() {
   for (std::size_t a = 0; a < kAxes; ++a)
     axis_[a].hysteresis.set(needed_hysteresis(a));
 }
 
-template <class Machine, std::size_t Knots>
-std::int32_t Compensator<Machine, Knots>::needed_hysteresis(std::size_t axis) const {
+template <class Machine, std::size_t Knots, class Limiter>
+std::int32_t Compensator<Machine, Knots, Limiter>::needed_hysteresis(std::size_t axis) const {
   std::int32_t needed = settings_.axis[axis].hysteresis;
   for (const auto& reversal_nm : reversal_nm_)
     needed = std::max(needed, reversal_nm[axis] & masks_.follow);
@@ -83,19 +79,21 @@ std::int32_t Compensator<Machine, Knots>::needed_hysteresis(std::size_t axis) co
 
 // What depends on the machine alone. Where fewer than three axes correct, the others stand for the
 // first axis.
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::take_machine() {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::take_machine() {
   unknown_axes_ = machine_.chain.axes;
   machine_crc_ = crc32(bytes_of(machine_));
   for (std::size_t c = 0; c < kMaxCorrecting; ++c)
     corrected_[c] = &axis_[machine_.chain.correcting[c]];
-  for (std::size_t a = 0; a < kAxes; ++a)
+  for (std::size_t a = 0; a < kAxes; ++a) {
     apply_limits(a);
+    axis_[a].out.start(0);
+  }
   apply_directions();
 }
 
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::restart(const Machine& machine) {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::restart(const Machine& machine) {
   if (machine.chain.axes <= kAxes) {
     machine_ = machine;
   } else {
@@ -108,7 +106,6 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   latest_ = nullptr;
   activations_ = 0;
   staged_ = false;
-  began_ = {};
   rejections_ = 0;
   last_rejection_ = {};
   report_ = {};
@@ -117,17 +114,18 @@ void Compensator<Machine, Knots>::restart(const Machine& machine) {
   ticks_ = 0;
   ticks_wrapped_ = false;
   ramps_ = 0;
-  guarded_axes_ = 0;
+  guarded_axes_ = kNoAxes;
+  limited_axes_ = 0;
   reversal_nm_[1U - spare_] = {};  // the spare buffer keeps what is staged
   axis_ = {};
   take_machine();
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kAxes>& offsets) {
-  constexpr std::int32_t kMostStart = 1 << 30;
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::start_from(
+    const std::array<std::int32_t, kAxes>& offsets) {
   for (std::size_t a = 0; a < kAxes; ++a) {
-    if (offsets[a] <= kMostStart && offsets[a] >= -kMostStart) continue;
+    if (offsets[a] <= kMostHeldOffset && offsets[a] >= -kMostHeldOffset) continue;
     Where where;
     where.axis = machine_.chain.letter[a];
     where.field = "start offset";
@@ -135,11 +133,12 @@ Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kA
     return refuse(Reason::bad_setting, where);
   }
   for (std::size_t a = 0; a < kAxes; ++a) {
-    const Published<std::int32_t> largest = axis_[a].largest;
+    const Limiter out = axis_[a].out;
     axis_[a] = {};
-    axis_[a].largest = largest;
+    axis_[a].out = out;
     apply_limits(a);
-    axis_[a].output = offsets[a];
+    axis_[a].out.start(offsets[a]);
+    tally_[a].forget();
   }
   apply_directions();
   unknown_axes_ = machine_.chain.axes;
@@ -149,21 +148,21 @@ Status Compensator<Machine, Knots>::start_from(const std::array<std::int32_t, kA
   return {};
 }
 
-template <class Machine, std::size_t Knots>
-std::uint32_t Compensator<Machine, Knots>::checksum(const Tables& set) {
+template <class Machine, std::size_t Knots, class Limiter>
+std::uint32_t Compensator<Machine, Knots, Limiter>::checksum(const Tables& set) {
   static_assert(std::is_standard_layout_v<Tables>);
   return crc32({reinterpret_cast<const std::uint8_t*>(&set), offsetof(Tables, checksum)});
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::reject(const Status& status) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::reject(const Status& status) {
   if (rejections_ < UINT32_MAX) ++rejections_;
   last_rejection_ = status;
   return status;
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::open_spare(const Provenance& provenance) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::open_spare(const Provenance& provenance) {
   if (pending()) return refuse(Reason::hand_over_pending);
   staged_ = false;
   if (settings_.machine_id != 0 && provenance.machine_id != settings_.machine_id)
@@ -171,11 +170,11 @@ Status Compensator<Machine, Knots>::open_spare(const Provenance& provenance) {
   return {};
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::fold_into_spare(const RuntimeChain& chain,
-                                                    const TablesView& tables,
-                                                    const Vec3& tool_point,
-                                                    std::uint32_t image_crc) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::fold_into_spare(const RuntimeChain& chain,
+                                                             const TablesView& tables,
+                                                             const Vec3& tool_point,
+                                                             std::uint32_t image_crc) {
   FoldReport report;
   Tables& spare = buffer_[spare_];
   const Status status = fold_tables(tables, chain, tool_point, TableSetView(spare), report);
@@ -189,23 +188,25 @@ Status Compensator<Machine, Knots>::fold_into_spare(const RuntimeChain& chain,
   return {};
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::stage_for(const RuntimeChain& chain, const TablesView& tables,
-                                              const Vec3& tool_point, std::uint32_t image_crc) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::stage_for(const RuntimeChain& chain,
+                                                       const TablesView& tables,
+                                                       const Vec3& tool_point,
+                                                       std::uint32_t image_crc) {
   Status status = open_spare(tables.provenance);
   if (status.ok()) status = check_orienting(tables.chain);
   if (status.ok()) status = fold_into_spare(chain, tables, tool_point, image_crc);
   return status.ok() ? status : reject(status);
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::stage(const TablesView& tables, const Vec3& tool_point,
-                                          std::uint32_t image_crc) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::stage(const TablesView& tables, const Vec3& tool_point,
+                                                   std::uint32_t image_crc) {
   return stage_for(machine_.chain, tables, tool_point, image_crc);
 }
 
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::adopt(const Machine& machine) {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::adopt(const Machine& machine) {
   const bool staged = staged_;
   const FoldReport report = report_;
   restart(machine);
@@ -213,10 +214,10 @@ void Compensator<Machine, Knots>::adopt(const Machine& machine) {
   report_ = report;
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec3& tool_point,
-                                          std::uint32_t image_crc,
-                                          const Temperatures& temperatures) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::stage(const MachineTables& tables,
+                                                   const Vec3& tool_point, std::uint32_t image_crc,
+                                                   const Temperatures& temperatures) {
   TablesView view;
   Status status = open_spare(tables.provenance);
   if (status.ok()) status = view_tables(tables, view);
@@ -229,15 +230,15 @@ Status Compensator<Machine, Knots>::stage(const MachineTables& tables, const Vec
 // Overtakes one that no tick has taken yet. What is then the spare buffer is not read by any tick
 // after the one that takes this request: after an activation the other one is in force, after a
 // deactivation none.
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::request(const Tables* tables) {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::request(const Tables* tables) {
   wanted_.store(tables, std::memory_order_release);
   std::atomic_thread_fence(std::memory_order_seq_cst);
   requested_.store(1, std::memory_order_release);
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::activate() {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::activate() {
   if (!staged_) return refuse(Reason::not_staged);
   staged_ = false;
   damaged_.store(0, std::memory_order_relaxed);
@@ -248,37 +249,37 @@ Status Compensator<Machine, Knots>::activate() {
   return {};
 }
 
-template <class Machine, std::size_t Knots>
-void Compensator<Machine, Knots>::deactivate() {
+template <class Machine, std::size_t Knots, class Limiter>
+void Compensator<Machine, Knots, Limiter>::deactivate() {
   if (activation_waits()) --activations_;
   request(nullptr);
 }
 
 // Settings and what the tick takes from them alone.
-template <class Machine, std::size_t Knots>
-std::uint32_t Compensator<Machine, Knots>::settings_checksum() const {
+template <class Machine, std::size_t Knots, class Limiter>
+std::uint32_t Compensator<Machine, Knots, Limiter>::settings_checksum() const {
   std::uint32_t crc = crc32(bytes_of(masks_), crc32(bytes_of(settings_)));
   for (const AxisState& s : axis_) {
     const struct {
-      Magnitude limit;
-      std::int32_t rate, soft_rate, filler;  // no padding, whose bytes are anything
       std::uint64_t plausible;
-    } derived{s.limit, s.rate, s.soft_rate, 0, s.fast_path_step ^ ~s.most_step};
+      Magnitude limit;
+      typename Limiter::Settings out;  // no padding, whose bytes are anything
+    } derived{s.fast_path_step ^ ~s.most_step, s.limit, s.out.settings()};
     crc = crc32(bytes_of(derived), crc);
   }
   return crc;
 }
 
 // The hysteresis changes with the tables: it is computed anew, so that staging hides no damage.
-template <class Machine, std::size_t Knots>
-bool Compensator<Machine, Knots>::settings_intact() const {
+template <class Machine, std::size_t Knots, class Limiter>
+bool Compensator<Machine, Knots, Limiter>::settings_intact() const {
   for (std::size_t a = 0; a < kAxes; ++a)
-    if (axis_[a].hysteresis.own() != needed_hysteresis(a)) return false;
+    if (axis_[a].hysteresis.own() != needed_hysteresis(a) || !axis_[a].out.intact()) return false;
   return settings_checksum() == settings_crc_;
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::scrub(std::size_t bytes) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::scrub(std::size_t bytes) {
   const Tables* const set = now_.active.get();
   if (pending()) return {};
   if (scrub_.set != set || scrub_.activations != activations_)
@@ -307,15 +308,16 @@ Status Compensator<Machine, Knots>::scrub(std::size_t bytes) {
   return reject(status);
 }
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::scrub() {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::scrub() {
   scrub_ = {};
   const Status status = scrub(sizeof(Machine));
   return status.ok() && scrub_.tables ? scrub(sizeof(Tables)) : status;
 }
 
-template <class Machine, std::size_t Knots>
-Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::diagnostics() const {
+template <class Machine, std::size_t Knots, class Limiter>
+Diagnostics<Compensator<Machine, Knots, Limiter>::kAxes>
+Compensator<Machine, Knots, Limiter>::diagnostics() const {
   const auto saturated = [](std::uint32_t n) {
     return static_cast<std::uint16_t>(n < UINT16_MAX ? n : UINT16_MAX);
   };
@@ -330,18 +332,11 @@ Diagnostics<Compensator<Machine, Knots>::kAxes> Compensator<Machine, Knots>::dia
   if (const Tables* const latest = active != nullptr ? active : latest_; latest != nullptr)
     d.active_crc = latest->image_crc;
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
-    d.largest[a] = axis_[a].largest.get();
+    d.largest[a] = axis_[a].out.largest();
+    d.largest_lag[a] = axis_[a].out.largest_lag();
     for (std::size_t bit = 0; bit < kStatusBits; ++bit)
-      d.began[a][bit] = began_[a][bit].get();
+      d.began[a][bit] = tally_[a].began(bit);
     d.began[a][bit_of(kRamping)] = saturated((ramps >> 1U) + (ramps & 1U));
-  }
-  for (std::size_t c = 0; c < machine_.chain.correcting_count; ++c) {
-    auto& began = d.began[machine_.chain.correcting[c]];
-    std::array<std::uint32_t, kFastPathWidth> more{};
-    tally_.add_to(more, c);
-    began[bit_of(kValid)] = saturated(began[bit_of(kValid)] + more[0]);
-    began[bit_of(kClamped)] = saturated(began[bit_of(kClamped)] + more[1]);
-    began[bit_of(kRateLimited)] = saturated(began[bit_of(kRateLimited)] + more[2]);
   }
   return d;
 }

@@ -5,8 +5,8 @@
 
 namespace volcomp {
 
-template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::take_request() {
   requested_.store(0, std::memory_order_relaxed);
   // Either this tick reads the latest pointer, or the flag is set again after it: request(). Since
   // nothing is staged while a request waits, the release of the flag that tick() saw covers the
@@ -18,23 +18,24 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::take_request() {
   now_.active.release(wanted);  // the background may then write into those that were active
 }
 
-// Whatever changes, the output goes from where it is to where it should be along the ramp. One that
-// is under way goes over into the next. Where fewer axes correct, the first axis has its turn more
-// than once: storing is cheaper than branching.
-template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::begin_change() {
+// Whatever changes, the output goes from where it is, or comes to rest, to where it should be along
+// the ramp. One that is under way goes over into the next. Where fewer axes correct, the first axis
+// has its turn more than once: storing is cheaper than branching.
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::begin_change() {
   VOLCOMP_UNROLL
   for (std::size_t c = 0; c < kMaxCorrecting; ++c)
-    corrected(c).ramp_from = static_cast<float>(corrected(c).output);
-  for_each_orienting([](AxisState& s, std::size_t)
-                         VOLCOMP_INLINE_LAMBDA { s.ramp_from = static_cast<float>(s.output); });
+    corrected(c).ramp_from = static_cast<float>(corrected(c).out.standstill());
+  for_each_orienting([](AxisState& s, std::size_t) VOLCOMP_INLINE_LAMBDA {
+    s.ramp_from = static_cast<float>(s.out.standstill());
+  });
   ramps_.set(ramps_.own() | 1U);
 }
 
 // At the end of the ramp nothing of its start is left: from + 1 · (x − from) is exactly x where
 // `from` is 0.
-template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::end_change() {
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::end_change() {
   VOLCOMP_UNROLL
   for (std::size_t c = 0; c < kMaxCorrecting; ++c)
     corrected(c).ramp_from = 0.0F;
@@ -47,8 +48,8 @@ constexpr std::int64_t held_in_range(std::int64_t position, bool turns) {
 }
 
 // Whether every axis has reported at last.
-template <class Machine, std::size_t Knots>
-bool Compensator<Machine, Knots>::all_known(const Input& in) {
+template <class Machine, std::size_t Knots, class Limiter>
+bool Compensator<Machine, Knots, Limiter>::all_known(const Input& in) {
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     AxisState& s = axis_[a];
     if (s.known || !in.axis[a].valid) continue;
@@ -61,190 +62,227 @@ bool Compensator<Machine, Knots>::all_known(const Input& in) {
 
 // Takes a first, lost, implausible, returning, unreferenced or absurdly large sample, or a good
 // one. Returns the status bits it raises.
-template <class Machine, std::size_t Knots>
-[[gnu::noinline]] std::uint32_t Compensator<Machine, Knots>::take_sample(std::size_t axis,
-                                                                         const AxisSample& sample) {
-  AxisState& s = axis_[axis];
-  const bool turns = rotary(axis);
-  if (s.steady) s.position = s.seen;
-  const std::int64_t position = held_in_range(sample.position, turns);
-  const std::uint64_t moved =
-      static_cast<std::uint64_t>(position) - static_cast<std::uint64_t>(s.seen);
-  const bool plausible = !s.known || moved + s.most_step <= 2 * s.most_step;
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE std::uint32_t Compensator<Machine, Knots, Limiter>::take_sample(
+    AxisState& s, const AxisSample& sample, std::int32_t least, bool turns) {
   std::uint32_t status = sample.homed ? 0U : std::uint32_t{kNotHomed};
-  s.steady = sample.valid && plausible;
-  if (s.steady && !s.known) --unknown_axes_;
-  s.known = s.known || s.steady;
-  if (sample.valid) s.seen = position;
-  s.reach = 0;
-  if (s.steady) {
-    s.stale_ticks = 0;
-    s.position = position;
-    // Until it is known, the position alone shows it, by the hysteresis of the settings: what ramps
-    // an offset in would show another one than before a restart, and nothing can chase itself yet.
-    const auto low = static_cast<std::uint32_t>(turns ? position >> 8 : position);
-    const auto offset = [&] { return turns ? 0U : static_cast<std::uint32_t>(followed_offset(s)); };
-    const std::int32_t hysteresis = s.hysteresis.get();
-    if (s.direction.direction() != Direction::unknown) {
-      s.direction.follow(low + offset(), hysteresis);
-    } else {
-      const std::int32_t least = settings_.axis[axis].hysteresis;
-      const Direction now = s.direction.update(low, least);
-      const std::int32_t wider = now == Direction::forward ? hysteresis - least : 0;
-      if (now != Direction::unknown)
-        s.direction.shift(offset() - static_cast<std::uint32_t>(wider));
+  if (s.steady) s.position = s.seen;
+  bool good = sample.valid;
+  if (good) {
+    const std::int64_t position = held_in_range(sample.position, turns);
+    const std::uint64_t moved =
+        static_cast<std::uint64_t>(position) - static_cast<std::uint64_t>(s.seen);
+    s.seen = position;
+    if (!s.known) {
+      s.known = true;
+      --unknown_axes_;
+    } else if (moved + s.most_step > 2 * s.most_step) {
+      good = false;
+      status |= kImplausible;
     }
+  }
+  s.steady = good;
+  s.reach = 0;
+  if (good) {
+    s.stale_ticks = 0;
+    s.position = s.seen;
+    follow_slowly(s, least, turns);
     return status;
   }
-  status |= kStale;
-  if (sample.valid) status |= kImplausible;
   if (s.stale_ticks >= settings_.stale_drop_ticks) status |= kDropped;
   if (s.stale_ticks < UINT16_MAX) ++s.stale_ticks;
+  return status | kStale;
+}
+
+// The direction. Until it is known, the position alone shows it, by the hysteresis of the settings,
+// `least`: what ramps an offset in would show another one than before a restart, and nothing can
+// chase itself yet.
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::follow_slowly(AxisState& s,
+                                                                        std::int32_t least,
+                                                                        bool turns) const {
+  const auto low = static_cast<std::uint32_t>(turns ? s.position >> 8 : s.position);
+  const auto offset = turns ? 0U : static_cast<std::uint32_t>(followed_offset(s));
+  const std::int32_t hysteresis = s.hysteresis.get();
+  if (s.direction.direction() != Direction::unknown) {
+    s.direction.follow(low + offset, hysteresis);
+    return;
+  }
+  const Direction now = s.direction.update(low, least);
+  const std::int32_t wider = now == Direction::forward ? hysteresis - least : 0;
+  if (now != Direction::unknown) s.direction.shift(offset - static_cast<std::uint32_t>(wider));
+}
+
+// Where the axis stands in its table, held at the ends. Returns the status bits it raises.
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE std::uint32_t Compensator<Machine, Knots, Limiter>::place(
+    const AxisState& s, const AxisLookup& lookup, const std::array<Knot, 2>* rows, bool turns,
+    Knot& mean, Located& at) const {
+  std::uint32_t status = 0;
+  std::int64_t r = distance(lookup, s.position, s.out.offset() & masks_.target, turns);
+  if (outside(lookup, r, turns, lookup.travel))
+    status = hold_inside(lookup, r) ? kOutOfRange | kFarOutOfRange : kOutOfRange;
+  const Direction direction = s.direction.direction();
+  if (direction == Direction::unknown) status |= kDirectionUnknown;
+  locate_any(lookup, static_cast<std::uint32_t>(r), turns, rows, direction, mean, at);
   return status;
 }
 
-// Where the axis stands in its table, held at the ends.
-template <class Machine, std::size_t Knots>
-[[gnu::noinline]] void Compensator<Machine, Knots>::place(std::size_t axis, const Tables& set,
-                                                          Located& at, std::uint32_t& status) {
-  AxisState& s = axis_[axis];
-  const bool turns = rotary(axis);
-  std::int64_t r = distance(set.lookup[axis], s.position, s.output & masks_.target, turns);
-  const RangeState range = hold_inside(set.lookup[axis], turns, r);
-  if (range != RangeState::inside) status |= kOutOfRange;
-  if (range == RangeState::far_outside) status |= kFarOutOfRange;
-  const Direction direction = s.direction.direction();
-  if (direction == Direction::unknown) status |= kDirectionUnknown;
-  locate_any(set.lookup[axis], static_cast<std::uint32_t>(r), turns, set.rows[axis].data(),
-             direction, s.mean, at);
-}
-
-// Follows all axes, whatever they show. False until every axis has reported.
-template <class Machine, std::size_t Knots>
-[[gnu::noinline]] bool Compensator<Machine, Knots>::follow_slow_path(const Input& in) {
-  if (unknown_axes_ != 0 && !all_known(in)) return false;
-  const Tables& set = *now_.active.own();
-  for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
-    AxisState& s = axis_[a];
-    if (follow_one(a, in.axis[a], set, work_.at[a])) continue;
-    std::uint32_t status = take_sample(a, in.axis[a]);
-    place(a, set, work_.at[a], status);
-    constexpr std::uint32_t kSlowPathNext = kStale | kOutOfRange | kDirectionUnknown;
-    if ((status & kSlowPathNext) == 0) s.reach = s.fast_path_step;
-    s.exception = static_cast<std::uint16_t>(status);
-    guarded_axes_ |= 1U << a;
+// Visits the axes from the first one on; those of a compiled-in machine with constant indices.
+template <class Machine, std::size_t Knots, class Limiter>
+template <class Visit>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::for_axes_from(std::size_t first,
+                                                                        const Visit& visit) const {
+  if constexpr (Machine::kCompiledIn) {
+    kernel::visit_each(first, machine_.chain.axes, visit, std::make_index_sequence<kAxes>{});
+  } else {
+    VOLCOMP_LOOP
+    for (std::size_t a = first; a < machine_.chain.axes; ++a)
+      visit(a);
   }
-  return true;
 }
 
-// Clamp, ramp, round and slew with everything that can be going on: hold, gating to 0 and the soft
-// way back.
-template <class Machine, std::size_t Knots>
-[[gnu::noinline]] void Compensator<Machine, Knots>::put_out_slow_path(AxisState& s, float excess,
-                                                                      float ramp,
-                                                                      std::uint32_t& status) {
+// Follows the axes from the first one on that the fast path did not take, whatever they show;
+// without tables as far as their samples go.
+template <class Machine, std::size_t Knots, class Limiter>
+[[gnu::noinline]] void Compensator<Machine, Knots, Limiter>::follow_slow_path(const Input& in,
+                                                                              std::size_t first,
+                                                                              const Tables* set) {
+  for_axes_from(first, [&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
+    const AxisSample& sample = in.axis[a];
+    AxisState& s = axis_[a];
+    if (set != nullptr && follow_one(a, sample, *set, work_.at[a])) return;
+    std::uint32_t status = take_sample(s, sample, settings_.axis[a].hysteresis, rotary(a));
+    if (set != nullptr) {
+      status |= place(s, set->lookup[a], set->rows[a].data(), rotary(a), mean_[a], work_.at[a]);
+      constexpr std::uint32_t kSlowPathNext = kStale | kOutOfRange | kDirectionUnknown;
+      if ((status & kSlowPathNext) == 0) s.reach = s.fast_path_step;
+    }
+    s.exception = static_cast<std::uint16_t>(status);
+  });
+}
+
+// Clamp, ramp, round and limit with everything that can be going on: hold, gating to 0 and the soft
+// way back. Takes the status of the axis and returns it with what the correction adds, kSettling
+// included.
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE std::uint32_t Compensator<Machine, Knots, Limiter>::put_out_slow_path(
+    AxisState& s, float excess, float ramp, std::uint32_t status) {
   // Accepted tables do not lead to what is not finite: they, or the machine, have changed in
   // memory.
   if (VOLCOMP_UNLIKELY(!Magnitude::finite(excess))) status |= kClamped | kTableDamaged;
   const bool off = (status & (kNotHomed | kDropped | kNoTables | kTableDamaged)) != 0;
   const bool held = !off && (status & (kStale | kNoAuthority)) != 0;
   // A drive may have started with more than the limit, and the limit may have become smaller.
-  s.ramp_from = s.limit.within(s.ramp_from);
-  const float wanted = off ? 0.0F : -excess;
-  if (exceeds(wanted, s.limit)) status |= kClamped;
-  float x = s.ramp_from + ramp * (s.limit.within(wanted) - s.ramp_from);
-  if (held) x = s.limit.within(static_cast<float>(s.output));
-  const std::int32_t rounded = round_half_even(x);
-
+  if (exceeds(s.ramp_from, s.limit)) s.ramp_from = s.limit.signed_like(s.ramp_from);
+  float wanted = off ? 0.0F : -excess;
+  if (exceeds(wanted, s.limit)) {
+    status |= kClamped;
+    wanted = s.limit.signed_like(wanted);
+  }
   s.soft = s.soft || (off && (status & kNoTables) == 0);
-  const std::int32_t rate = s.soft ? s.soft_rate : s.rate;
-  const bool hit = further(rounded, s.output, rate);
-  const std::int32_t step = rounded < s.output ? -rate : rate;
-  s.output = hit ? s.output + step : rounded;
-  if (hit && !s.soft) status |= kRateLimited;
-  if (exceeds(static_cast<float>(s.output), s.limit)) status |= kClamped | kRateLimited;
-  if (!hit && !off) s.soft = false;
-  const std::int32_t size = s.output < 0 ? -s.output : s.output;
-  if (size > s.largest.own()) s.largest.set(size);
+  std::uint32_t limited = 0;
+  if (VOLCOMP_UNLIKELY(held)) {
+    limited = hold(s);
+  } else {
+    const std::int32_t target = round_half_even(s.ramp_from + ramp * (wanted - s.ramp_from));
+    limited = s.soft ? s.out.follow_softly(target) : s.out.follow(target);
+  }
+  if (limited == 0 && !off) s.soft = false;
+  if (s.soft) limited &= kSettling;
+  if (VOLCOMP_UNLIKELY((limited & kSettling) != 0)) limited |= kClamped | kRateLimited;
+  return status | limited;
 }
 
-// Counts what began and stores the status word. Returns false if the next output of this axis has
-// to take the slow path, too.
-template <class Machine, std::size_t Knots>
-bool Compensator<Machine, Knots>::count_changes(std::size_t axis, std::uint32_t status) {
+// The last offset, or the limit if that has become smaller.
+template <class Machine, std::size_t Knots, class Limiter>
+[[gnu::noinline]] std::uint32_t Compensator<Machine, Knots, Limiter>::hold(AxisState& s) {
+  const auto now = static_cast<float>(s.out.offset());
+  if (!exceeds(now, s.limit)) return s.out.hold();
+  const std::int32_t target = round_half_even(s.limit.signed_like(now));
+  return s.soft ? s.out.follow_softly(target) : s.out.follow(target);
+}
+
+// An axis whose excess is not finite on the fast path.
+template <class Machine, std::size_t Knots, class Limiter>
+[[gnu::noinline]] void Compensator<Machine, Knots, Limiter>::let_go(std::size_t axis, float ramp,
+                                                                    std::uint32_t ramping,
+                                                                    Output& out) {
   AxisState& s = axis_[axis];
-  const std::size_t c = machine_.chain.correcting_index[axis];
-  const bool corrects = c != kNotCorrecting;
-  const FastPathBits last = corrects ? tally_.last(c) : fast_path_bits(kValid);
-  const std::uint32_t before = s.status == 0 ? fast_path_status(last) : std::uint32_t{s.status};
-  std::uint32_t began = status & ~before;
-  while (began != 0) {  // at most kStatusBits times
-    const auto bit = static_cast<std::size_t>(__builtin_ctz(began));
-    Published<std::uint16_t>& count = began_[axis][bit];
-    if (count.own() < UINT16_MAX) count.set(static_cast<std::uint16_t>(count.own() + 1U));
-    began &= began - 1U;
-  }
-  const FastPathBits bits = fast_path_bits(status);
-  bool fast = status == fast_path_status(bits);
-  if constexpr (kOrients) fast = fast && (corrects || status == kValid);  // no tally
-  if (corrects) tally_.resume(c, bits);
-  s.status = static_cast<std::uint16_t>(fast ? 0U : status);
-  return fast && !s.soft && !beyond_limit(s);
+  s.soft = true;
+  const float x = s.ramp_from + ramp * (0.0F - s.ramp_from);
+  std::uint32_t status = s.out.follow_softly(round_half_even(x)) & kSettling;
+  if (status != 0) status |= kRateLimited;
+  report(axis, s, status | kClamped | kTableDamaged, ramping, out);
+}
+
+// Counts what began and decides which path the next tick takes. A status without a bit is valid,
+// also while no direction is known.
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::report(std::size_t axis,
+                                                                 const AxisState& s,
+                                                                 std::uint32_t status,
+                                                                 std::uint32_t ramping,
+                                                                 Output& out) {
+  if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
+  const std::uint32_t bit = 1U << axis;
+  if (status != kValid) limited_axes_ |= bit;
+  if ((status & ~kOrdinaryStatus) != 0 || s.soft) guarded_axes_ |= bit;
+  status &= ~kSettling;
+  out.offset[axis] = s.out.offset();
+  out.status[axis] = static_cast<std::uint16_t>(status | ramping);
+  tally_[axis].enter(status);
 }
 
 // Outputs and reports of all axes in a tick on the slow path. `gate`: what applies to every
 // correcting axis.
-template <class Machine, std::size_t Knots>
-[[gnu::noinline]] void Compensator<Machine, Knots>::finish_slow_path(std::uint32_t gate, float ramp,
-                                                                     Output& out) {
-  const RuntimeChain& chain = machine_.chain;
-  const bool damaged = damaged_.load(std::memory_order_relaxed) != 0;
+template <class Machine, std::size_t Knots, class Limiter>
+[[gnu::noinline]] void Compensator<Machine, Knots, Limiter>::finish_slow_path(std::uint32_t gate,
+                                                                              float ramp,
+                                                                              Output& out) {
+  const std::uint32_t damaged =
+      damaged_.load(std::memory_order_relaxed) != 0 ? std::uint32_t{kTableDamaged} : 0U;
   const std::uint32_t ramping = now_.ramp.at_rest() ? 0U : std::uint32_t{kRamping};
-  guarded_axes_ = 0;
-  for (std::size_t a = 0; a < chain.axes; ++a) {
-    std::uint32_t status = axis_[a].exception;
-    axis_[a].exception = 0;
-    if (const float* const excess = excess_of(a); excess != nullptr) {
-      status |= gate;
-      put_out_slow_path(axis_[a], *excess, ramp, status);
-    }
-    if (damaged) status |= kTableDamaged;
-    if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
-    if (!count_changes(a, status)) guarded_axes_ |= 1U << a;
-    out.offset[a] = axis_[a].output;
-    out.status[a] = static_cast<std::uint16_t>(status | ramping);
+  guarded_axes_ = now_.active.own() != nullptr ? 0U : kNoAxes;
+  limited_axes_ = 0;
+  for_axes_from(0, [&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
+    AxisState& s = axis_[a];
+    std::uint32_t status = s.exception;
+    s.exception = 0;
+    if (const float* const excess = excess_of(a); excess != nullptr)
+      status = put_out_slow_path(s, *excess, ramp, status | gate);
+    report(a, s, status | damaged, ramping, out);
+  });
+}
+
+// A tick from the first axis on that the fast path did not take, for whatever can happen. Without
+// tables, and before every axis has reported, all correcting axes are off or held.
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::tick_slow_path(const Input& in,
+                                                                         std::size_t first,
+                                                                         float ramp, Output& out) {
+  const Tables* set = now_.active.own();
+  std::uint32_t gate = set != nullptr ? 0U : std::uint32_t{kNoTables};
+  if (set != nullptr && unknown_axes_ != 0 && !all_known(in)) {
+    set = nullptr;
+    gate = kStale;
   }
-}
-
-// A tick without tables, or before every axis has reported. Returns what applies to all correcting
-// axes: off or held.
-template <class Machine, std::size_t Knots>
-[[gnu::noinline]] std::uint32_t Compensator<Machine, Knots>::idle(const Input& in) {
-  for (std::size_t a = 0; a < machine_.chain.axes; ++a)
-    axis_[a].exception = static_cast<std::uint16_t>(take_sample(a, in.axis[a]));
-  work_.excess = {};
-  if constexpr (kOrients) work_.turns.excess = {};
-  return now_.active.own() != nullptr ? kStale : kNoTables;
-}
-
-// A tick from its beginning on, for whatever can happen.
-template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::tick_slow_path(const Input& in, float ramp,
-                                                                Output& out) {
-  std::uint32_t gate = 0;
-  if (now_.active.own() == nullptr || !follow_slow_path(in)) {
-    gate = idle(in);
+  follow_slow_path(in, first, set);
+  if (set == nullptr) {
+    work_.excess = {};
+    if constexpr (kOrients) work_.turns.excess = {};
   } else {
     allow_turns(work_);
-    if (!find_kept_excess(*now_.active.own(), work_, error_nm_)) gate = kNoAuthority;
+    if (!find_kept_excess(*set, work_, error_nm_)) gate = kNoAuthority;
   }
   finish_slow_path(gate, ramp, out);
 }
 
 template <class Unit>
 [[gnu::noinline]] static void detail::tick_slow_path(Unit& unit, const typename Unit::Input& in,
-                                                     float ramp, typename Unit::Output& out) {
-  unit.tick_slow_path(in, ramp, out);
+                                                     std::size_t first, float ramp,
+                                                     typename Unit::Output& out) {
+  unit.tick_slow_path(in, first, ramp, out);
 }
 
 }  // namespace volcomp

@@ -3,8 +3,8 @@
 
 namespace volcomp {
 
-template <class Machine, std::size_t Knots>
-PoseError Compensator<Machine, Knots>::error_at(
+template <class Machine, std::size_t Knots, class Limiter>
+PoseError Compensator<Machine, Knots, Limiter>::error_at(
     const std::array<LatchedAxis, kMaxAxes>& latched) const {
   PoseError error;
   const Tables* const set = now_.active.get();
@@ -16,7 +16,11 @@ PoseError Compensator<Machine, Knots>::error_at(
   for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
     const bool turns = rotary(a);
     std::int64_t r = distance(set->lookup[a], latched[a].position, 0, turns);
-    if (hold_inside(set->lookup[a], turns, r) != RangeState::inside) error.within = false;
+    if (outside(set->lookup[a], r, turns, set->lookup[a].travel)) {
+      hold_inside(set->lookup[a], r);
+      error.within = false;
+    }
+    if (latched[a].direction == Direction::unknown) mean[a].d = {};
     locate_any(set->lookup[a], static_cast<std::uint32_t>(r), turns, set->rows[a].data(),
                latched[a].direction, mean[a], work.at[a]);
   }

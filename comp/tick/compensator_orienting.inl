@@ -2,8 +2,8 @@
 
 namespace volcomp {
 
-template <class Machine, std::size_t Knots>
-Status Compensator<Machine, Knots>::check_orienting(const MachineChain& chain) {
+template <class Machine, std::size_t Knots, class Limiter>
+Status Compensator<Machine, Knots, Limiter>::check_orienting(const MachineChain& chain) {
   const MachineDescription& d = chain.description();
   if constexpr (!kOrients) return d.orienting_count == 0 ? Status{} : refuse(Reason::cannot_orient);
   Where where;
@@ -21,9 +21,9 @@ Status Compensator<Machine, Knots>::check_orienting(const MachineChain& chain) {
 }
 
 // Calls visit(state, orienting) for each orienting axis.
-template <class Machine, std::size_t Knots>
+template <class Machine, std::size_t Knots, class Limiter>
 template <class Visit>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::for_each_orienting(const Visit& visit) {
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::for_each_orienting(const Visit& visit) {
   if constexpr (kOrients) {
     for (std::size_t o = 0; o < machine_.chain.orienting_count; ++o)
       visit(axis_[machine_.chain.orienting[o]], o);
@@ -32,12 +32,13 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::for_each_orienting(const Visit&
 
 // Within the limit, as long as the axis corrects at all: one that is let go turns nothing, one that
 // is held turns what it does. The correcting axes reckon with it.
-template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::allow_turns([[maybe_unused]] Work& work) const {
+template <class Machine, std::size_t Knots, class Limiter>
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::allow_turns(
+    [[maybe_unused]] Work& work) const {
   if constexpr (kOrients) {
     for (std::size_t o = 0; o < machine_.chain.orienting_count; ++o) {
       const AxisState& s = axis_[machine_.chain.orienting[o]];
-      const float held = -static_cast<float>(s.output);
+      const float held = -static_cast<float>(s.out.offset());
       const bool off = (s.exception & (kNotHomed | kDropped)) != 0;
       TurnRange& range = work.turns.range[o];
       range = {-s.limit.value(), s.limit.value()};
@@ -48,12 +49,12 @@ VOLCOMP_INLINE void Compensator<Machine, Knots>::allow_turns([[maybe_unused]] Wo
 }
 
 // What the orienting axes turn, and the error that then is left to the others.
-template <class Machine, std::size_t Knots>
-[[gnu::noinline]] void Compensator<Machine, Knots>::take_turns(
+template <class Machine, std::size_t Knots, class Limiter>
+[[gnu::noinline]] void Compensator<Machine, Knots, Limiter>::take_turns(
     [[maybe_unused]] const Tables& set, [[maybe_unused]] Work& work,
     [[maybe_unused]] Float3& error_nm) const {
   if constexpr (kOrients) {
-    const kernel::ToolTurning t = kernel::tool_turning(machine_, set, work.at);
+    const kernel::ToolTurning t = kernel::tool_turning(machine_, set, work.at, work.turns.angle);
     const auto excess = kernel::tilt_excess(machine_.chain, t);
     for (std::size_t o = 0; o < machine_.chain.orienting_count; ++o) {
       const TurnRange& range = work.turns.range[o];
@@ -67,8 +68,8 @@ template <class Machine, std::size_t Knots>
 }
 
 // The excess of an axis that takes offsets, else nullptr.
-template <class Machine, std::size_t Knots>
-float* Compensator<Machine, Knots>::excess_of(std::size_t axis) {
+template <class Machine, std::size_t Knots, class Limiter>
+float* Compensator<Machine, Knots, Limiter>::excess_of(std::size_t axis) {
   const std::size_t c = machine_.chain.correcting_index[axis];
   if (c != kNotCorrecting) return &work_.excess[c];
   if constexpr (kOrients) {
@@ -76,25 +77,6 @@ float* Compensator<Machine, Knots>::excess_of(std::size_t axis) {
     if (o != kNotOrienting) return &work_.turns.excess[o];
   }
   return nullptr;
-}
-
-// After the fast path. Takes the way of the slow path to an output: the budget of the fast path is
-// that of machines that do not orient.
-template <class Machine, std::size_t Knots>
-VOLCOMP_INLINE void Compensator<Machine, Knots>::put_out_turns(
-    [[maybe_unused]] const Work& work, [[maybe_unused]] float ramp,
-    [[maybe_unused]] std::uint32_t common, [[maybe_unused]] Output& out) {
-  if constexpr (kOrients) {
-    for_each_orienting([&](AxisState& s, std::size_t o) VOLCOMP_INLINE_LAMBDA {
-      const std::size_t a = machine_.chain.orienting[o];
-      std::uint32_t status = 0;
-      put_out_slow_path(s, work.turns.excess[o], ramp, status);
-      if (status == 0) status = kValid;
-      if (!count_changes(a, status)) guarded_axes_ |= 1U << a;
-      out.offset[a] = s.output;
-      out.status[a] = static_cast<std::uint16_t>(status | (common & kRamping));
-    });
-  }
 }
 
 }  // namespace volcomp

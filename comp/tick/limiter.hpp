@@ -1,56 +1,17 @@
 #pragma once
-// Clamp, slew and ramp: what stands between a computed correction and a drive.
+// Clamp, rounding and ramp: what stands between a computed correction and the limiter of offsets.
 
 #include <cstdint>
-#include <type_traits>
 
 #include "comp/core/bytes.hpp"
 #include "comp/core/inline.hpp"
 
 namespace volcomp {
 
-// One template for the tick (float, int32) and the double reference. A double is given a dead zone
-// of 1e-12 so that a value exactly at the limit is not reported as limited.
-template <class T>
-struct Limiter {
-  T limit{};  // |value| ≤ limit
-  T rate{};   // |value − previous| ≤ rate
-
-  static constexpr T kDeadZone =
-      std::is_same_v<T, double> ? static_cast<T>(1e-12) : static_cast<T>(0);
-
-  // 0 for what is not a number, or where the limit is none.
-  VOLCOMP_INLINE T clamp(T wanted, bool& hit) const {
-    return between(-limit, limit, T{}, wanted, hit);
-  }
-
-  // No step for what is not a number.
-  VOLCOMP_INLINE T slew(T wanted, T previous, bool& hit) const {
-    return between(previous - rate, previous + rate, previous, wanted, hit);
-  }
-
- private:
-  // Passes only what compares as within: NaN fails every comparison (IEEE 754-2019, 5.11).
-  VOLCOMP_INLINE static T between(T lo, T hi, T safe, T wanted, bool& hit) {
-    hit = false;
-    if (wanted >= lo && wanted <= hi) return wanted;
-    if (wanted > hi && hi >= lo) {
-      hit = wanted > hi + kDeadZone;
-      return hi;
-    }
-    if (wanted < lo && hi >= lo) {
-      hit = wanted < lo - kDeadZone;
-      return lo;
-    }
-    hit = true;
-    return safe;
-  }
-};
-
-// |a − b| > most, most ≥ 0; a − b must be representable.
+// |a − b| > most, most ≥ 0; a − b wraps.
 VOLCOMP_INLINE bool further(std::int32_t a, std::int32_t b, std::int32_t most) {
   const auto span = static_cast<std::uint32_t>(most);
-  return static_cast<std::uint32_t>(a - b) + span > 2U * span;
+  return static_cast<std::uint32_t>(a) - static_cast<std::uint32_t>(b) + span > 2U * span;
 }
 
 // A largest magnitude, ≥ 0, in the form it is compared in: magnitudes of floats compare like
@@ -64,10 +25,6 @@ class Magnitude {
   // The same magnitude with the sign of `x`.
   VOLCOMP_INLINE float signed_like(float x) const {
     return bit_cast<float>((bits_of(x) & 0x80000000U) | twice_ >> 1U);
-  }
-  // `x` if it does not exceed this, else signed_like(x). Not in the fast path: for size.
-  [[nodiscard]] [[gnu::noinline]] float within(float x) const {
-    return exceeds(x, *this) ? signed_like(x) : x;
   }
   // NaN exceeds all.
   VOLCOMP_INLINE friend bool exceeds(float x, Magnitude most) {
@@ -84,9 +41,10 @@ class Magnitude {
 };
 
 // Nearest integer, half to even, |x| < 2^22: adding 1.5·2^23 leaves the integer in the low mantissa
-// bits (conventions, section 5). No library call, the same on every target.
+// bits (conventions, section 5). Anything else becomes some integer beyond ±(2^22 − 1): numbers
+// further out, infinities and what is not a number. No library call, the same on every target.
 VOLCOMP_INLINE std::int32_t round_half_even(float x) {
-  return bit_cast<std::int32_t>(x + 12582912.0F) - 0x4B400000;
+  return static_cast<std::int32_t>(bit_cast<std::uint32_t>(x + 12582912.0F) - 0x4B400000U);
 }
 
 inline constexpr std::int32_t kMostRounded = 4'194'303;
@@ -107,6 +65,9 @@ class Ramp {
   [[nodiscard]] bool running() const { return next_ - 1U < ticks_; }
   // From the second tick after its last step on. A ramp that begins before that continues this one.
   [[nodiscard]] bool at_rest() const { return next_ == 0; }
+
+  // 0 at rest.
+  [[nodiscard]] std::uint32_t next() const { return next_; }
 
   // Factor of the first tick. It is known beforehand: this tick, the one of an exchange of tables,
   // has enough to do.

@@ -158,6 +158,25 @@ VOLCOMP_INLINE void err_to_work(const ChannelValues& v, Recursion& r) {
   r.e = {w[0] + d[0], w[1] + d[1], w[2] + d[2]};
 }
 
+[[nodiscard]] VOLCOMP_INLINE bool errs(const RuntimeStep& step) {
+  return step.kind != JointKind::fixed || step.has_error;
+}
+
+// Angles of the error of every step that errs, rad, in its frame.
+using StepAngles = std::array<Float3, kMaxBodies>;
+
+// What a machine whose tool nobody turns makes of the angles of an error.
+struct KeepsNoAngles {
+  VOLCOMP_INLINE void operator()(std::size_t /*step*/, const ChannelValues& /*v*/) const {}
+};
+
+struct KeepsAngles {
+  StepAngles& angle;
+  VOLCOMP_INLINE void operator()(std::size_t step, const ChannelValues& v) const {
+    angle[step] = {v[3], v[4], v[5]};
+  }
+};
+
 // Calls visit(channels) if the step errs: an axis by its tables, a fixed body constantly.
 template <class Visit>
 VOLCOMP_INLINE void with_error(const RuntimeStep& step, const Located& at, const Visit& visit) {
@@ -178,11 +197,13 @@ VOLCOMP_INLINE bool has_offset(const RuntimeStep& step) {
 }
 
 // Tool branch, one step towards base: the error of the step, e ← R_H R_J e, p ← H J p.
-template <class Machine>
+template <class Machine, class Keep>
 VOLCOMP_INLINE void step_to_base(const RuntimeStep& step, const Located& at, bool fresh,
-                                 Recursion& r) {
-  with_error(step, at,
-             [&](const ChannelValues& v) VOLCOMP_INLINE_LAMBDA { err_to_base(v, fresh, r); });
+                                 Recursion& r, const Keep& keep) {
+  with_error(step, at, [&](const ChannelValues& v) VOLCOMP_INLINE_LAMBDA {
+    keep(v);
+    err_to_base(v, fresh, r);
+  });
   move(step, at, r);
   if (!step.plain) {
     turn_columns(step, at.turn, 0, r.column);
@@ -197,8 +218,9 @@ VOLCOMP_INLINE void step_to_base(const RuntimeStep& step, const Located& at, boo
 }
 
 // Work branch, one step towards its tip: e ← R_Jᵀ R_Hᵀ e, p ← (H J)⁻¹ p, the error of the step.
-template <class Machine>
-VOLCOMP_INLINE void step_to_work(const RuntimeStep& step, const Located& at, Recursion& r) {
+template <class Machine, class Keep>
+VOLCOMP_INLINE void step_to_work(const RuntimeStep& step, const Located& at, Recursion& r,
+                                 const Keep& keep) {
   if (has_offset<Machine>(step)) subtract(r.p, step.offset_nm);
   if (!step.plain) {
     if (step.has_orientation) {
@@ -208,7 +230,10 @@ VOLCOMP_INLINE void step_to_work(const RuntimeStep& step, const Located& at, Rec
     if (step.carried()) set_motion_column(step, r.p, r.column[step.column]);
   }
   move(step, at, r);
-  with_error(step, at, [&](const ChannelValues& v) VOLCOMP_INLINE_LAMBDA { err_to_work(v, r); });
+  with_error(step, at, [&](const ChannelValues& v) VOLCOMP_INLINE_LAMBDA {
+    keep(v);
+    err_to_work(v, r);
+  });
 }
 
 // Turns the error in the work frame back into base orientation, together with the columns of the
@@ -224,16 +249,17 @@ VOLCOMP_INLINE void step_back_to_base(const RuntimeStep& step, const Located& at
   orient_columns(step, first_column, r.column);
 }
 
-// The error in base orientation.
-template <class Machine, class Set, class Places>
+// The error in base orientation; keep(step, channels) for every step that errs.
+template <class Machine, class Set, class Places, class Keep>
 VOLCOMP_INLINE Float3 recursive_error(const Machine& machine, const Set& set, const Places& at,
-                                      Columns& column) {
+                                      Columns& column, const Keep& keep) {
   const RuntimeChain& chain = machine.chain;
   Recursion r{set.tool_nm, {}, column};
   if (chain.inverse.form == InverseForm::general) column = {};
   walk_up<Machine>(0, chain.tool_steps, [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
     const RuntimeStep& step = chain.step[i];
-    step_to_base<Machine>(step, at[step.nc_axis], Machine::kCompiledIn && i == 0, r);
+    const auto keep_this = [&](const ChannelValues& v) VOLCOMP_INLINE_LAMBDA { keep(i, v); };
+    step_to_base<Machine>(step, at[step.nc_axis], Machine::kCompiledIn && i == 0, r, keep_this);
   });
   for_each_linear<Machine>(machine, [&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
     const float x = at[a].travel_nm;
@@ -241,7 +267,8 @@ VOLCOMP_INLINE Float3 recursive_error(const Machine& machine, const Set& set, co
   });
   walk_up<Machine>(chain.tool_steps, chain.steps, [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
     const RuntimeStep& step = chain.step[i];
-    step_to_work<Machine>(step, at[step.nc_axis], r);
+    const auto keep_this = [&](const ChannelValues& v) VOLCOMP_INLINE_LAMBDA { keep(i, v); };
+    step_to_work<Machine>(step, at[step.nc_axis], r, keep_this);
   });
   walk_down<Machine>(chain.tool_steps, chain.steps, [&](std::size_t i) VOLCOMP_INLINE_LAMBDA {
     const RuntimeStep& step = chain.step[i];

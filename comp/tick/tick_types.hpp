@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "comp/core/status.hpp"
+#include "comp/tick/offset_bounds.hpp"
 
 namespace volcomp {
 
@@ -31,7 +32,7 @@ enum StatusBit : std::uint16_t {
 #define STATUS_BIT(bit, enumerator, name, NAME, words) enumerator = 1U << (bit),
 #include "comp/tick/codes.def"
 };
-inline constexpr int kStatusBits = 14;
+inline constexpr int kStatusBits = 15;
 
 constexpr std::size_t bit_of(StatusBit status) {
   return static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(status)));
@@ -54,11 +55,7 @@ enum class PositionSource : std::uint8_t {
 };
 
 // Units: nm (linear) or 2^-32 turn (rotary), per tick where stated.
-struct AxisLimits {
-  std::int32_t limit = 200'000;  // largest |offset|, 1…4 194 303 (4.19 mm, 6.1 mrad)
-  std::int32_t rate = 10'000;    // largest change per tick, 1…1e9
-  std::int32_t soft_rate =
-      1'000;  // the same while an axis is dropped, not homed, or coming back; 1…rate
+struct AxisLimits : OffsetLimits {  // of the correction; soft_rate: dropped, not homed, coming back
   std::int32_t hysteresis = 2'000;  // of the direction, ≥ 0
   std::int64_t max_step =
       0;  // largest plausible |Δposition| per tick, run-time units; 0 = not checked
@@ -83,6 +80,8 @@ struct Diagnostics {
   std::uint32_t active_crc = 0;  // of the image behind the active tables
   std::array<std::array<std::uint16_t, kStatusBits>, Axes> began{};
   std::array<std::int32_t, Axes> largest{};  // largest |offset| put out
+  // Largest |wanted offset − offset| that rate or acceleration left at the end of a tick.
+  std::array<std::int32_t, Axes> largest_lag{};
 };
 
 }  // namespace volcomp

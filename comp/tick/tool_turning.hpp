@@ -32,79 +32,102 @@ struct ToolTurning {
   }
 };
 
-// A frame of the ideal machine seen from base.
-struct FloatFrame {
-  std::array<Float3, 3> column{{{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}}};
+// A frame of the ideal machine seen from base. Its columns are filled as soon as it is turned;
+// until then nothing is multiplied.
+struct FloatFrame {  // NOLINT(cppcoreguidelines-pro-type-member-init)
+  std::array<Float3, 3> column;
   Float3 origin{};
+  bool turned = false;
 
   // A vector given in this frame.
-  [[nodiscard]] Float3 turned(const float* v) const {
-    Float3 out{};
+  [[nodiscard]] Float3 in_base(const Float3& v) const {
+    if (!turned) return v;
+    Float3 out;
+    VOLCOMP_UNROLL
     for (std::size_t i = 0; i < 3; ++i)
       out[i] = column[0][i] * v[0] + column[1][i] * v[1] + column[2][i] * v[2];
     return out;
   }
+  void orient(const std::array<float, 9>& R) {
+    column = {in_base({R[0], R[3], R[6]}), in_base({R[1], R[4], R[7]}),
+              in_base({R[2], R[5], R[8]})};
+    turned = true;
+  }
+  void travel(std::size_t axis, float x) {
+    if (!turned) {
+      origin[axis] += x;
+      return;
+    }
+    const Float3& n = column[axis];
+    add(origin, {n[0] * x, n[1] * x, n[2] * x});
+  }
+  void turn(std::size_t axis, float s, float c) {
+    const std::size_t j = axis == 2 ? 0 : axis + 1;
+    const std::size_t k = axis == 0 ? 2 : axis - 1;
+    if (!turned) {
+      column = {};
+      column[axis][axis] = 1.0F;
+      column[j][j] = column[k][k] = c;
+      column[j][k] = s;
+      column[k][j] = -s;
+      turned = true;
+      return;
+    }
+    VOLCOMP_UNROLL
+    for (std::size_t r = 0; r < 3; ++r) {
+      const float before = column[j][r];
+      column[j][r] = c * before + s * column[k][r];
+      column[k][r] = c * column[k][r] - s * before;
+    }
+  }
 };
 
 // Into the frame of a step, its motion included.
-inline void step_out(const RuntimeStep& step, const Located& at, FloatFrame& f) {
-  const std::size_t i = index(step.axis);
-  add(f.origin, f.turned(step.offset_nm.data()));
-  if (step.has_orientation) {
-    const std::array<float, 9>& R = step.orientation;
-    f.column = {f.turned(Float3{R[0], R[3], R[6]}.data()),
-                f.turned(Float3{R[1], R[4], R[7]}.data()),
-                f.turned(Float3{R[2], R[5], R[8]}.data())};
-  }
-  if (step.kind == JointKind::prismatic) {
-    const float x = at.travel_nm * step.sign;
-    add(f.origin, {f.column[i][0] * x, f.column[i][1] * x, f.column[i][2] * x});
-  }
-  if (step.kind != JointKind::rotary) return;
-  const float s = at.turn.sine * step.sign;
-  const float c = at.turn.cosine;
-  Float3& j = f.column[(i + 1) % 3];
-  Float3& k = f.column[(i + 2) % 3];
-  for (std::size_t r = 0; r < 3; ++r) {
-    const float before = j[r];
-    j[r] = c * before + s * k[r];
-    k[r] = c * k[r] - s * before;
-  }
+VOLCOMP_INLINE void step_out(const RuntimeStep& step, const Located& at, FloatFrame& f) {
+  if (step.has_offset) add(f.origin, f.in_base(step.offset_nm));
+  if (step.has_orientation) f.orient(step.orientation);
+  if (step.kind == JointKind::prismatic) f.travel(index(step.axis), at.travel_nm * step.sign);
+  if (step.kind == JointKind::rotary)
+    f.turn(index(step.axis), at.turn.sine * step.sign, at.turn.cosine);
 }
 
-// What a step in its frame adds: its error, and its axis if that orients.
-inline void note(const RuntimeStep& step, std::uint8_t orienting, const Located& at,
-                 const FloatFrame& f, ToolTurning& t) {
-  with_error(step, at, [&](const ChannelValues& v) {
-    const Float3 turn = f.turned(&v[3]);
-    step.work ? subtract(t.error, turn) : add(t.error, turn);
-  });
-  if (orienting == kNotOrienting || step.kind != JointKind::rotary) return;
+// What an axis that orients does.
+inline void note_axis(const RuntimeStep& step, const FloatFrame& f, ToolTurning& t) {
   const Float3& n = f.column[index(step.axis)];
-  t.turn[orienting] = {step.sense * n[0], step.sense * n[1], step.sense * n[2]};
-  t.pivot[orienting] = f.origin;
-  t.under_work[orienting] = step.work;
+  t.turn[step.orienting] = {step.sense * n[0], step.sense * n[1], step.sense * n[2]};
+  t.pivot[step.orienting] = f.origin;
+  t.under_work[step.orienting] = step.work;
+}
+
+// From base to a tip; its frame.
+template <class Machine, class Places>
+FloatFrame walk_out(const Machine& machine, const Places& at, const StepAngles& angle, bool work,
+                    ToolTurning& t) {
+  const RuntimeChain& chain = machine.chain;
+  const std::size_t steps = work ? chain.steps - chain.tool_steps : chain.tool_steps;
+  FloatFrame f;
+  for (std::size_t n = 0; n < steps; ++n) {
+    const std::size_t i = work ? chain.tool_steps + n : steps - 1 - n;
+    const RuntimeStep& step = chain.step[i];
+    step_out(step, at[step.nc_axis], f);
+    if (errs(step)) {
+      const Float3 turn = f.in_base(angle[i]);
+      work ? subtract(t.error, turn) : add(t.error, turn);
+    }
+    if (step.orienting != kNotOrienting) note_axis(step, f, t);
+  }
+  return f;
 }
 
 template <class Machine, class Set, class Places>
-ToolTurning tool_turning(const Machine& machine, const Set& set, const Places& at) {
-  const RuntimeChain& chain = machine.chain;
+ToolTurning tool_turning(const Machine& machine, const Set& set, const Places& at,
+                         const StepAngles& angle) {
   ToolTurning t;
-  FloatFrame tool;
-  for (std::size_t i = chain.tool_steps; i > 0; --i) {
-    const RuntimeStep& step = chain.step[i - 1];
-    step_out(step, at[step.nc_axis], tool);
-    note(step, chain.orienting_index(step.nc_axis), at[step.nc_axis], tool, t);
-  }
-  t.axis = tool.column[2];
-  t.tip = tool.turned(set.tool_nm.data());
+  const FloatFrame tool = walk_out(machine, at, angle, false, t);
+  t.axis = tool.in_base({0.0F, 0.0F, 1.0F});
+  t.tip = tool.in_base(set.tool_nm);
   add(t.tip, tool.origin);
-  FloatFrame work;
-  for (std::size_t i = chain.tool_steps; i < chain.steps; ++i) {
-    const RuntimeStep& step = chain.step[i];
-    step_out(step, at[step.nc_axis], work);
-    note(step, chain.orienting_index(step.nc_axis), at[step.nc_axis], work, t);
-  }
+  walk_out(machine, at, angle, true, t);
   return t;
 }
 

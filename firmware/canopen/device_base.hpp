@@ -36,6 +36,15 @@ class DeviceBase {
     lengthy,  // SDO request, reset: as long as the application takes
   };
   [[nodiscard]] Work work(const hal::CanFrame& frame) const;
+
+  // For a loop that serves many devices and skips those that have nothing to do (device_rest.cpp).
+  // False: receive() of the device ignores the frame, whatever it contains.
+  [[nodiscard]] bool heeds(const hal::CanFrame& frame) const;
+  // From when on offer() has a frame, if nothing else happens: 0: now; UINT64_MAX: never.
+  [[nodiscard]] std::uint64_t sends_at_us() const;
+  // Before this time poll() and offer() of the device do nothing but what the application does,
+  // unless it heeds a frame or another function is called. UINT64_MAX: for ever.
+  [[nodiscard]] std::uint64_t rests_until_us() const;
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
 
   static constexpr std::size_t kMostTransmit = 32;

@@ -44,6 +44,11 @@ class Emergency {
   // The next message, when there is one and the inhibit time has passed since the last.
   [[nodiscard]] bool offer(std::uint64_t now_us, hal::CanFrame& frame) const;
   void taken(std::uint64_t now_us);
+  // From when on offer() has a frame; 0: now; UINT64_MAX: never.
+  [[nodiscard]] std::uint64_t sends_at_us() const {
+    if (queued_ == 0) return UINT64_MAX;
+    return sent_any_ ? last_sent_us_ + 100U * std::uint64_t{objects_.emergency_inhibit_100us} : 0;
+  }
 
   void clear_history();
   void reset();

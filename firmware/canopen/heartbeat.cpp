@@ -40,6 +40,17 @@ bool HeartbeatConsumer::overdue(std::uint64_t now_us, std::uint8_t& node) {
   return false;
 }
 
+std::uint64_t HeartbeatConsumer::next_overdue_us() const {
+  std::uint64_t next_us = UINT64_MAX;
+  for (std::size_t i = 0; i < kHeartbeatConsumers; ++i) {
+    const Watch& w = watch_[i];
+    if (!w.started || w.lost) continue;
+    const std::uint64_t at_us = w.last_us + time_us(objects_.consumer_heartbeat[i]) + 1U;
+    if (at_us < next_us) next_us = at_us;
+  }
+  return next_us;
+}
+
 bool HeartbeatConsumer::restart(std::uint8_t sub, std::uint8_t& lost_node) {
   Watch& w = watch_[sub - 1U];
   const bool was_lost = w.lost;

@@ -21,6 +21,8 @@ class HeartbeatConsumer {
 
   // A watched node that has fallen silent since the last call, one per call.
   bool overdue(std::uint64_t now_us, std::uint8_t& node);
+  // When there will be one at the earliest, if none is heard; UINT64_MAX: never.
+  [[nodiscard]] std::uint64_t next_overdue_us() const;
 
   // State in the last message of a watched node; boot_up when nothing is known.
   [[nodiscard]] NmtState state(std::uint8_t node) const;

@@ -33,6 +33,12 @@ class SdoServer {
   [[nodiscard]] bool response(SdoData& out);
   // Time passed; may produce a response.
   void poll(std::uint64_t now_us);
+  // There is a response, now.
+  [[nodiscard]] bool busy() const { return response_waiting_ || phase_ == Phase::block_upload; }
+  // When poll() takes the client for silent, if no request comes; UINT64_MAX: never.
+  [[nodiscard]] std::uint64_t silent_at_us() const {
+    return phase_ == Phase::idle ? UINT64_MAX : last_active_us_ + timeout_us_;
+  }
   // Communication reset: drops transfer and response without an abort.
   void reset();
 

@@ -71,6 +71,7 @@ void Forwarding::see(std::size_t axis, bool follows) {
   x.phase = Phase::ready;
   core_.gate[axis].start_at(0);
   core_.objects.offset[axis] = 0;
+  core_.gate[axis].expect(0);
   if (core_.corrects(axis)) core_.compensator.begin_at_zero(axis);
   if ((waits_ & bit(axis)) != 0) add(axis);
 }

@@ -1,5 +1,7 @@
 #include "firmware/node/node.hpp"
 
+#include <algorithm>
+
 #include "firmware/canopen/device.inl"
 #include "firmware/node/object_handles.hpp"
 
@@ -105,6 +107,16 @@ void Node::poll_scrub(std::uint64_t now_us) {
   scrub_.background(now_us);
 }
 
+// The parts whose background() or due() is called.
+std::uint64_t Node::rests_until_us() const {
+  if (core_.booting()) return UINT64_MAX;
+  const std::uint64_t device_us = core_.device.rests_until_us();
+  const std::uint64_t cycle_us = std::min(device_us, cycle_.rests_until_us());
+  const std::uint64_t point_us = std::min(probe_.rests_until_us(), strokes_.rests_until_us());
+  const std::uint64_t scrub_us = std::min(thermal_.rests_until_us(), scrub_.rests_until_us());
+  return std::min({cycle_us, point_us, scrub_us});
+}
+
 // --- the other context
 
 void Node::frames_lost(std::uint32_t count) {
@@ -186,6 +198,7 @@ void Node::before_read(canopen::ObjectId object) {
   o.sync_missed = core_.device.sync().missed();
   o.sync_foreign = core_.device.sync().foreign();
   o.largest = d.largest;
+  o.largest_lag = d.largest_lag;
   o.began = d.began;
 }
 

@@ -52,6 +52,8 @@ class Node final {
   [[nodiscard]] const NodeDevice& device() const { return core_.device; }
   // When poll() has something to do at the latest, while a cycle is open; UINT64_MAX otherwise.
   [[nodiscard]] std::uint64_t deadline_us() const { return cycle_.deadline_us(); }
+  // As that of the device (device_base.hpp), with all that the node does.
+  [[nodiscard]] std::uint64_t rests_until_us() const;
   [[nodiscard]] const NodeObjects& objects() const { return core_.objects; }
   [[nodiscard]] const NodeCompensator& compensator() const { return core_.compensator; }
 

@@ -23,7 +23,6 @@ struct NodeCore {
   std::array<canopen::Pdo, kTransmitPdos> transmit{};
   Preemption* preemption;
   NodeDevice device;
-  NodeCompensator compensator{};
   PerAxis<OffsetGate> gate{};  // with the scale of the axis
 
   TickInput<kNodeAxes> input{};
@@ -32,6 +31,7 @@ struct NodeCore {
   std::uint8_t open_counter = 0;  // of the SYNC that opened the cycle
   bool running = false;           // the compensator ticks
   bool overdue = false;           // the background
+  NodeCompensator compensator{};  // last: what lies behind so many bytes takes long instructions
 
   [[nodiscard]] canopen::Emergency& emergency() { return device.emergency(); }
   [[nodiscard]] bool booting() const { return device.state() == canopen::NmtState::boot_up; }
@@ -63,7 +63,7 @@ struct NodeCore {
   [[nodiscard]] Status check_ways() const;
 
  private:
-  void configure_gates();
+  void configure_gate(std::size_t a, const OffsetLimits& limits);
   [[nodiscard]] bool hears(canopen::ObjectId object) const;
   void set_default_transmit_pdos(std::size_t end);
   [[nodiscard]] bool can_forward(std::size_t axis) const;

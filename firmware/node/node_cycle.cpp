@@ -259,8 +259,10 @@ bool NodeCycle::start_compensating() {
   }
   const Status status = core_.compensator.start_from(held);
   if (!status.ok()) report(status, core_.objects);
-  for (OffsetGate& gate : core_.gate)
-    gate.join();
+  for (std::size_t a = 0; a < kNodeAxes; ++a) {
+    core_.gate[a].join();
+    core_.gate[a].expect(offset_to_wire(held[a], core_.gate[a].scale()));
+  }
   return status.ok();
 }
 
@@ -298,7 +300,10 @@ void NodeCycle::put_out() {
 std::int32_t NodeCycle::wanted(std::size_t axis, std::int32_t learned) {
   const std::int32_t limit = core_.objects.limit[axis];
   std::int32_t offset = output_.offset[axis];
-  if (strokes_.learns_for(axis)) offset = limited(offset + learned, limit);
+  if (strokes_.learns_for(axis)) {
+    offset = limited(offset + learned, limit);
+    core_.gate[axis].expect_any();  // the sum is clamped, which bounds no acceleration
+  }
   if (core_.way(axis) == Way::controller_adds) offset = limited(ahead_[axis].next(offset), limit);
   return offset_to_wire(offset, core_.gate[axis].scale());
 }
@@ -342,9 +347,11 @@ void NodeCycle::report_axis_errors(std::size_t axis, std::uint16_t status) {
   const bool silent = this->silent(axis);
   const bool cut = forwarding_.cut(axis);
   const bool tripped = core_.gate[axis].tripped();
+  const bool jumped = core_.gate[axis].refused();
   const bool lost = position_[axis].lost();
   const bool late = forwarding_.late(axis);
-  const bool trouble = lost || silent || cut || late || tripped || (status & kAxisTrouble) != 0;
+  const bool trouble =
+      lost || silent || cut || late || tripped || jumped || (status & kAxisTrouble) != 0;
   if (!trouble && clean_cycles_[axis] > kCleanCycles) return;
   clean_cycles_[axis] =
       trouble ? std::uint16_t{0} : static_cast<std::uint16_t>(clean_cycles_[axis] + 1);
@@ -358,6 +365,7 @@ void NodeCycle::report_axis_errors(std::size_t axis, std::uint16_t status) {
   raise_if(late, ErrorCode::forwarded_late, axis, status);
   raise_if(silent, ErrorCode::offset_not_confirmed, axis, status);
   raise_if(tripped, ErrorCode::memory_damaged, axis, status);
+  raise_if(jumped, ErrorCode::correction_jumped, axis, status);
 }
 
 // 2600h:01…03 and the status PDO that carries them, at most as often as its inhibit time allows.
@@ -366,7 +374,7 @@ void NodeCycle::report_status() {
   bool silent = false;
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     if (a < core_.objects.axes) any = static_cast<std::uint16_t>(any | core_.objects.status[a]);
-    silent = silent || this->silent(a) || core_.gate[a].tripped();
+    silent = silent || this->silent(a) || core_.gate[a].goes_home();
   }
   if (forwarding_.incomplete()) any |= kForwardingIncomplete;
   NodeState state = NodeState::no_tables;

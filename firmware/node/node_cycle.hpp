@@ -64,6 +64,10 @@ class NodeCycle : public NodePart {
 
   // When due() has something to do at the latest; UINT64_MAX while no cycle is open.
   [[nodiscard]] std::uint64_t deadline_us() const { return open_ ? deadline_us_ : UINT64_MAX; }
+  // Forwarding watches the clock.
+  [[nodiscard]] std::uint64_t rests_until_us() const {
+    return forwarding_.any() ? 0 : deadline_us();
+  }
   // No drive holds a correction of this node, or none can be changed any more.
   [[nodiscard]] bool at_rest() const;
 

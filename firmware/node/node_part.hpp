@@ -16,6 +16,9 @@ struct NodePart {
   void arrived(std::uint32_t /*bits*/) {}
   // May take long; the tick may come in between, inside Preemptible scopes.
   void background(std::uint64_t /*now_us*/) {}
+  // Before this time there is nothing to do in background() or, for the cycle, in due(), unless
+  // another function is called.
+  static std::uint64_t rests_until_us() { return UINT64_MAX; }
 
   // Refuses a value, or does what it commands.
   static canopen::AbortCode before_write(canopen::ObjectId /*object*/,

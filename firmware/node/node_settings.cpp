@@ -60,40 +60,65 @@ std::uint32_t correcting_axes(const RuntimeChain& chain) {
   return correcting;
 }
 
+WireScale scale_of(const NodeObjects& objects, std::size_t axis) {
+  const bool rotary = objects.rotary[axis] != 0;
+  return {objects.scale_numerator[axis], objects.scale_denominator[axis], rotary,
+          rotary ? objects.units_per_turn[axis] : 0};
+}
+
+// What the compensator promises, in units of the drive. Rounding moves an offset by up to half a
+// unit, so a step by up to one and its change by up to two. Looking ahead adds the smaller of the
+// last two steps, which changes by up to the acceleration, and is clamped to the limit.
+void check_motion(GateBounds& bounds, const OffsetBounds& promised, Way way) {
+  std::int32_t rate = promised.rate;
+  std::int32_t acceleration = promised.acceleration;
+  if (way == Way::controller_adds) {
+    rate += 2 * acceleration;
+    acceleration *= 5;
+  }
+  bounds.rate = std::min(bound_to_wire(rate, bounds.scale), kMostHeld - 1) + 1;
+  bounds.acceleration = std::min(bound_to_wire(acceleration, bounds.scale), kMostHeld - 2) + 2;
+}
+
 }  // namespace
 
 void NodeCore::note_machine() { correcting = correcting_axes(compensator.machine().chain); }
 
 // The machine id is checked at load time, because it may be changed while stopped.
 Status NodeCore::configure() {
-  configure_gates();
   CompensatorSettings<kNodeAxes> s;
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     // Less than a unit of the drive could never be corrected: a rate of 0 is refused.
-    const bool too_slow = objects.drive[a] != 0 && gate[a].slew() < 1;
+    const bool too_slow =
+        objects.drive[a] != 0 && step_to_wire(objects.slew[a], scale_of(objects, a)) < 1;
     const std::int32_t rate =
         too_slow ? 0 : OffsetGate::unhindered(objects.slew[a], objects.late_cycles);
-    s.axis[a] = {objects.limit[a], rate, std::min(rate, objects.soft_rate[a]),
-                 objects.hysteresis[a], objects.max_step[a]};
+    AxisLimits& l = s.axis[a];
+    l.limit = objects.limit[a];
+    l.rate = rate;
+    l.soft_rate = std::min(rate, objects.soft_rate[a]);
+    l.acceleration = objects.acceleration[a];
+    l.hysteresis = objects.hysteresis[a];
+    l.max_step = objects.max_step[a];
   }
   s.source = static_cast<PositionSource>(objects.position_source);
   s.ramp_ticks = objects.ramp_cycles;
   s.stale_drop_ticks = objects.drop_cycles;
+  for (std::size_t a = 0; a < kNodeAxes; ++a)
+    configure_gate(a, s.axis[a]);
   return compensator.configure(s);
 }
 
-void NodeCore::configure_gates() {
-  for (std::size_t a = 0; a < kNodeAxes; ++a) {
-    GateBounds bounds;
-    bounds.scale = {objects.scale_numerator[a], objects.scale_denominator[a],
-                    objects.rotary[a] != 0, objects.rotary[a] != 0 ? objects.units_per_turn[a] : 0};
-    bounds.limit = offset_to_wire(objects.limit[a], bounds.scale);
-    bounds.slew = step_to_wire(objects.slew[a], bounds.scale);
-    bounds.soft = std::max<std::int32_t>(1, step_to_wire(objects.soft_rate[a], bounds.scale));
-    bounds.late = objects.late_cycles;
-    bounds.reports = way(a) == Way::offset ? objects.confirms[a] : std::uint8_t{0};
-    gate[a].configure(bounds);
-  }
+void NodeCore::configure_gate(std::size_t a, const OffsetLimits& limits) {
+  GateBounds bounds;
+  bounds.scale = scale_of(objects, a);
+  bounds.limit = offset_to_wire(objects.limit[a], bounds.scale);
+  bounds.slew = step_to_wire(objects.slew[a], bounds.scale);
+  bounds.soft = std::max<std::int32_t>(1, step_to_wire(objects.soft_rate[a], bounds.scale));
+  bounds.late = objects.late_cycles;
+  bounds.reports = way(a) == Way::offset ? objects.confirms[a] : std::uint8_t{0};
+  if (!limits.accelerates_freely()) check_motion(bounds, OffsetBounds(limits), way(a));
+  gate[a].configure(bounds);
 }
 
 // The predefined mappings are known to be good, so nothing can be refused here.

@@ -14,8 +14,19 @@
 //     wanted value at the soft rate.
 //
 // It has a limit of its own, so that no fault before it moves a drive further. What it is bounded
-// by is held twice and compared before every value. When the copies differ, the configured value is
-// unknown: the gate then moves to 0 and stays there.
+// by is held twice and compared before every value. When the copies differ, the gate moves to 0 and
+// stays there.
+//
+// Where offsets are limited in acceleration, it checks by itself that what it is given keeps limit,
+// rate and acceleration: three differences, no law of braking. The first value that does not is the
+// last one it looks at: from the last good offset and step it moves to 0 within the same bounds and
+// stays there. A missing report then brakes instead of repeating the last value, as far as the
+// values that can be under way allow: they stay within one slew of each other even where a step
+// then changes by more than the acceleration. After that, or from a value that the drive held, a
+// limiter leads back to what is wanted.
+//
+// Bounds are set at the start alone: while the node is OPERATIONAL their objects are fixed, so no
+// offset is ever on its way from old bounds to new ones.
 //
 // It records the values handed to the port, not those it has computed: only the former can reach a
 // drive.
@@ -23,6 +34,7 @@
 #include <array>
 #include <cstdint>
 
+#include "comp/tick/offset_limiter.hpp"
 #include "firmware/node/wire_scale.hpp"
 
 namespace volcomp::node {
@@ -35,8 +47,11 @@ struct GateBounds {
   std::int32_t limit = kMostHeld;  // largest |offset|, ≥ 0
   std::int32_t slew = 1;           // largest step, ≥ 1
   std::int32_t soft = kMostHeld;   // the same on the way from what a drive holds, ≥ 1
-  WireScale scale{};               // of what the gate is given; it only keeps it
-  std::uint8_t late = 2;           // cycles a frame may be late, 0…OffsetGate::kMostLate
+  // Of what the gate is given: largest step, ≥ 1, and largest change of the step; 0: unchecked.
+  std::int32_t rate = kMostHeld;
+  std::int32_t acceleration = 0;
+  WireScale scale{};      // of what the gate is given; it only keeps it
+  std::uint8_t late = 2;  // cycles a frame may be late, 0…OffsetGate::kMostLate
   // 0: there are no reports, the gate assumes that every value handed over arrives. Not a bool: a
   // flipped bit would make it neither true nor false.
   std::uint8_t reports = 1;
@@ -47,7 +62,7 @@ class OffsetGate {
   static constexpr std::uint8_t kMostLate = 7;
 
   OffsetGate() { configure({}); }
-  // Also ends the move to 0 after damage.
+  // Also ends the move to 0 after damage or a refused value.
   void configure(const GateBounds& bounds);
 
   // Discards its state: sends nothing until the drive has reported. For a drive that was restarted,
@@ -57,7 +72,18 @@ class OffsetGate {
   // ±kMostHeld the gate sends nothing.
   void start_at(std::int32_t held);
   // The wanted value starts at that of the gate: there is no approach.
-  void join() { approaching_ = false; }
+  void join() {
+    approaching_ = apart_ = false;
+    expect(last_);
+  }
+  // The next wanted value may be any within the limit.
+  void expect_any() { known_ = 0; }
+  // The wanted value starts at this one, at rest.
+  void expect(std::int32_t wanted) {
+    given_ = wanted;
+    given_step_ = 0;
+    known_ = 2;
+  }
   // The drive's report of this cycle. Nothing happens where the gate counts on none.
   void report(std::int32_t held);
 
@@ -75,6 +101,10 @@ class OffsetGate {
   }
   // They were not: it moves to 0 or is there.
   [[nodiscard]] bool tripped() const { return tripped_; }
+  // A wanted value was beyond limit, rate or acceleration: it moves to 0 or is there.
+  [[nodiscard]] bool refused() const { return refused_; }
+  // One of both.
+  [[nodiscard]] bool goes_home() const { return tripped_ || refused_; }
   // Cycles in a row without a report, saturating.
   [[nodiscard]] std::uint8_t unreported() const { return unreported_; }
 
@@ -97,27 +127,52 @@ class OffsetGate {
   }
 
  private:
-  // Reports may be late as well as offsets, hence twice.
-  static constexpr std::size_t kMemory = 2 * kMostLate + 2;
+  // Reports may be late as well as offsets, hence twice; and while they are missing, values go on.
+  static constexpr std::size_t kMemory = 3 * kMostLate + 3;
 
   // Values that can be under way; never more than there is room for, whatever `late` has become.
   [[nodiscard]] std::size_t window() const {
-    const std::size_t values = 2U * bounds_.late + 2U;
+    const std::size_t missing = bounds_.acceleration != 0 ? unreported_ : 0U;
+    const std::size_t values = 2U * bounds_.late + 2U + missing;
     return values < kMemory ? values : kMemory;
   }
+  // Whether is(value) is true of a value that can be under way, the newest first.
+  template <class Is>
+  bool any_sent(const Is& is) const {
+    std::size_t at = at_ % kMemory;
+    for (std::size_t left = window(); left != 0; --left) {
+      if (is(sent_[at])) return true;
+      at = at != 0 ? at - 1U : kMemory - 1U;
+    }
+    return false;
+  }
   [[nodiscard]] bool sent_recently(std::int32_t value) const;
+  [[nodiscard]] std::int32_t furthest() const;
+  [[nodiscard]] std::int32_t within_window(std::int32_t value) const;
   [[nodiscard]] std::int32_t limited(std::int32_t wanted) const;
+  [[nodiscard]] bool accept(std::int32_t wanted);
+  [[nodiscard]] std::int32_t moved(std::int32_t wanted, std::int32_t before);
   void trip();
 
   std::array<std::int32_t, kMemory> sent_{};
   GateBounds bounds_{};
   GateBounds copy_{};
-  std::int32_t held_ = 0;  // last report
-  std::int32_t last_ = 0;  // handed over last
-  std::uint8_t at_ = 0;    // newest entry of sent_
-  std::uint8_t same_ = 0;  // equal reports in a row while nothing is sent
+  std::uint32_t sum_ = 0;        // of the words of the bounds: which copy is right
+  OffsetLimiter<true> way_{};    // while apart: from what the drive holds to what is wanted
+  std::int32_t given_ = 0;       // wanted last
+  std::int32_t given_step_ = 0;  // its change
+  std::int32_t step_ = 0;        // change by the value handed over last
+  std::int32_t held_ = 0;        // last report
+  std::int32_t last_ = 0;        // handed over last
+  std::uint8_t at_ = 0;          // newest entry of sent_
+  std::uint8_t same_ = 0;        // equal reports in a row while nothing is sent
   std::uint8_t unreported_ = 0;
   bool tripped_ = false;
+  bool refused_ = false;
+  std::uint8_t known_ = 0;  // 1: given_, 2: given_step_, too
+  bool apart_ = false;      // not where what is wanted is
+  bool met_ = false;        // the value handed over last was the one wanted
+  bool handed_ = false;     // since the last begin_cycle()
   bool open_ = false;
   bool approaching_ = false;  // moves to the wanted value at the soft rate
   bool meets_ = false;        // the value of next() is the one wanted

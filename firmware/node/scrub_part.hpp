@@ -15,6 +15,7 @@ class ScrubPart : public NodePart {
   // Code and constants that are checked, too; before power_on().
   void watch_program(Span<const std::uint8_t> program) { program_.watch(program); }
   void background(std::uint64_t now_us);
+  [[nodiscard]] std::uint64_t rests_until_us() const { return next_us_; }
 
  private:
   bool read_slices(Status& status);

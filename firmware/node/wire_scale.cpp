@@ -67,6 +67,13 @@ std::int32_t step_to_wire(std::int32_t step, const WireScale& scale) {
   return nearest - (nearest * parts.wire > step * parts.offset ? 1 : 0);
 }
 
+std::int32_t bound_to_wire(std::int32_t step, const WireScale& scale) {
+  const Parts parts = parts_of(scale);
+  const std::int32_t nearest = offset_to_wire(step, scale);
+  const bool more = nearest < INT32_MAX && nearest * parts.wire < step * parts.offset;
+  return nearest + (more ? 1 : 0);
+}
+
 std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale) {
   const Parts parts = parts_of(scale);
   return saturated(divide_half_even(wire * parts.wire, parts.offset));

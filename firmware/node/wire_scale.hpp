@@ -22,6 +22,8 @@ struct WireScale {
 [[nodiscard]] std::int32_t offset_to_wire(std::int32_t offset, const WireScale& scale);
 // A limit of steps: never more than `step`, so rounded down, saturating.
 [[nodiscard]] std::int32_t step_to_wire(std::int32_t step, const WireScale& scale);
+// What no step of at most `step` exceeds but for its rounding, so rounded up, saturating.
+[[nodiscard]] std::int32_t bound_to_wire(std::int32_t step, const WireScale& scale);
 // The nearest run-time offset, saturating.
 [[nodiscard]] std::int32_t offset_from_wire(std::int32_t wire, const WireScale& scale);
 

@@ -7,8 +7,13 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_experiment.hpp"
+#include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/face_gear/figures.hpp"
+#include "host_sim/experiments/face_gear/repeatability.hpp"
 #include "host_sim/experiments/face_gear/report.hpp"
+#include "host_sim/experiments/face_gear/spread.hpp"
+#include "host_sim/host/io/parallel.hpp"
+#include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/map_csv.hpp"
 
 namespace volcomp::cli {
@@ -16,8 +21,43 @@ namespace {
 
 struct FaceGearArguments : RunArguments {
   face_gear::FaceGearOptions options;
-  std::string map_folder;  // empty: none
+  std::string map_folder;    // empty: none
+  std::string gcode_folder;  // empty: none
+  bool noise_free = false;
+  bool repeatability = false;    // the experiments of section 3.3 in place of a gear
+  face_gear::SpreadPlan spread;  // measurements, each of another machine and gear
+  std::string shard;             // empty: all of them
 };
+
+// Several measurements: each has a bus of its own, in this process.
+bool measures_often(const FaceGearArguments& a) { return a.spread.count > 1 || !a.shard.empty(); }
+
+void check(const FaceGearArguments& a) {
+  if (!measures_often(a) && !a.repeatability) return;
+  const std::string option = a.repeatability ? "--repeatability" : "--seeds";
+  if (a.node.can != "loopback")
+    throw host::UserError(option + ": several measurements need --can loopback, a bus each");
+  if (!a.map_folder.empty() || !a.gcode_folder.empty())
+    throw host::UserError(option + ": --maps and --gcode are those of one measurement of a gear");
+  if (a.repeatability && !a.shard.empty())
+    throw host::UserError("--repeatability: --shard is for measurements of a gear");
+}
+
+// The probe of the paper's machine is an LP2 (its Table 2).
+constexpr std::size_t kUsualProbe = 2;  // of sim::kProbeClasses
+constexpr int kUsualTouches = 2;
+
+face_gear::FaceGearOptions options_of(const FaceGearArguments& arguments) {
+  face_gear::FaceGearOptions options = arguments.options;
+  options.machine = machine_of(arguments, "yk7280");
+  options.cycle_hz = arguments.node.cycle_hz;
+  if (arguments.noise_free) {
+    options.probe = 0;
+    options.touches = 1;
+    options.targets = {};
+  }
+  return options;
+}
 
 // As volcomp compare reads them.
 std::vector<host::NamedText> map_files(const face_gear::FaceGearResult& run) {
@@ -30,19 +70,86 @@ std::vector<host::NamedText> map_files(const face_gear::FaceGearResult& run) {
   return files;
 }
 
+std::vector<host::NamedText> program_files(const face_gear::FaceGearResult& run) {
+  return {{"inspection_before.ngc", run.at(face_gear::FaceStage::frame).program},
+          {"inspection_after.ngc", run.at(face_gear::FaceStage::compensated).program}};
+}
+
+RunOutcome repeatability_outcome(RunPlace& place, const FaceGearArguments& arguments,
+                                 const host::Progress& progress) {
+  const face_gear::RepeatabilityResult result = face_gear::run_repeatability(
+      options_of(arguments), arguments.spread.count, host::processors(), progress);
+  return {face_gear::repeatability_summary(result),
+          face_gear::repeatability_document(result, place.context()),
+          face_gear::repeatability_figures(result), true};
+}
+
+RunOutcome spread_outcome(RunPlace& place, const FaceGearArguments& arguments,
+                          const host::Progress& progress) {
+  face_gear::SpreadPlan plan = arguments.spread;
+  plan.threads = host::processors();
+  if (!arguments.shard.empty()) plan.shard = part_to_write(arguments, arguments.shard);
+  const face_gear::SpreadResult result =
+      face_gear::run_spread(options_of(arguments), plan, progress);
+  if (!arguments.shard.empty())
+    return part_outcome(face_gear::part_of_spread(result, plan), plan.shard);
+  return {face_gear::spread_summary(result), face_gear::spread_document(result, place.context()),
+          face_gear::spread_figures(result), face_gear::spread_verdict(result).ok};
+}
+
 RunOutcome face_gear_outcome(RunPlace& place, const FaceGearArguments& arguments,
                              const host::Progress& progress) {
-  face_gear::FaceGearOptions options = arguments.options;
-  options.machine = machine_of(arguments, "yk7280");
+  if (arguments.repeatability) return repeatability_outcome(place, arguments, progress);
+  if (measures_often(arguments)) return spread_outcome(place, arguments, progress);
+  face_gear::FaceGearOptions options = options_of(arguments);
   options.make_axes = place.axes();
-  options.cycle_hz = arguments.node.cycle_hz;
   const face_gear::FaceGearResult run = face_gear::run_face_gear(options, progress);
   return {face_gear::face_gear_summary(run),
           face_gear::face_gear_document(run, place.context()),
           face_gear::face_gear_figures(run),
           face_gear::face_gear_verdict(run).ok,
-          arguments.map_folder,
-          map_files(run)};
+          arguments.map_folder.empty() ? arguments.gcode_folder : arguments.map_folder,
+          arguments.map_folder.empty() ? program_files(run) : map_files(run)};
+}
+
+// How touches and targets scatter, and what is done against it.
+void add_scatter_options(CLI::App& face_gear, FaceGearArguments& a) {
+  std::vector<CLI::Option*> noise;
+  noise.push_back(add_choice<std::size_t>(face_gear, "--probe", a.options.probe,
+                                          {{"none", 0}, {"rmp600", 1}, {"lp2", 2}},
+                                          "How far touches scatter: not, 2σ = 0.5 µm, 2σ = 1 µm"));
+  noise.push_back(
+      face_gear
+          .add_option("--touches", a.options.touches, "Touches of each point; their mean counts")
+          ->check(CLI::Range(1, 20))
+          ->capture_default_str());
+  noise.push_back(face_gear
+                      .add_option("--target-touches", a.options.targets.touches,
+                                  "Touches of each target that identifies the axes")
+                      ->check(CLI::Range(1, 1000))
+                      ->capture_default_str());
+  noise.push_back(face_gear
+                      .add_option("--tracker-um", a.options.targets.tracker_um,
+                                  "Find the targets by a tracker instead: standard deviation of "
+                                  "each of their coordinates")
+                      ->check(number_between(0.001, 100.0)));
+  noise.back()->excludes(noise[2]);
+  CLI::Option* pure = face_gear.add_flag("--noise-free", a.noise_free,
+                                         "Nothing scatters: what the mathematics alone can do");
+  for (CLI::Option* option : noise)
+    pure->excludes(option);
+}
+
+void add_spread_options(CLI::App& face_gear, FaceGearArguments& a) {
+  CLI::Option* seeds =
+      face_gear
+          .add_option("--seeds", a.spread.count,
+                      "Measurements, each of another machine and gear: how far they differ")
+          ->check(CLI::Range(1, 10000))
+          ->capture_default_str();
+  add_shard_option(face_gear, a.shard)->needs(seeds);
+  face_gear.add_flag("--repeatability", a.repeatability,
+                     "Touch a plate and a ring five times over in place of the gear");
 }
 
 }  // namespace
@@ -56,6 +163,8 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
   a->node.can = "loopback";
   a->node.cycle_hz = sim::kBusCycleOfFive_hz;
   face_gear::FaceGearOptions& options = a->options;
+  options.probe = kUsualProbe;
+  options.touches = kUsualTouches;
   face_gear
       ->add_option("--gear", options.gear,
                    "The gear: table1 or table3 of the paper, or a TOML file")
@@ -70,14 +179,23 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
       {{"tables", face_gear::FormTruth::tables}, {"synthetic", face_gear::FormTruth::synthetic}},
       "Form of the simulated flanks, that of the paper's Tables 7 and 8 or a "
       "smooth one");
-  add_seed(*face_gear, "--seed", options.seed, "Seed of the errors of machine and gear");
+  add_seed(*face_gear, "--seed", options.seed,
+           "Seed of the errors of machine and gear, and of all that scatters");
+  add_scatter_options(*face_gear, *a);
+  add_spread_options(*face_gear, *a);
   add_can_option(*face_gear, a->node);
-  face_gear->add_option("--maps", a->map_folder,
-                        "Folder for the error maps as CSV, for volcomp compare");
+  CLI::Option* maps = face_gear->add_option(
+      "--maps", a->map_folder, "Folder for the error maps as CSV, for volcomp compare");
+  face_gear
+      ->add_option("--gcode", a->gcode_folder,
+                   "Folder for the inspection as NC programs, before and after compensation")
+      ->excludes(maps);
   add_output_options(*face_gear, *a);
   add_bus_options(*face_gear, a->node);
-  face_gear->callback(
-      [a, &code] { code = run_experiment(*a, {a->options.gear}, face_gear_outcome); });
+  face_gear->callback([a, &code] {
+    check(*a);
+    code = run_experiment(*a, {a->options.gear}, face_gear_outcome);
+  });
 }
 
 }  // namespace volcomp::cli

@@ -6,9 +6,9 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/run_experiment.hpp"
-#include "host_sim/experiments/internal_helical/controller_files.hpp"
 #include "host_sim/experiments/internal_helical/figures.hpp"
 #include "host_sim/experiments/internal_helical/report.hpp"
+#include "host_sim/host/tables/learned_files.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -21,8 +21,7 @@ struct InternalHelicalArguments : RunArguments {
 // The learned tables and what is in them.
 void add_tables(const std::string& folder, const internal_helical::InternalHelicalResult& run,
                 RunOutcome& outcome) {
-  for (const internal_helical::ControllerFile& file :
-       internal_helical::controller_files(run.gear, run.detail.tables)) {
+  for (const host::LearnedFile& file : host::learned_files(run.gear, run.detail.tables)) {
     outcome.files.push_back({file.name, file.text});
     outcome.file_lines += fmt::format(
         "table: {} ({})\n", (std::filesystem::path(folder) / file.name).string(), file.meaning);
@@ -36,6 +35,7 @@ RunOutcome internal_helical_outcome(RunPlace& place, const InternalHelicalArgume
   options.machine = machine_of(arguments, "internal_grinder");
   options.make_axes = place.axes();
   options.watch = &place.watch();
+  options.threads = place.threads();
   const internal_helical::InternalHelicalResult run =
       internal_helical::run_internal_helical(options, progress);
   RunOutcome outcome;

@@ -1,25 +1,69 @@
 // volcomp run l300g
 
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_experiment.hpp"
+#include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/l300g/figures.hpp"
 #include "host_sim/experiments/l300g/report.hpp"
+#include "host_sim/experiments/l300g/spread.hpp"
+#include "host_sim/host/io/parallel.hpp"
+#include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::cli {
 namespace {
 
+// Of the paper: a Renishaw LP2H.
+constexpr std::size_t kDefaultProbe = 2;
+
 struct L300gArguments : RunArguments {
   l300g::L300gOptions options;
   std::string gcode_folder;  // empty: none
+  l300g::SpreadPlan spread;  // measurements, each with random numbers of its own
+  std::string shard;         // empty: all of them
+  bool noise_free = false;
+  std::optional<std::size_t> touches;  // of a point
+  bool filter = false;
+  bool no_filter = false;
 };
+
+// Several measurements: each has a bus of its own, in this process.
+bool measures_often(const L300gArguments& a) { return a.spread.count > 1 || !a.shard.empty(); }
+
+void check(const L300gArguments& a) {
+  if (!measures_often(a)) return;
+  if (a.node.can != "loopback")
+    throw host::UserError("--seeds: several measurements need --can loopback, a bus each");
+  if (!a.options.scatters())
+    throw host::UserError(
+        "--seeds: without a --probe or --tracker-um that scatters all measurements are alike");
+  if (!a.gcode_folder.empty())
+    throw host::UserError("--gcode: the program of an inspection is that of one measurement");
+}
+
+RunOutcome spread_outcome(RunPlace& place, const L300gArguments& arguments,
+                          const host::Progress& progress) {
+  l300g::L300gOptions options = arguments.options;
+  options.machine = machine_of(arguments, "l300g");
+  options.cycle_hz = arguments.node.cycle_hz;
+  l300g::SpreadPlan plan = arguments.spread;
+  plan.threads = host::processors();
+  if (!arguments.shard.empty()) plan.shard = part_to_write(arguments, arguments.shard);
+  const l300g::SpreadResult result = l300g::run_spread(options, plan, progress);
+  if (!arguments.shard.empty())
+    return part_outcome(l300g::part_of_spread(result, plan), plan.shard);
+  return {l300g::spread_summary(result), l300g::spread_document(result, place.context()),
+          l300g::spread_figures(result), l300g::spread_verdict(result).ok};
+}
 
 RunOutcome l300g_outcome(RunPlace& place, const L300gArguments& arguments,
                          const host::Progress& progress) {
+  if (measures_often(arguments)) return spread_outcome(place, arguments, progress);
   l300g::L300gOptions options = arguments.options;
   options.machine = machine_of(arguments, "l300g");
   options.make_axes = place.axes();
@@ -34,17 +78,72 @@ RunOutcome l300g_outcome(RunPlace& place, const L300gArguments& arguments,
            {"inspection_after.ngc", result.after.program}}};
 }
 
+// How touches scatter, and what is done against it.
+void add_probe_options(CLI::App& l300g, L300gArguments& a) {
+  CLI::Option* probe = add_choice<std::size_t>(
+      l300g, "--probe", a.options.probe, {{"none", 0}, {"rmp600", 1}, {"lp2", 2}},
+      "How far touches scatter: not, 2σ = 0.5 µm, 2σ = 1 µm");
+  CLI::Option* touches =
+      l300g
+          .add_option(
+              "--touches", a.touches,
+              "Touches of each point; their mean counts (default: what keeps the grades of the "
+              "gear, 3 with lp2, else 1)")
+          ->check(CLI::Range(1, 20));
+  CLI::Option* filter = l300g.add_flag(
+      "--filter", a.filter,
+      "Gaussian filter of ISO 1328-1:2013 before profile and lead are evaluated (default where "
+      "touches scatter)");
+  l300g.add_flag("--no-filter", a.no_filter, "Traces are evaluated as they are")->excludes(filter);
+  CLI::Option* tracker =
+      l300g
+          .add_option("--tracker-um", a.options.tracker_um,
+                      "The targets that identify the axes are read by an instrument with this "
+                      "standard deviation of each coordinate (0: without error)")
+          ->check(number_between(0.0, 100.0));
+  CLI::Option* target_touches =
+      l300g
+          .add_option(
+              "--target-touches", a.options.target_touches,
+              "They are found by the machine's own probe, touched so often; the mean counts")
+          ->check(CLI::Range(1, 1000))
+          ->capture_default_str()
+          ->excludes(tracker);
+  CLI::Option* seeds =
+      l300g
+          .add_option("--seeds", a.spread.count,
+                      "Measurements with other random numbers: how far they differ")
+          ->check(CLI::Range(1, 10000))
+          ->capture_default_str();
+  add_shard_option(l300g, a.shard)->needs(seeds);
+  l300g
+      .add_flag("--noise-free", a.noise_free, "Nothing scatters: what the mathematics alone can do")
+      ->excludes(probe)
+      ->excludes(touches)
+      ->excludes(target_touches)
+      ->excludes(tracker)
+      ->excludes(seeds);
+}
+
+// What was not said follows the probe.
+void settle(L300gArguments& a) {
+  l300g::L300gOptions& o = a.options;
+  if (a.noise_free) o.probe = 0;
+  o.rules.touches = a.touches.value_or(l300g::kLeastTouches.at(o.probe));
+  o.rules.filter = a.filter || (o.probe != 0 && !a.no_filter);
+}
+
 }  // namespace
 
 void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
   CLI::App* l300g = run.add_subcommand(
-      "l300g",
-      "Gear grinder: calibrate its probe, measure a master gear, compensate, measure again");
+      "l300g", "Gear grinder: calibrate its probe, measure a gear, compensate, measure again");
   auto a = std::make_shared<L300gArguments>();
   a->command = command;
   a->node.can = "loopback";
   a->node.cycle_hz = sim::kBusCycleOfFive_hz;
   l300g::L300gOptions& options = a->options;
+  options.probe = kDefaultProbe;
   add_choice<PathStyle>(*l300g, "--path", options.path,
                         {{"fixed-a", PathStyle::fixed_a}, {"generate", PathStyle::generate}},
                         "How a flank is followed");
@@ -62,13 +161,21 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
           "--errors", options.errors,
           fmt::format("What is wrong with the machine: {}, or a file", l300g::kNamedErrors))
       ->capture_default_str();
-  add_seed(*l300g, "--seed", options.seed, "Seed of the phases of the waves");
+  l300g->add_option("--gear", options.gear,
+                    "Spur gear to measure, a TOML file as for volcomp inspect (default: the "
+                    "master gear of the paper)");
+  add_seed(*l300g, "--seed", options.seed, "Seed of the phases of the waves, and of the probe");
+  add_probe_options(*l300g, *a);
   add_can_option(*l300g, a->node);
   l300g->add_option("--gcode", a->gcode_folder,
                     "Folder for the inspection as NC programs, before and after compensation");
   add_output_options(*l300g, *a);
   add_bus_options(*l300g, a->node);
-  l300g->callback([a, &code] { code = run_experiment(*a, {a->options.errors}, l300g_outcome); });
+  l300g->callback([a, &code] {
+    settle(*a);
+    check(*a);
+    code = run_experiment(*a, {a->options.errors, a->options.gear.string()}, l300g_outcome);
+  });
 }
 
 }  // namespace volcomp::cli

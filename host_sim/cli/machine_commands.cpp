@@ -60,11 +60,12 @@ struct Listed {
   const char* name;
   const char* what;
 };
-constexpr std::array<Listed, 5> kScenarios{{
+constexpr std::array<Listed, 6> kScenarios{{
     {"xyfz", "three-axis machine: laser campaign, diagonals, 21 errors"},
     {"l300g", "gear grinder that measures: involute gears, 24 errors"},
     {"face-gear", "the same for face gears, on a table and three slides"},
     {"internal-helical", "grinder of internal gears: learns the lag of its axes"},
+    {"reversal", "an offset at a reversal, and the following error of the drive"},
     {"machine", "any machine file, errors at random: diagonals, volume, ball on the table"},
 }};
 

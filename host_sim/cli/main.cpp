@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <exception>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,59 @@ void complain(const std::string& what) {
   static_cast<void>(std::fputs(line.c_str(), stderr));
 }
 
+struct Command {
+  const char* name;  // nullptr: several
+  std::function<void(CLI::App&)> add;
+};
+
+std::vector<Command> all_own_commands(int argc, char** argv, int& code) {
+  const auto with = [&code](void (*add)(CLI::App&, int&)) {
+    return [add, &code](CLI::App& app) { add(app, code); };
+  };
+  const auto with_line = [argc, argv, &code](void (*add)(CLI::App&, int, char**, int&)) {
+    return [add, argc, argv, &code](CLI::App& app) { add(app, argc, argv, code); };
+  };
+  return {{"run", with_line(add_run_command)},
+          {"collect", with(add_collect_command)},
+          {"build-tables", with(add_build_tables_command)},
+          {"export-tables", with(add_export_tables_command)},
+          {"import", with(add_import_command)},
+          {"dump", with(add_dump_command)},
+          {"evaluate", with(add_evaluate_command)},
+          {"calibrate-probe", with(add_calibrate_probe_command)},
+          {"inspect", with(add_inspect_command)},
+          {"check-lever", with(add_check_lever_command)},
+          {"evaluate-ballbar", with_line(add_evaluate_ballbar_command)},
+          {"learn", with_line(add_learn_command)},
+          {"uncertainty", with_line(add_uncertainty_command)},
+          {"verify", with_line(add_verify_command)},
+          {"simulate", with(add_simulate_command)},
+          {"machine", with(add_machine_command)},
+          {"list", with(add_list_command)},
+          {"device-files", with(add_device_files_command)},
+          {"drive", with(add_drive_command)},
+          {"explain", with(add_explain_command)},
+          {"setup", with(add_setup_command)},
+          {nullptr, with(add_can_commands)},
+          {"monitor", with(add_monitor_command)},
+          {"replay", with(add_replay_command)},
+          {"bus-load", with(add_bus_load_command)},
+          {"compare", with_line(add_compare_command)},
+          {nullptr, with(add_completion_command)},  // describes all
+          {nullptr, with(add_man_command)}};        // the same
+}
+
+// Only the one that is called where that is known: describing the options of all takes longer than
+// what many commands do.
+void add_commands(CLI::App& app, int argc, char** argv, int& code) {
+  const std::vector<Command> commands = all_own_commands(argc, argv, code);
+  const std::string called = argc > 1 ? argv[1] : "";
+  for (const Command& command : commands)
+    if (command.name != nullptr && command.name == called) return command.add(app);
+  for (const Command& command : commands)
+    command.add(app);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{
       "Volumetric error compensation for machine tools: simulate, build tables, check machines."};
@@ -100,30 +154,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(exit_code_lines());
   int code = 0;
-  add_run_command(app, argc, argv, code);
-  add_build_tables_command(app, code);
-  add_export_tables_command(app, code);
-  add_import_command(app, code);
-  add_dump_command(app, code);
-  add_evaluate_command(app, code);
-  add_calibrate_probe_command(app, code);
-  add_inspect_command(app, code);
-  add_check_lever_command(app, code);
-  add_verify_command(app, argc, argv, code);
-  add_simulate_command(app, code);
-  add_machine_command(app, code);
-  add_list_command(app, code);
-  add_device_files_command(app, code);
-  add_drive_command(app, code);
-  add_explain_command(app, code);
-  add_setup_command(app, code);
-  add_can_commands(app, code);
-  add_monitor_command(app, code);
-  add_replay_command(app, code);
-  add_bus_load_command(app, code);
-  add_compare_command(app, argc, argv, code);
-  add_completion_command(app, code);
-  add_man_command(app, code);
+  add_commands(app, argc, argv, code);
   refuse_empty_values(app);
   if (argc > 1 && argv[1] == std::string(kCompleteCommand)) {
     code = print_candidates(app, {argv + 2, argv + argc});

@@ -11,6 +11,7 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_options.hpp"
 #include "host_sim/cli/run_view.hpp"
+#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/report/document.hpp"
 
 namespace volcomp::cli {
@@ -26,6 +27,8 @@ class RunPlace {
   // For machines of this machine file, integrated or on the bus.
   [[nodiscard]] sim::CellFactory cells(const std::filesystem::path& machine);
   [[nodiscard]] sim::MachineWatch& watch() { return view_; }
+  // How many machines may move at a time: those on a bus share it.
+  [[nodiscard]] std::size_t threads() const { return bus_ ? 1 : host::processors(); }
   // For the document, which is made after the run.
   [[nodiscard]] host::RunContext context() const;
 

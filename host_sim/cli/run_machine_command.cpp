@@ -8,19 +8,35 @@
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/experiments/any_machine/figures.hpp"
+#include "host_sim/experiments/any_machine/machine_spread.hpp"
 #include "host_sim/experiments/any_machine/report.hpp"
+#include "host_sim/host/io/parallel.hpp"
 
 namespace volcomp::cli {
 namespace {
 
-struct MachineArguments : RunArguments {
+struct RunMachineArguments : RunArguments {
   any_machine::MachineOptions options;
+  bool noise_free = false;
+  std::size_t seeds = 1;  // machines, each with errors of its own
 };
 
-RunOutcome machine_outcome(RunPlace& place, const MachineArguments& arguments,
+RunOutcome spread_outcome(const RunPlace& place, const any_machine::MachineOptions& options,
+                          std::size_t count, const host::Progress& progress) {
+  const any_machine::MachineSpread spread =
+      any_machine::run_machine_spread(options, count, host::processors(), progress);
+  return {any_machine::machine_spread_summary(spread),
+          any_machine::machine_spread_document(spread, place.context()),
+          any_machine::machine_spread_figures(spread),
+          any_machine::machine_spread_verdict(spread).ok};
+}
+
+RunOutcome machine_outcome(RunPlace& place, const RunMachineArguments& arguments,
                            const host::Progress& progress) {
   any_machine::MachineOptions options = arguments.options;
   options.machine = machine_of(arguments, "trunnion");
+  options.noise = !arguments.noise_free;
+  if (arguments.seeds > 1) return spread_outcome(place, options, arguments.seeds, progress);
   options.make_cell = place.cells(options.machine);
   options.knots = knots_at(arguments.node);
   const any_machine::MachineResult result = any_machine::run_machine(options, progress);
@@ -34,12 +50,17 @@ RunOutcome machine_outcome(RunPlace& place, const MachineArguments& arguments,
 void add_run_machine_command(CLI::App& run, const std::string& command, int& code) {
   CLI::App* machine = run.add_subcommand(
       "machine", "Any machine file: errors at random, measure, compensate, verify");
-  auto a = std::make_shared<MachineArguments>();
+  auto a = std::make_shared<RunMachineArguments>();
   a->command = command;
   a->node.cycle_hz = sim::kBusCycleOfFive_hz;
   any_machine::MachineOptions& options = a->options;
   add_seed(*machine, "--seed", options.seed, "Seed of the machine, of the places and of the noise");
-  machine->add_flag("--noise", options.noise, "Measure with realistic instruments");
+  machine->add_flag("--noise-free", a->noise_free,
+                    "Measure with perfect instruments: what the mathematics alone can do");
+  CLI::Option* seeds =
+      machine->add_option("--seeds", a->seeds, "Machines, each with errors and noise of its own")
+          ->check(CLI::Range(1, 10000))
+          ->capture_default_str();
   machine->add_option("--places", options.places, "Random places all over the travel")
       ->check(CLI::Range(std::size_t{10}, std::size_t{10000}))
       ->capture_default_str();
@@ -51,6 +72,7 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
   add_can_option(*machine, a->node);
   add_output_options(*machine, *a);
   const std::vector<CLI::Option*> on_a_bus = add_bus_options(*machine, a->node);
+  seeds->excludes("--can");
   machine->callback([a, on_a_bus, &code] {
     require_node(on_a_bus, a->node, "--can");
     code = run_experiment(*a, {}, machine_outcome);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,17 +13,35 @@ namespace volcomp::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kMoment{50};
+constexpr std::uint32_t kUnseen = 4096;  // periods between two that a feed without a page takes
 
 void say(std::FILE* words, const std::string& line) {
   fmt::print(words, "{}\n", line);
   static_cast<void>(std::fflush(words));  // a reader of a pipe waits for it
 }
 
+// Ends a run that is interrupted.
+class InterruptedObserver final : public sim::MachineObserver {
+ public:
+  InterruptedObserver(const host::Interruption& interruption,
+                      std::unique_ptr<sim::MachineObserver> behind)
+      : interruption_(interruption), behind_(std::move(behind)) {}
+
+  void cycle(const sim::MachineSnapshot& snapshot) override {
+    interruption_.check();
+    behind_->cycle(snapshot);
+  }
+
+ private:
+  const host::Interruption& interruption_;
+  std::unique_ptr<sim::MachineObserver> behind_;
+};
+
 }  // namespace
 
 RunView::RunView(const LiveChoice& choice, const std::string& command, const std::string& transport,
                  std::FILE* words)
-    : choice_(choice), words_(words), feed_(command, transport) {
+    : choice_(choice), words_(words), feed_(command, transport, choice.port ? 1 : kUnseen) {
   if (!choice.port) return;
   server_ = std::make_unique<sim::LiveServer>(*choice.port, [this] {
     return feed_.state().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -30,9 +49,8 @@ RunView::RunView(const LiveChoice& choice, const std::string& command, const std
   say(words_, "live: " + server_->address());
 }
 
-void RunView::cycle(const sim::MachineSnapshot& snapshot) {
-  interruption_.check();
-  feed_.cycle(snapshot);
+std::unique_ptr<sim::MachineObserver> RunView::enter() {
+  return std::make_unique<InterruptedObserver>(interruption_, feed_.enter());
 }
 
 void RunView::progress(double done, const std::string& what) {

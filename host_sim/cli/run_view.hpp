@@ -27,9 +27,8 @@ class RunView final : public sim::MachineWatch {
   RunView(const LiveChoice& choice, const std::string& command, const std::string& transport,
           std::FILE* words);
 
-  // Called by every machine of the run. Throws Interrupted.
-  [[nodiscard]] std::uint32_t enter() override { return feed_.enter(); }
-  void cycle(const sim::MachineSnapshot& snapshot) override;
+  // The observers throw Interrupted.
+  [[nodiscard]] std::unique_ptr<sim::MachineObserver> enter() override;
   void progress(double done, const std::string& what);
 
   [[nodiscard]] const sim::TickStatistics& ticks() const { return feed_.ticks(); }

@@ -74,8 +74,11 @@ int set_up_node(const SetupArguments& a) {
   const host::SetupPlan plan = plan_of(a, machine, bus);
   const std::vector<std::uint8_t> tables = tables_of(a, machine);
   nlohmann::json json = heading_of(machine, bus);
+  const std::vector<host::OffsetFacts> offsets = host::node_offsets(machine, bus);
+  json["offsets"] = host::offset_json(offsets);
   std::string text = fmt::format("{}: {} (machine {}), node {}, a cycle of {} us\n", machine.path,
                                  machine.name, machine.id, bus.node, bus.period_us);
+  text += host::offset_text(offsets);
   ExitCode code = ExitCode::done;
   if (a.dry_run) {
     text += host::describe(plan) +

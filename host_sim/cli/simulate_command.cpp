@@ -10,8 +10,7 @@
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/cli/run_files.hpp"
-#include "host_sim/experiments/xyfz/scenario.hpp"
-#include "host_sim/experiments/xyfz/truth.hpp"
+#include "host_sim/cli/simulate_options.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/machine/xyz_axes.hpp"
@@ -19,29 +18,6 @@
 
 namespace volcomp::cli {
 namespace {
-
-struct SimulateArguments {
-  std::string machine;  // empty: the one that comes with the program
-  std::uint64_t machine_seed = xyfz::kXyfzMachineSeed;
-  sim::Instruments instruments;
-  std::size_t runs = 5;
-  sim::DiagonalPlan plan;
-  int volume_points = 100;
-  std::string out;
-  std::string json_file;
-  std::string tables;
-  NodePlace node;
-};
-
-// With the errors of the paper's machine where the file describes one like it.
-sim::SimulatedMachine machine_of(const SimulateArguments& a) {
-  host::MachineFile machine = host::read_machine_file(
-      a.machine.empty() ? host::bundled_machine("xyfz") : std::filesystem::path(a.machine));
-  std::optional<sim::TrueMachine> truth =
-      xyfz::xyfz_truth(sim::with_targets_at_references(machine), a.machine_seed);
-  if (!truth) truth = sim::draw_slides(machine, a.machine_seed);
-  return {std::move(machine), std::move(*truth)};
-}
 
 int simulate_run_files(const SimulateArguments& a) {
   Results results({a.json_file}, {a.machine}, a.out);
@@ -160,22 +136,6 @@ int simulate_volume_file(const SimulateArguments& a) {
       [](const host::VolumeFile& file) { return fmt::format("{} places", file.points.size()); });
 }
 
-std::shared_ptr<SimulateArguments> add_machine_options(CLI::App& command) {
-  auto a = std::make_shared<SimulateArguments>();
-  command.add_option(
-      "--machine", a->machine,
-      "Machine file (TOML) with linear axes; rotary ones stand still (default: the xyfz "
-      "that comes with the program)");
-  command
-      .add_option("--machine-seed", a->machine_seed, "Seed of the errors of the simulated machine")
-      ->check(seed_number())
-      ->capture_default_str();
-  command.add_option("--seed", a->instruments.seed, "Seed of instruments and places")
-      ->check(seed_number())
-      ->capture_default_str();
-  return a;
-}
-
 void add_compensation_options(CLI::App& command, SimulateArguments& a) {
   CLI::Option* can = command.add_option(
       "--can", a.node.can,
@@ -188,12 +148,6 @@ void add_compensation_options(CLI::App& command, SimulateArguments& a) {
       ->excludes(can);
   for (CLI::Option* option : add_bus_options(command, a.node))
     option->needs(can);
-}
-
-void add_perfect(CLI::App& command, sim::Instruments& instruments) {
-  command.add_flag(
-      "--perfect", instruments.perfect,
-      "Instruments without errors (default: 0.7 µm and 0.7 µrad per reading and more)");
 }
 
 }  // namespace
@@ -229,6 +183,8 @@ void add_simulate_command(CLI::App& app, int& code) {
   diagonals->add_option("--out", d->out, "CSV file to write (-: standard output)")->required();
   add_compensation_options(*diagonals, *d);
   diagonals->callback([d, &code] { code = simulate_diagonal_file(*d); });
+
+  add_simulate_ball_bar_command(*simulate, code);
 
   CLI::App* volume =
       simulate->add_subcommand("volume", "Error vectors at random places, for verify --volume");

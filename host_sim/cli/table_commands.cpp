@@ -76,12 +76,22 @@ std::string words_of(const host::MachineFile& machine, const Provenance& provena
     text += fmt::format("squareness in the model: a_xy {:.2f} a_xz {:.2f} a_yz {:.2f} µrad\n",
                         p["a_xy"], p["a_xz"], p["a_yz"]);
   }
+  if (facts.contains("circles_less_lines_urad")) {
+    const nlohmann::json& p = facts["circles_less_lines_urad"];
+    text += fmt::format(
+        "form of the axes, by circles less along lines: a_xy {:.2f} a_xz {:.2f} a_yz {:.2f} µrad\n",
+        p["a_xy"], p["a_xz"], p["a_yz"]);
+  }
   text += expansion_text(machine, provenance);
   if (facts.contains("expires_utc")) text += fmt::format("expires {} UTC\n", facts["expires_utc"]);
   for (const nlohmann::json& warning : facts["warnings"])
     text += fmt::format("warning: {}\n", warning);
   return text + fmt::format("first-order run-time model within {:.1f} nm of the exact chain\n",
                             facts["model_bound_nm"]);
+}
+
+nlohmann::json in_urad(const XyfzSquareness& p) {
+  return {{"a_xy", 1e6 * p.a_xy}, {"a_xz", 1e6 * p.a_xz}, {"a_yz", 1e6 * p.a_yz}};
 }
 
 // Figures after ISO 230-2 in um or urad.
@@ -122,9 +132,9 @@ nlohmann::json build_json(const host::MachineFile& machine, const host::BuiltTab
   if (tables.tables.provenance.expires_unix_s != 0)
     j["expires_utc"] = host::date_text(tables.tables.provenance.expires_unix_s);
   if (machine.squareness) {
-    const XyfzSquareness& p = tables.parameters;
-    j["squareness_urad"] = {{"a_xy", 1e6 * p.a_xy}, {"a_xz", 1e6 * p.a_xz}, {"a_yz", 1e6 * p.a_yz}};
+    j["squareness_urad"] = in_urad(tables.parameters);
   }
+  if (tables.circles_less_lines) j["circles_less_lines_urad"] = in_urad(*tables.circles_less_lines);
   return j;
 }
 

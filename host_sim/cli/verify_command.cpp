@@ -21,6 +21,8 @@ struct VerifyArguments {
   std::string uncertainty_file;
   host::UncertaintyStatement stated;
   std::optional<double> limit_um;
+  std::size_t draws = 4000;
+  std::uint64_t seed = 1;
   std::string machine;
   std::string tables;
   std::vector<double> box_mm;
@@ -50,7 +52,9 @@ host::VerificationInput read_input(const VerifyArguments& a) {
                                 {},
                                 {},
                                 a.limit_um,
-                                {}};
+                                {},
+                                a.draws,
+                                a.seed};
   if (!a.volume.empty()) {
     input.volume_before = host::read_volume_file(a.volume.at(0));
     input.volume_after = host::read_volume_file(a.volume.at(1));
@@ -126,7 +130,7 @@ void add_uncertainty_options(CLI::App& verify, host::UncertaintyStatement& s) {
 
 void add_verify_command(CLI::App& app, int argc, char** argv, int& code) {
   CLI::App* verify = app.add_subcommand(
-      "verify", "Diagonals measured before and after compensation: figures, uncertainty, verdict");
+      "verify", "Diagonals measured before and after compensation: figures, intervals, verdict");
   auto a = std::make_shared<VerifyArguments>();
   a->command = command_line(argc, argv);
   verify->add_option("BEFORE", a->before, "Diagonals without compensation (CSV)")->required();
@@ -137,8 +141,8 @@ void add_verify_command(CLI::App& app, int argc, char** argv, int& code) {
       ->expected(2);
   verify
       ->add_option("--limit-um", a->limit_um,
-                   "Largest deviation allowed, µm: E of each diagonal, and in the volume (default: "
-                   "none, after must be significantly better than before)")
+                   "Largest deviation allowed, µm: upper bound of E of each diagonal, and in the "
+                   "volume (default: none, after must be significantly better than before)")
       ->check(number_between(0.0, 1e6));
   CLI::Option* machine =
       verify->add_option("--machine", a->machine, "Machine file (TOML), for --tables");
@@ -157,6 +161,10 @@ void add_verify_command(CLI::App& app, int argc, char** argv, int& code) {
   verify->add_option("--uncertainty", a->uncertainty_file,
                      "File with a table [uncertainty] (TOML); options override it");
   add_uncertainty_options(*verify, a->stated);
+  verify->add_option("--draws", a->draws, "Draws behind each interval")
+      ->check(CLI::Range(100, 20000))
+      ->capture_default_str();
+  add_seed(*verify, "--seed", a->seed, "Seed of the draws");
   verify->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
   verify->add_option("--csv", a->csv_file, "Write the figures to this file (-: standard output)");
   verify->add_option("--report", a->report_folder, "Write report.html and report.json here");

@@ -7,64 +7,10 @@
 #include <Eigen/Geometry>
 
 #include "comp/core/units.hpp"
-#include "tests/bench/machines.hpp"
+#include "tests/bench/rivals.hpp"
 
 namespace volcomp::bench {
 namespace {
-
-// A one-channel table with its own positions: clamp, interval by division, interpolate.
-struct LinearTable {
-  float first = 0.0F;
-  float pitch = 1.0F;
-  int knots = 0;
-  std::array<float, 128> value{};
-
-  [[nodiscard]] float at(float q) const {
-    const float last = first + pitch * static_cast<float>(knots - 1);
-    if (q <= first) return value[0];
-    if (q >= last) return value[static_cast<std::size_t>(knots - 1)];
-    const float place = (q - first) / pitch;
-    const int i = static_cast<int>(place);
-    const float t = place - static_cast<float>(i);
-    const auto k = static_cast<std::size_t>(i);
-    return value[k] + t * (value[k + 1] - value[k]);
-  }
-};
-
-// The same as textbooks and DSP libraries print it: the interval is found by a division, its ends
-// are formed again and the slope is a second division.
-struct TextbookTable : LinearTable {
-  [[nodiscard]] float at(float q) const {
-    const int i = static_cast<int>((q - first) / pitch);
-    if (i < 0) return value[0];
-    if (i >= knots - 1) return value[static_cast<std::size_t>(knots - 1)];
-    const auto k = static_cast<std::size_t>(i);
-    const float here = first + static_cast<float>(i) * pitch;
-    const float next = first + static_cast<float>(i + 1) * pitch;
-    return value[k] + (q - here) * ((value[k + 1] - value[k]) / (next - here));
-  }
-};
-
-template <class Table>
-using TablesOf = std::array<std::array<Table, 6>, 3>;
-
-template <class Table = LinearTable>
-std::unique_ptr<TablesOf<Table>> channel_tables() {
-  const auto tables = make_tables(kGeneric);
-  auto out = std::make_unique<TablesOf<Table>>();
-  for (std::size_t a = 0; a < 3; ++a) {
-    const AxisTable& from = tables->axis[a];
-    for (std::size_t c = 0; c < 6; ++c) {
-      Table& to = (*out)[a][c];
-      to.first = static_cast<float>(static_cast<double>(from.q0) / kNmPerMm);
-      to.pitch = static_cast<float>(static_cast<double>(from.pitch) / kNmPerMm);
-      to.knots = static_cast<int>(from.knots);
-      for (std::size_t i = 0; i < from.knots; ++i)
-        to.value[i] = from.value[0][i][c];
-    }
-  }
-  return out;
-}
 
 std::vector<std::array<float, 3>> float_walk() {
   std::vector<std::array<float, 3>> out;
@@ -77,17 +23,12 @@ std::vector<std::array<float, 3>> float_walk() {
 }
 
 template <class Table>
-void eighteen_lookups(benchmark::State& state) {
+void lookups(benchmark::State& state) {
   const auto tables = channel_tables<Table>();
   const auto walk = float_walk();
-  std::array<float, 18> value{};
   std::size_t i = 0;
   for (auto _ : state) {
-    const std::array<float, 3>& q = walk[i++ % kWalk];
-    for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t c = 0; c < 6; ++c)
-        value[6 * a + c] = (*tables)[a][c].at(q[a]);
-    }
+    std::array<float, 18> value = eighteen_lookups(*tables, walk[i++ % kWalk]);
     benchmark::DoNotOptimize(value);
     benchmark::ClobberMemory();
   }
@@ -121,8 +62,8 @@ void six_matrix_products(benchmark::State& state) {
   }
 }
 
-BENCHMARK_TEMPLATE(eighteen_lookups, TextbookTable)->Name("Baseline/eighteen_lookups_textbook");
-BENCHMARK_TEMPLATE(eighteen_lookups, LinearTable)->Name("Baseline/eighteen_lookups");
+BENCHMARK_TEMPLATE(lookups, DspTable)->Name("Baseline/eighteen_lookups_textbook");
+BENCHMARK_TEMPLATE(lookups, LinearTable)->Name("Baseline/eighteen_lookups");
 BENCHMARK(six_matrix_products)->Name("Baseline/eighteen_lookups_and_six_matrix_products");
 
 }  // namespace

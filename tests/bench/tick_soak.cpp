@@ -1,6 +1,6 @@
 // Ticks of every compiled and loaded machine for a very long time, over tables that are right and
 // tables made to hurt, with positions anywhere, settings that change and tables that are exchanged:
-// no offset leaves its limit or its rate.
+// no offset leaves its limit, its rate or its acceleration.
 //
 //   volcomp_tick_soak [--ticks 1000000] [--seed 1]        10^8 take minutes, with sanitizers an
 //   hour
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
-#include <string_view>
 
 #include <fmt/format.h>
 
+#include "tests/bench/soak_options.hpp"
 #include "tests/oracle/hostile_machines.hpp"
 #include "tests/oracle/offset_promise.hpp"
 
@@ -85,7 +85,8 @@ class AxisWalk {
   bool doubtful_ = false;
 };
 
-template <class Unit>
+// `Accelerates`: settings may have an acceleration.
+template <class Unit, bool Accelerates = true>
 class Soak {
  public:
   Soak(const char* name, Random& random, Counts& counts)
@@ -126,6 +127,7 @@ class Soak {
       unit_->restart({});
     }
     promise_.started({});
+    accelerates_ = Accelerates && random_.chance(0.7);
     configure();
     if (random_.chance(0.2)) start_from();
     stage();
@@ -140,6 +142,9 @@ class Soak {
       l.limit = any_size(random_, 4'194'303);
       l.rate = any_size(random_, 1'000'000'000);
       l.soft_rate = any_size(random_, l.rate);
+      l.acceleration = 0;
+      if (accelerates_)
+        l.acceleration = any_size(random_, std::min(l.rate, kMostOffsetAcceleration));
       l.hysteresis = any_size(random_, 4'194'303) - 1;
       l.max_step = random_.chance(0.5) ? 0 : any_size(random_, INT64_MAX);
     }
@@ -159,6 +164,13 @@ class Soak {
     }
     if (!unit_->start_from(offsets).ok()) std::abort();
     promise_.started(offsets);
+  }
+
+  // The one jump there is: the drive takes no offset at present.
+  void begin_at_zero() {
+    const auto axis = static_cast<std::size_t>(random_.integer(0, Unit::kAxes - 1));
+    unit_->begin_at_zero(axis);
+    promise_.started_at_zero(axis);
   }
 
   void stage() {
@@ -186,6 +198,8 @@ class Soak {
       case 4:
         static_cast<void>(unit_->scrub());
         return;
+      case 5:
+        return begin_at_zero();
       default:
         return configure();
     }
@@ -209,9 +223,10 @@ class Soak {
     const char* const broken = promise_.broken_by(*unit_, out_, axis);
     if (broken == nullptr) return true;
     if (axis == Unit::kAxes) axis = 0;
-    fmt::print(stderr, "tick_soak: tick {}, {}, axis {}: {} to {}, status {:#x}, at most {}: {}\n",
-               counts_.ticks, name_, axis, promise_.last(axis), out_.offset[axis],
-               out_.status[axis], promise_.furthest(axis), broken);
+    const LimitedPromise& of = promise_.of(axis);
+    fmt::print(stderr, "tick_soak: tick {}, {}, axis {}: {} by {}, status {:#x}, limit {}: {}\n",
+               counts_.ticks, name_, axis, of.offset(), of.step(), out_.status[axis],
+               of.limits().now().limit, broken);
     return false;
   }
 
@@ -222,13 +237,16 @@ class Soak {
   std::unique_ptr<Unit> unit_;
   typename Unit::Settings settings_{};
   OffsetPromise<Unit> promise_{};
-  ImageBytes image_;  // what the episode began with
-  TablesView view_;   // of the image checked last, while it lives
+  ImageBytes image_;          // what the episode began with
+  TablesView view_;           // of the image checked last, while it lives
+  bool accelerates_ = false;  // limits have an acceleration in this episode
   std::array<TableGrid, Unit::kAxes> grid_{};
   std::array<AxisWalk, Unit::kAxes> walk_{};
   typename Unit::Input in_{};
   typename Unit::Output out_{};
 };
+
+using RateAlone = Compensator<CompiledMachine<kXyfzMachine>, kDefaultKnots, OffsetLimiter<false>>;
 
 bool run(std::uint64_t ticks, std::uint64_t seed) {
   Random random(seed);
@@ -237,12 +255,14 @@ bool run(std::uint64_t ticks, std::uint64_t seed) {
   Soak<XyfzCompensator> compiled("compiled in", random, counts);
   Soak<LoadedCompensator> position("loaded", random, counts);
   Soak<OrientingCompensator> orienting("loaded, orienting", random, counts);
+  Soak<RateAlone, false> rate_alone("compiled in, rate alone", random, counts);
   bool kept = true;
   for (std::uint64_t n = 0; kept && counts.ticks < ticks; ++n) {
     const std::size_t i = n % seeds.size();
     const std::uint64_t share = std::min(kEpisodeTicks, ticks - counts.ticks);
     kept = position.episode(seeds[i], share) && orienting.episode(seeds[i], share) &&
-           (!is_compiled_in(i) || compiled.episode(seeds[i], share));
+           (!is_compiled_in(i) ||
+            (compiled.episode(seeds[i], share) && rate_alone.episode(seeds[i], share)));
   }
   fmt::print(
       "{} ticks, {} tables active, {} refused, {} times configured, {} axes without news; {}\n",
@@ -255,12 +275,6 @@ bool run(std::uint64_t ticks, std::uint64_t seed) {
 }  // namespace volcomp::test
 
 int main(int argc, char** argv) {
-  std::uint64_t ticks = 1'000'000;
-  std::uint64_t seed = 1;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string_view option = argv[i];
-    if (option == "--ticks") ticks = std::strtoull(argv[i + 1], nullptr, 10);
-    if (option == "--seed") seed = std::strtoull(argv[i + 1], nullptr, 10);
-  }
+  const auto [ticks, seed] = volcomp::test::soak_options(argc, argv);
   return volcomp::test::run(ticks, seed) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

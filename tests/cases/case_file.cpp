@@ -93,7 +93,7 @@ json where_to_json(const Where& where) {
   if (where.channel >= 0) j["channel"] = where.channel;
   if (where.index >= 0) j["index"] = where.index;
   if (where.body >= 0) j["body"] = where.body;
-  if (where.count >= 0) j["n"] = j["rank"] = where.count;
+  if (where.count >= 0) j["n"] = j["rank"] = j["count"] = where.count;
   if (where.has_deviation) j["deviation"] = where.deviation;
   return j;
 }
@@ -110,7 +110,8 @@ void check_refusal(const json& c, const Status& status, std::vector<Failure>& fa
     return;
   }
   if (!c.contains("out_where")) return;
-  const json where = where_to_json(status.where);
+  json where = where_to_json(status.where);
+  if (status.reason == Reason::unknown_plane) where["plane"] = where["field"];
   for (const auto& [key, value] : c["out_where"].items()) {
     const json got = where.contains(key) ? where[key] : json(nullptr);
     const bool near = value.is_number_float() && got.is_number() &&
@@ -160,6 +161,13 @@ double number(const json& value) {
   if (value == "inf") return std::numeric_limits<double>::infinity();
   if (value == "-inf") return -std::numeric_limits<double>::infinity();
   return value.get<double>();
+}
+
+std::vector<double> numbers(const json& values) {
+  std::vector<double> v;
+  for (const json& value : values)
+    v.push_back(number(value));
+  return v;
 }
 
 Vec3 vector3(const json& value) {

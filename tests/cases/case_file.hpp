@@ -44,8 +44,12 @@ struct Tally {
 // Runs every case of a file; throws std::runtime_error if the file itself is unusable.
 void run_file(const std::string& path, const Handlers& handlers, Tally& tally);
 
+inline constexpr double kUm = 1e-3;                      // mm
+inline constexpr double kDegree = 0.017453292519943295;  // rad
+
 // Numbers may be the strings "nan", "inf", "-inf".
 [[nodiscard]] double number(const json& value);
+[[nodiscard]] std::vector<double> numbers(const json& values);
 [[nodiscard]] Vec3 vector3(const json& value);
 [[nodiscard]] std::array<double, 3> array3(const json& value);
 [[nodiscard]] ErrorMotion six(const json& value);

@@ -6,6 +6,12 @@
 
 namespace volcomp::cases {
 
+void add_measured_gears(Handlers& handlers);
+void add_measured_intervals(Handlers& handlers);
+void add_measured_refusals(Handlers& handlers);
+void add_measurement(Handlers& handlers);
+void add_measuring_instruments(Handlers& handlers);
+void add_offset_limits(Handlers& handlers);
 void add_s0_calibration(Handlers& handlers);
 void add_s0_gear(Handlers& handlers);
 void add_s0_geometry(Handlers& handlers);

@@ -14,6 +14,12 @@ int main(int argc, char** argv) {
       return 2;
     }
     volcomp::cases::Handlers handlers;
+    volcomp::cases::add_measured_gears(handlers);
+    volcomp::cases::add_measured_intervals(handlers);
+    volcomp::cases::add_measured_refusals(handlers);
+    volcomp::cases::add_measurement(handlers);
+    volcomp::cases::add_measuring_instruments(handlers);
+    volcomp::cases::add_offset_limits(handlers);
     volcomp::cases::add_s0_calibration(handlers);
     volcomp::cases::add_s0_gear(handlers);
     volcomp::cases::add_s0_geometry(handlers);

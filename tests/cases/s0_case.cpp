@@ -4,13 +4,6 @@
 
 namespace volcomp::cases {
 
-std::vector<double> numbers(const json& list) {
-  std::vector<double> out;
-  for (const json& v : list)
-    out.push_back(number(v));
-  return out;
-}
-
 Mat3 matrix(const json& rows) {
   Mat3 m;
   for (Eigen::Index i = 0; i < 3; ++i)

@@ -9,7 +9,6 @@
 
 namespace volcomp::cases {
 
-[[nodiscard]] std::vector<double> numbers(const json& list);
 [[nodiscard]] Mat3 matrix(const json& rows);
 [[nodiscard]] json rows_of(const Mat3& m);
 [[nodiscard]] Joint joint_of(const json& in);

@@ -4,7 +4,6 @@
 #include "comp/metrology/tables/compensated_command.hpp"
 #include "comp/metrology/tables/diagonals.hpp"
 #include "comp/tick/compensator.hpp"
-#include "comp/tick/limiter.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/tick_case.hpp"
 #include "tests/cases/xyfz_case.hpp"
@@ -99,8 +98,25 @@ json diagonals(const json& in) {
           {"naive", diagonals_of_model(naive_error, box, n)}};
 }
 
+// Clamp and rate in double. A dead zone keeps a value exactly at a bound from being reported.
+struct ReferenceLimiter {
+  static constexpr double kDeadZone = 1e-12;
+
+  double clamp(double wanted, bool& hit) const { return between(-limit, limit, wanted, hit); }
+  double slew(double wanted, double previous, bool& hit) const {
+    return between(previous - rate, previous + rate, wanted, hit);
+  }
+  static double between(double lo, double hi, double wanted, bool& hit) {
+    hit = wanted > hi + kDeadZone || wanted < lo - kDeadZone;
+    return std::min(hi, std::max(lo, wanted));
+  }
+
+  double limit;
+  double rate;
+};
+
 json stream(const XyfzCase& c, const json& in) {
-  const Limiter<double> limiter{number(in.at("limit")), number(in.at("rate_per_cycle"))};
+  const ReferenceLimiter limiter{number(in.at("limit")), number(in.at("rate_per_cycle"))};
   json out = {{"q_c", json::array()}, {"clamped", json::array()}, {"rate_limited", json::array()}};
   Vec3 correction = Vec3::Zero();
   for (const json& p : in.at("path")) {

@@ -11,13 +11,6 @@
 namespace volcomp::cases {
 namespace {
 
-std::vector<double> numbers(const json& values) {
-  std::vector<double> v;
-  for (const json& value : values)
-    v.push_back(number(value));
-  return v;
-}
-
 json column_to_json(const TableColumn& column, std::size_t count) {
   json rows = json::array();
   for (std::size_t i = 0; i < count; ++i)

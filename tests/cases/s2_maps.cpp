@@ -163,7 +163,7 @@ ToothAngles angles_of(const json& in) {
   return angles;
 }
 
-json pitch(const json& in) {
+json face_pitch(const json& in) {
   const ToothAngles round = angles_of(in);
   const Span<const double> angles = round.angles();
   const double um = kUmPerMm * number(in.at("r1"));
@@ -194,7 +194,7 @@ json pitch(const json& in) {
 void add_s2_maps(Handlers& handlers) {
   handlers["s2.bspline"] = bspline;
   handlers["s2.error_map"] = error_map;
-  handlers["s2.pitch"] = pitch;
+  handlers["s2.pitch"] = face_pitch;
 }
 
 }  // namespace volcomp::cases

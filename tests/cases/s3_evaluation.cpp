@@ -11,7 +11,7 @@
 namespace volcomp::cases {
 namespace {
 
-json pitch_eval(const json& in) {
+json helical_pitch(const json& in) {
   const std::vector<double> position = numbers(in.at("dev_um"));
   std::vector<double> single(position.size());
   PitchDeviations pitch;
@@ -58,7 +58,7 @@ json grade(const json& in) {
 }  // namespace
 
 void add_s3_evaluation(Handlers& handlers) {
-  handlers["s3.pitch_eval"] = pitch_eval;
+  handlers["s3.pitch_eval"] = helical_pitch;
   handlers["s3.profile_eval"] = profile_eval;
   handlers["s3.grade"] = grade;
 }

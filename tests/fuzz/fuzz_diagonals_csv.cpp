@@ -1,9 +1,10 @@
-// Any bytes as a file of diagonals or of the volume: accepted or refused with a UserError, and what
-// is accepted is the same after writing and reading, compared with itself.
+// Any bytes as a file of diagonals, of the volume or of a ball bar: accepted or refused with a
+// UserError, and what is accepted is the same after writing and reading, compared with itself.
 
 #include <sstream>
 
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/ball_bar/ball_bar_csv.hpp"
 #include "host_sim/host/measure/diagonal_csv.hpp"
 #include "host_sim/host/measure/volume_csv.hpp"
 
@@ -27,6 +28,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto file = volcomp::host::read_volume(stream, "volume.csv");
     volcomp::host::require_same_places(file, file);
     static_cast<void>(volcomp::host::aligned_volume_figures(file.points));
+  } catch (const UserError&) {
+  }
+  try {
+    std::istringstream stream(text);
+    const auto test = volcomp::host::read_ball_bar(stream, "ball_bar.csv");
+    for (const auto& circles : test.circle) {
+      for (const auto& circle : circles) {
+        if (circle.theta.size() != circle.radial.size()) __builtin_trap();
+      }
+    }
+    static_cast<void>(volcomp::host::ball_bar_csv(test));
   } catch (const UserError&) {
   }
   return 0;

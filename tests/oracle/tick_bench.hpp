@@ -334,7 +334,7 @@ CompensatorSettings<Axes> open_settings() {
   settings.source = PositionSource::actual;
   settings.ramp_ticks = 1;
   for (AxisLimits& l : settings.axis)
-    l = {4'194'303, 1'000'000'000, 1'000'000'000, 0, 0};
+    l = {{4'194'303, 1'000'000'000, 1'000'000'000, 0}, 0, 0};
   return settings;
 }
 

@@ -94,7 +94,7 @@ async function checkLoopbackOnly({ port }) {
 }
 
 async function checkTakenPort({ port }) {
-  const { code, output } = await finished(spawn(volcomp, ['run', 'l300g', '--serve', String(port)], { stdio: ['ignore', 'pipe', 'pipe'] }));
+  const { code, output } = await finished(spawn(volcomp, ['run', 'l300g', '--noise-free', '--serve', String(port)], { stdio: ['ignore', 'pipe', 'pipe'] }));
   failures.check(code === 2 && output.includes(`port ${port}`) && output.trim().split('\n').length === 1,
     `a port that is taken: exit code ${code}, ${output}`);
 }

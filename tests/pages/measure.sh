@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # measure.sh VOLCOMP FOLDER IMAGE
 #
-# What the owner of the simulated machine measures without and with these tables, for `volcomp verify`.
+# What the owner of the simulated machine measures without and with these tables, for `volcomp verify` and `evaluate-ballbar`.
 set -euo pipefail
 volcomp=$1 folder=$2 image=$3
 
@@ -9,5 +9,6 @@ rm -rf "$folder"
 mkdir -p "$folder"
 "$volcomp" simulate diagonals --points 5 --runs 5 --out "$folder/before.csv"
 "$volcomp" simulate diagonals --points 5 --runs 5 --seed 2 --tables "$image" --out "$folder/after.csv"
+"$volcomp" simulate ball-bar --out "$folder/circles.csv"
 "$volcomp" simulate volume --points 50 --out "$folder/volume_before.csv"
 "$volcomp" simulate volume --points 50 --tables "$image" --out "$folder/volume_after.csv"

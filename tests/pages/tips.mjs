@@ -93,10 +93,20 @@ function figureAgrees(chart, { heading, rows }) {
   return shows(heading.slice(2), chart.figures[heading[0]]);
 }
 
+// Angles go on beyond a turn in the JSON, and within one on the page.
+function circleAgrees(chart, { heading, rows }) {
+  const at = readNumber(afterLabel(heading, chart.x))?.value;
+  const off = (x) => Math.abs(((((x - at) % 360) + 540) % 360) - 180);
+  return rows.length > 0 && rows.every(([name, text]) => {
+    const series = withName(chart, name);
+    return series.x.some((x, i) => off(x) < 1.5 && shows(text, series.y[i]));
+  });
+}
+
 const isAscending = (values) => values.every((value, i) => i === 0 || value >= values[i - 1]);
 const AGREES = {
   lines: (chart, tip) => (chart.series.every(({ x }) => isAscending(x)) ? curvesAgree : pointAgrees)(chart, tip),
-  iso230_2: figureAgrees, bars: barsAgree, heatmap: cellAgrees, histogram: binAgrees, volume: arrowAgrees,
+  iso230_2: figureAgrees, bars: barsAgree, heatmap: cellAgrees, polar: circleAgrees, histogram: binAgrees, volume: arrowAgrees,
 };
 
 // Points at chart number `index` of the page until enough tips have been seen.

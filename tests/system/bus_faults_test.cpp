@@ -384,6 +384,51 @@ TEST(BusFaults, OtherTablesOfTheSameMachineComeIntoForce) {
   EXPECT_EQ(node.active_sequence, sequence);
 }
 
+// FNV-1a over every frame and its time.
+class FrameDigest {
+ public:
+  void add(std::uint64_t time_ns, const hal::CanFrame& frame) {
+    add(time_ns);
+    add(frame.id);
+    add(frame.size);
+    add(load_le(frame.data.data(), 8));
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  void add(std::uint64_t number) { value_ = (value_ ^ number) * 0x100'0000'01B3U; }
+  std::uint64_t value_ = 0xCBF2'9CE4'8422'2325U;
+};
+
+// Digests after each fault, whatever it does to the machine.
+std::vector<std::uint64_t> frames_of_all_faults(bool rests) {
+  constexpr std::uint64_t kSeed = 7;
+  constexpr int kAfterwards = 300;
+  BusWorld world(kSeed);
+  if (!rests) world.axes().bus().serve_always();
+  FrameDigest digest;
+  world.bus().set_observer(
+      [&digest](std::uint64_t time_ns, const hal::CanFrame& frame, const hal::LoopbackBus::Port&) {
+        digest.add(time_ns, frame);
+      });
+  Random random(kSeed);
+  std::vector<std::uint64_t> digests;
+  for (const Fault& fault : faults()) {
+    fault.run(world, random, fault.cycles);
+    world.run(kAfterwards);
+    digests.push_back(digest.value());
+  }
+  return digests;
+}
+
+TEST(BusFaults, DevicesThatRestSendTheSameFramesAtTheSameTimes) {
+  const std::vector<Fault> kinds = faults();
+  const std::vector<std::uint64_t> resting = frames_of_all_faults(true);
+  const std::vector<std::uint64_t> served = frames_of_all_faults(false);
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind)
+    ASSERT_EQ(resting[kind], served[kind]) << kinds[kind].name;
+}
+
 std::uint64_t first_seed() {
   const char* text = std::getenv("VOLCOMP_FAULT_SEED");
   return text == nullptr ? 1000U : std::strtoull(text, nullptr, 10);

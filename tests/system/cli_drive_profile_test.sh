@@ -14,14 +14,14 @@ for drives in elmo_gold epos4_0150 epos4_0170 nanotec_cl4e elmo_gold,epos4_0170,
 done
 cp "$source_dir/host_sim/drives/epos4_0170.eds" own.eds
 expect 0 'PASS 99.9' "${run[@]}" ./own.eds
-expect 0 'PASS ' "$volcomp" run machine --places 10 --can loopback --drive-profile elmo_gold,epos4_0150,nanotec_cl4e,epos4_0170,elmo_gold
+expect 0 'PASS ' "$volcomp" run machine --noise-free --places 10 --can loopback --drive-profile elmo_gold,epos4_0150,nanotec_cl4e,epos4_0170,elmo_gold
 # --- targets from the node, where the drive has no offset; three ways on one machine
 for drives in trinamic_tmcm1270 novanta_eve_net_c eyou elmo_gold,elmo_gold,eyou; do
   expect 0 'PASS 99.9' "${run[@]}" "$drives"
 done
-expect 0 'PASS ' "$volcomp" run machine --places 10 --can loopback --drive-profile eyou
+expect 0 'PASS ' "$volcomp" run machine --noise-free --places 10 --can loopback --drive-profile eyou
 # A probe: 60D1h is in none of them, 60D5h in one.
-expect 0 'PASS ' "$volcomp" run l300g --drive-profile elmo_gold,epos4_0170,epos4_0170,elmo_gold
+expect 0 'PASS ' "$volcomp" run l300g --noise-free --drive-profile elmo_gold,epos4_0170,epos4_0170,elmo_gold
 expect 2 'the machine has a touch probe, and the drive epos4_0150 no input for it' "$volcomp" run l300g --drive-profile epos4_0150
 
 # --- in a machine file, by name and as a file beside it

@@ -32,9 +32,9 @@ expect 0 'the node did the same again' "$volcomp" replay "$work/pipe.log"
 
 # --- a gear: every touch through another process, and every figure the same
 start_node "$work/gear"
-expect 0 'PASS' "$volcomp" run l300g --cycle-hz 50 --can "pipe:$work/gear" --json "$work/gear_pipe.json"
+expect 0 'PASS' "$volcomp" run l300g --noise-free --cycle-hz 50 --can "pipe:$work/gear" --json "$work/gear_pipe.json"
 wait "$node_process" || { echo 'FAILED: the node did not end well after the gear'; failed=1; }
-expect 0 'PASS' "$volcomp" run l300g --cycle-hz 50 --json "$work/gear_loopback.json"
+expect 0 'PASS' "$volcomp" run l300g --noise-free --cycle-hz 50 --json "$work/gear_loopback.json"
 diff <(grep -v '"transport"' "$work/gear_pipe.json") <(grep -v '"transport"' "$work/gear_loopback.json") ||
   { echo 'FAILED: another gear over the pipe than over the loopback bus'; failed=1; }
 

@@ -50,6 +50,15 @@ expect 0 '--dry-run' "$volcomp" setup --help
 expect 0 'nothing is sent' "$volcomp" setup --machine machine.toml --dry-run --json plan.json
 expect 0 '2201h:04  Largest offset (axis A)' "$volcomp" setup --machine machine.toml --dry-run
 is '683565 2^-32 turn None None' 'the limit of A in the plan' "$(one_value plan.json 2201h:04)"
+# 0.2 m/s² where the file states nothing: 3200 nm per 4 ms and 4 ms. Corrections have a seventh of the 10 mm/s of 2202h.
+expect 0 'offset of X: at most 1.428 mm/s and 200 mm/s2 (3200 per period and period)' \
+  "$volcomp" setup --machine machine.toml --dry-run
+/usr/bin/python3 -c 'import json
+plan = json.load(open("plan.json"))
+written = [row["value"] for row in plan["objects"] if row["object"] == "2209h:01"]
+assert written == [0, 3200], written
+assert plan["offsets"][0]["acceleration_per_period2"] == 3200 and not plan["offsets"][0]["coarse"], plan["offsets"]' ||
+  { echo 'FAILED: the acceleration in the plan'; failed=1; }
 expect 0 'cycle of 10000 us' "$volcomp" setup --machine machine.toml --dry-run --cycle-hz 100
 "$volcomp" setup --machine - --dry-run --json - <machine.toml 2>/dev/null | grep -q '"period_us": 4000' ||
   { echo 'FAILED: the plan cannot stand in a pipe'; failed=1; }

@@ -30,6 +30,7 @@ expect 2 'FILE: the value is empty' "$volcomp" machine check ''
 for seed in -1 1e3 0x10 18446744073709551616 99999999999999999999; do
   expect 2 "--seed: $seed is not a whole number" "$volcomp" run machine --seed "$seed"
   expect 2 "--machine-seed: $seed is not a whole number" "$volcomp" simulate runs --machine-seed "$seed" --out "$work/never"
+  expect 2 "--seed: $seed is not a whole number" "$volcomp" verify "$work/none.csv" "$work/none2.csv" --seed "$seed"
 done
 
 # What is misspelt is named, with what it may have been.
@@ -103,14 +104,14 @@ one_line "$volcomp" run xyfz --draws 0 --report "$work/file"
 
 # A gear, measured; with a machine that the user describes, and one that no table of an axis puts right.
 expect 0 'l300g' "$volcomp" list
-expect 0 'PASS Profile grade 8 before, 4 after' "$volcomp" run l300g --report "$work/gear" --json "$work/gear.json" --gcode "$work/gear"
+expect 0 'PASS Profile grade 8 before, 4 after' "$volcomp" run l300g --noise-free --report "$work/gear" --json "$work/gear.json" --gcode "$work/gear"
 for file in gear/report.html gear/report.json gear.json gear/inspection_before.ngc gear/inspection_after.ngc; do
   [ -s "$work/$file" ] || { echo "FAILED: $file is missing"; failed=1; }
 done
 grep -q '"transport"' "$work/gear.json" || { echo 'FAILED: the figures do not say where the node was'; failed=1; }
-expect 1 'FAIL Profile grade 8 before, 8 after' "$volcomp" run l300g --cycle-hz 50 --path generate --errors short-arm
+expect 1 'FAIL Profile grade 8 before, 8 after' "$volcomp" run l300g --noise-free --cycle-hz 50 --path generate --errors short-arm
 printf 'convention = "body"\n[Y]\nconstant = [0, 4.5, 0, 0, 0, 0]\n' >"$work/errors.toml"
-expect 0 'PASS' "$volcomp" run l300g --cycle-hz 50 --errors "$work/errors.toml"
+expect 0 'PASS' "$volcomp" run l300g --noise-free --cycle-hz 50 --errors "$work/errors.toml"
 printf 'convention = "body"\n[Y]\nconstant = [0, 4.5]\n' >"$work/bad_errors.toml"
 expect 2 'bad_errors.toml:3' "$volcomp" run l300g --errors "$work/bad_errors.toml"
 one_line "$volcomp" run l300g --errors "$work/bad_errors.toml"
@@ -256,6 +257,19 @@ for file in own/report.html own/report.json own.json; do
   [ -s "$work/$file" ] || { echo "FAILED: $file is missing"; failed=1; }
 done
 expect 2 '--cycle-hz requires --can' "$volcomp" run machine --cycle-hz 100
+# Several machines: with perfect instruments less is left of each figure than with realistic ones.
+expect 0 'of 4 machines are good' "$volcomp" run machine --seeds 4 --places 20 --json "$work/noisy.json"
+expect 0 'of 4 machines are good' "$volcomp" run machine --seeds 4 --places 20 --noise-free --json "$work/perfect.json"
+/usr/bin/python3 - "$work/noisy.json" "$work/perfect.json" <<'PYTHON' || { echo 'FAILED: run machine --seeds'; failed=1; }
+import json, sys
+noisy, perfect = (json.load(open(name)) for name in sys.argv[1:])
+assert len(noisy["figures"]) == len(perfect["figures"]) > 4
+for with_noise, without in zip(noisy["figures"], perfect["figures"]):
+    assert with_noise["figure"] == without["figure"]
+    assert without["after_median_um"] < with_noise["after_median_um"], (with_noise, without)
+    assert without["after_least_um"] <= without["after_median_um"] <= without["after_most_um"]
+PYTHON
+expect 2 '--seeds excludes --can' "$volcomp" run machine --seeds 2 --can loopback
 bad_chain() {
   sed "$1" "$trunnion" >"$work/bad.toml"
   expect 2 "$2" "$volcomp" machine check "$work/bad.toml"

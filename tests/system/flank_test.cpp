@@ -6,6 +6,7 @@
 #include "comp/metrology/faces/face_grid.hpp"
 #include "comp/probe/face_touch.hpp"
 #include "firmware/node/probe/flank_probe.hpp"
+#include "host_sim/experiments/face_gear/machine_errors.hpp"
 #include "host_sim/experiments/face_gear/station.hpp"
 #include "host_sim/experiments/face_gear/truth.hpp"
 #include "host_sim/host/tables/build_tables.hpp"

@@ -15,6 +15,8 @@
 #include "host_sim/host/io/temporary_folder.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/whole_file.hpp"
+#include "host_sim/host/measure/strokes/stroke_learning.hpp"
+#include "host_sim/sim/controller/bus_recorder.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::sim {
@@ -125,6 +127,41 @@ INSTANTIATE_TEST_SUITE_P(InternalHelicalBus, EitherForm,
                          testing::Values(internal_helical::LearningWay::right,
                                          internal_helical::LearningWay::c_alone,
                                          internal_helical::LearningWay::coarse));
+
+// What a listener on the bus has recorded teaches the same as the node has learned of it, to the
+// unit of 2^-40 turn in which positions are counted: the log's way is by way of mm and degrees.
+TEST(InternalHelicalBus, ALogOfTheBusTeachesWhatTheNodeHasLearned) {
+  const host::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "strokes.log";
+  host::CanLogWriter writer(path, "can0");
+  sim::BusRecorder recorder(writer, sim::BusRecorder::Clock::machine);
+  Grinding grinding;
+  internal_helical::BusGrinder grinder(
+      internal_helical::grinder_axes(machine(), watched(internal_helical::LearningWay::right),
+                                     sim::recorded(loopback_axes(), recorder)),
+      grinding.process.standing(), grinding.process.plant());
+  static_cast<void>(grinding.grind(grinder, 4));
+  grinder.learn();
+  const internal_helical::LearnedTables node = grinder.tables();
+  writer.finish();
+  constexpr double kUnit_rad = 1.0 / kUnitsPerRad;
+
+  const host::StrokesLearned learned =
+      host::learn_strokes(host::read_stroke_log(path, machine()), machine(), {});
+  EXPECT_EQ(learned.passes[0], 2U);
+  EXPECT_EQ(learned.passes[1], 2U);
+  EXPECT_TRUE(learned.discarded.empty()) << learned.discarded.front();
+  EXPECT_NEAR(learned.feed_mm_per_s, machine().grinding->feed_mm_per_s, 1e-3);
+  for (std::size_t d = 0; d < 2; ++d) {
+    ASSERT_EQ(learned.tables.stroke.at(d).size(), node.stroke.at(d).size());
+    for (std::size_t j = 0; j < node.stroke.at(d).size(); ++j)
+      EXPECT_NEAR(learned.tables.stroke.at(d)[j], node.stroke.at(d)[j], kUnit_rad) << d << ' ' << j;
+  }
+  ASSERT_EQ(learned.tables.slot.size(), node.slot.size());
+  for (std::size_t k = 0; k < node.slot.size(); ++k)
+    EXPECT_NEAR(learned.tables.slot[k], node.slot[k], kUnit_rad) << k;
+  EXPECT_GT(std::abs(node.stroke[0].at(kSomewhere)), 1e-7);  // not nothing, alike
+}
 
 // The whole scenario, on a smaller gear and cut to two updates.
 TEST(InternalHelicalBus, TheGearComesOutAlike) {

@@ -7,19 +7,24 @@
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
-#include "host_sim/experiments/internal_helical/controller_files.hpp"
 #include "host_sim/experiments/internal_helical/figures.hpp"
 #include "host_sim/experiments/internal_helical/report.hpp"
+#include "host_sim/host/io/parallel.hpp"
+#include "host_sim/host/tables/learned_files.hpp"
 #include "tests/oracle/controller_tables.hpp"
 
 namespace volcomp::sim {
 namespace {
 
-internal_helical::InternalHelicalResult run(internal_helical::LearningWay way, int seeds) {
+internal_helical::InternalHelicalResult run(internal_helical::LearningWay way, int seeds,
+                                            int updates = internal_helical::kLearningUpdates,
+                                            std::size_t threads = host::processors()) {
   internal_helical::InternalHelicalOptions options;
   options.machine = host::bundled_machine("internal_grinder");
   options.way = way;
   options.seeds = seeds;
+  options.updates = updates;
+  options.threads = threads;
   return internal_helical::run_internal_helical(options, [](double, const std::string&) {});
 }
 
@@ -36,6 +41,15 @@ TEST(InternalHelical, MediansOfSixteenSeedsLieInTheSpecifiedRanges) {
                         << m.found.median << " um";
   }
   EXPECT_TRUE(internal_helical::internal_helical_verdict(right_way()).ok);
+}
+
+TEST(InternalHelical, AnyNumberOfThreadsGivesTheSameFigures) {
+  const auto figures = [](std::size_t threads) {
+    return internal_helical::internal_helical_figures(
+               run(internal_helical::LearningWay::right, 3, 1, threads), {})
+        .dump();
+  };
+  EXPECT_EQ(figures(1), figures(3));
 }
 
 TEST(InternalHelical, SynchronisationErrorFallsByFiveInSixUpdates) {
@@ -89,11 +103,10 @@ TEST(InternalHelical, TheSameSeedIsTheSameGear) {
 }
 
 // Every file, read back, commands what was learned.
-TEST(InternalHelical, ControllerFilesSayWhatWasLearned) {
+TEST(InternalHelical, LearnedFilesSayWhatWasLearned) {
   const internal_helical::InternalHelicalResult& result = right_way();
   const internal_helical::LearnedTables& t = result.detail.tables;
-  const std::vector<internal_helical::ControllerFile> files =
-      internal_helical::controller_files(result.gear, t);
+  const std::vector<host::LearnedFile> files = host::learned_files(result.gear, t);
   ASSERT_EQ(files.size(), 5U);
   const host::CecTable up = test::read_cec(files[0].text, true, 1);
   const host::CecTable down = test::read_cec(files[1].text, true, 1);

@@ -23,9 +23,8 @@ namespace {
 using nlohmann::json;
 
 // A machine with a slide and a table, on a bus.
-MachineSnapshot snapshot(std::uint32_t machine, std::uint64_t cycle) {
+MachineSnapshot snapshot(std::uint64_t cycle) {
   MachineSnapshot s;
-  s.machine = machine;
   s.cycle = cycle;
   s.period_s = 0.002;
   s.axes = 2;
@@ -42,20 +41,27 @@ MachineSnapshot snapshot(std::uint32_t machine, std::uint64_t cycle) {
 
 TEST(ReportParts, TickStatisticsCountWhatWentBy) {
   TickStatistics ticks;
-  const std::uint32_t first = ticks.enter();
-  const std::uint32_t second = ticks.enter();
-  MachineSnapshot s = snapshot(first, 1);
+  MachineTicks first;
+  MachineTicks second;
+  ticks.enter();
+  ticks.enter();
+  MachineSnapshot s = snapshot(1);
   s.axis[0].offset = -7;
-  ticks.cycle(s);
-  s = snapshot(first, 2);
+  first.cycle(s);
+  s = snapshot(2);
   s.axis[0].offset = 5;
   s.axis[0].correction_status = static_cast<std::uint16_t>(kValid | kClamped);
   s.axis[1].latches = 2;
-  ticks.cycle(s);
-  s = snapshot(second, 1);  // its counters begin again
+  ticks.take(first);
+  first.cycle(s);
+  s = snapshot(1);  // its counters begin again
   s.axis[0].offset = 6;
   s.axis[1].latches = 1;
-  ticks.cycle(s);
+  second.cycle(s);
+  for (int again = 0; again < 2; ++again) {  // what was taken is not taken twice
+    ticks.take(second);
+    ticks.take(first);
+  }
 
   EXPECT_EQ(ticks.machines(), 2U);
   EXPECT_EQ(ticks.periods(), 3U);
@@ -76,10 +82,10 @@ TEST(ReportParts, LiveStateIsThatOfTheLastPeriod) {
   LiveFeed feed("volcomp run something", "by hand");
   EXPECT_EQ(feed.state()["phase"], "running");
   EXPECT_TRUE(feed.state()["outcome"].is_null());
-  const std::uint32_t machine = feed.enter();
-  feed.cycle(snapshot(machine, 1));
+  const std::unique_ptr<MachineObserver> machine = feed.enter();
+  machine->cycle(snapshot(1));
   for (std::uint64_t cycle = 2; cycle <= 100; ++cycle) {
-    MachineSnapshot s = snapshot(machine, cycle);
+    MachineSnapshot s = snapshot(cycle);
     s.axis[0].target = 12'345'678;
     s.axis[0].offset = -1'500;
     s.axis[0].position = 12.344178;
@@ -87,7 +93,7 @@ TEST(ReportParts, LiveStateIsThatOfTheLastPeriod) {
     s.axis[1].target = kUnitsPerTurn / 4;
     s.axis[1].position = kPi / 2.0;
     s.axis[1].correction_status = static_cast<std::uint16_t>(kValid | kOutOfRange);
-    feed.cycle(s);
+    machine->cycle(s);
   }
   const json state = feed.state();
   const json& x = state["axes"][0];

@@ -5,6 +5,7 @@
 
 #include "host_sim/experiments/xyfz/report.hpp"
 #include "host_sim/experiments/xyfz/scenario.hpp"
+#include "host_sim/host/io/parallel.hpp"
 #include "tests/host_sim/host/measure/picture_of_volume.hpp"
 
 namespace volcomp::sim {
@@ -27,6 +28,7 @@ const xyfz::XyfzResult& result() {
     options.draws = kDraws;
     options.volume_points = kVolumePoints;
     options.tick_points = kTickPoints;
+    options.threads = host::processors();
     return xyfz::run_xyfz(options, [](double, const std::string&) {});
   }();
   return r;
@@ -106,6 +108,8 @@ TEST(Xyfz, SameSeedSameFiguresOtherSeedOthers) {
   };
   EXPECT_EQ(figures(7).dump(), figures(7).dump());
   const nlohmann::json seven = figures(7);
+  options.threads = 3;
+  EXPECT_EQ(figures(7).dump(), seven.dump());
   const nlohmann::json eight = figures(8);
   EXPECT_NE(seven["draws"], eight["draws"]);
   EXPECT_EQ(seven["rate"], eight["rate"]);  // noise-free

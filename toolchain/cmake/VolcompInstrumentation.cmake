@@ -12,7 +12,8 @@ set(volcomp_sanitized ${volcomp_sanitizers} -O2 -g1 -fno-omit-frame-pointer
 if(VOLCOMP_SANITIZE)
   add_compile_options(${volcomp_sanitized})
   add_compile_definitions(_GLIBCXX_ASSERTIONS)
-  add_link_options(${volcomp_sanitizers})
+  # Programs of a hundred megabytes, thirty of them: lld links one in a quarter of the time.
+  add_link_options(${volcomp_sanitizers} -fuse-ld=lld)
 endif()
 
 # volcomp_need_clang(OPTION PRESET)

@@ -6,3 +6,13 @@ function(volcomp_compile_quickly)
     target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:CXX>:-O0>")
   endforeach()
 endfunction()
+
+# volcomp_optimized_first(TARGET...): in the programs that link these libraries, the linker takes their copies of inline
+# functions and templates, not those of what was compiled quickly: it keeps the first it meets. Below the sanitizers most
+# are not inlined, and the numerics would run several times as long.
+function(volcomp_optimized_first)
+  foreach(target IN LISTS ARGN)
+    target_link_options(${target} INTERFACE
+      "SHELL:-Wl,--whole-archive $<TARGET_FILE:${target}> -Wl,--no-whole-archive")
+  endforeach()
+endfunction()

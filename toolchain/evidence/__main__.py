@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 import board_evidence
+import budgets
 import elf
 import kernel_estimate
 import promises
@@ -20,6 +21,7 @@ import promises_test
 import self_test
 import sizes
 import table
+import traced_tick
 from failure import Failure
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -41,8 +43,9 @@ def measure():
     evidence = {"compiler": compiler, "flags": flags, "tables": "Tables of 81 knots (rotary 73)",
                 "boards": {board: part.measure() for board, part in parts.items()},
                 "a53": dataclasses.asdict(sizes.measure(elf.Image(ROOT / "build/a53/firmware/volcomp-node-a53.elf"))),
-                "kernel_estimate": kernel_estimate.estimate(ROOT / "build/m7")}
-    checks = [check for part in parts.values() for check in part.checks]
+                "kernel_estimate": kernel_estimate.estimate(ROOT / "build/m7"),
+                "traced": traced_tick.measure(ROOT / "build/m7/firmware/volcomp-trace-m7.elf")}
+    checks = [check for part in parts.values() for check in part.checks] + budgets.of_traced(evidence["traced"])
     offences = [offence for part in parts.values() for offence in part.offences]
     return evidence, checks, offences
 

@@ -3,15 +3,36 @@ import dataclasses
 
 KIB = 1024
 
-# variant of the tick: (what it is, budget, target, stretch), instructions of a whole tick
+KINDS = {"everyday": "everyday, nothing limited", "limited": "limited, all axes at once", "change": "ramp or exchange", "anything": "anything"}
+# machine: (what it is, budget of each kind of tick, target of each), instructions at most, accelerations limited
+WORST = {
+    "xyfz_compiled": ("XYFZ, compiled in", (360, 890, 1030, 1840), (350, 620, 640, 1100)),
+    "xyfz_loaded": ("XYFZ, loaded", (620, 1150, 1290, 2180), (580, 860, 880, 1350)),
+    "xyb_a_compiled": ("X, Y, B against A, compiled in", (760, 1280, 1430, 2380), (715, 1000, 1020, 1700)),
+    "xyb_a_loaded": ("X, Y, B against A, loaded", (1100, 1620, 1780, 2890), (1030, 1320, 1340, 1950)),
+    "five_axis_compiled": ("five axes, compiled in", (840, 1410, 1490, 2700), (815, 1150, 1170, 1950)),
+    "five_axis_loaded": ("five axes, loaded", (1200, 1760, 1850, 3250), (1120, 1460, 1480, 2250)),
+    "five_axis_orienting": ("five axes, two orienting, loaded", (2700, 3630, 3780, 5160), (2450, 2950, 3000, 3600)),
+    "five_axis_askew": ("five axes, every joint askew, loaded", (1970, 2530, 2630, 4030), (None, None, None, None)),
+    "five_axis_fixed": ("the same with two fixed bodies that have errors", (2250, 2810, 2910, 4310), (1650, None, None, 2800)),
+    "eight_axis": ("eight axes, loaded", (1800, 2330, 2420, 4620), (None, None, None, None)),
+    # no bound on acceleration compiled in: OffsetLimiter<false>
+    "xyfz_compiled_rate": ("XYFZ, compiled in, no acceleration", (375, 765, 775, 1600), (330, None, 345, 900)),
+    "xyfz_loaded_rate": ("XYFZ, loaded, no acceleration", (620, 995, 1020, 1960), (560, None, 580, 1150)),
+    "five_axis_compiled_rate": ("five axes, compiled in, no acceleration", (795, 1190, 1205, 2530), (780, None, None, 1700)),
+    "five_axis_loaded_rate": ("five axes, loaded, no acceleration", (1155, 1540, 1565, 3130), (1080, None, None, 2000)),
+}
+# machine whose plain tick is traced: (what it is, budget, target), cycles on a Cortex-M7 as llvm-mca estimates them
+TRACED = {"xyfz_compiled": ("XYFZ, compiled in", 320, 275), "five_axis_loaded": ("five axes, loaded", 1270, None)}
+# variant measured by kinds of event: what it is
 TICKS = {
-    "xyfz_compiled": ("XYFZ, folded", 400, 310, 260),
-    "xyb_a_compiled": ("X, Y, B against A, compiled in", 800, 640, None),
-    "xyb_a_loaded": ("X, Y, B against A, loaded", 1150, 860, None),
-    "five_axis_compiled": ("five axes, compiled in", 950, 750, None),
-    "five_axis_loaded": ("five axes, loaded", 1350, 1030, None),
-    "xyfz_loaded": ("XYFZ, folded, loaded", None, None, None),
-    "xyz_second_order_compiled": ("X, Y, Z, second order, compiled in", None, None, None),
+    "xyfz_compiled": "XYFZ, compiled in",
+    "xyb_a_compiled": "X, Y, B against A, compiled in",
+    "xyb_a_loaded": "X, Y, B against A, loaded",
+    "five_axis_compiled": "five axes, compiled in",
+    "five_axis_loaded": "five axes, loaded",
+    "xyfz_loaded": "XYFZ, loaded",
+    "xyz_second_order_compiled": "X, Y, Z, second order, compiled in",
 }
 # machine of the measured touches: what it is
 TOUCHES = {"xyfz": "XYFZ", "xyb_a": "X, Y, B against A", "five_axis": "five axes"}
@@ -22,8 +43,8 @@ TOUCH = {"m7": (2500, 1500)}
 # drive, three axes
 LATENCY = {"offset": ("offsets 60B0h", 5000), "forwarded": ("forwarded targets", 6000)}
 GRINDERS = ("m7",)   # boards with a node that watches strokes
-SPREAD = 40          # most − least of a variant with a budget: a target, since an interrupt is sized by its most
 STACK_OF_TICK = 256  # bytes
+DEEPER = {"five_axis_orienting": "two orienting", "eight_axis": "eight axes"}  # without a budget of stack
 NODE_FLASH = 104 * KIB  # 96 and what the ways of corrections to drives take, by part in docs/drives.md
 
 
@@ -60,13 +81,19 @@ def of_latency(board, ways):
             for way, (name, budget) in LATENCY.items()]
 
 
-def of_ticks(board, ticks, bounds):
-    """`ticks`: least and most by variant; `bounds`: static stack of the tick by variant."""
-    checks = []
-    for variant, (name, budget, target, stretch) in TICKS.items():
-        if budget is None:
-            continue
-        least, most = ticks[variant]
-        checks.append(Check(f"{board}, {name}, instructions", most, budget, target, stretch))
-        checks.append(Check(f"{board}, {name}, bytes of stack", bounds[variant], STACK_OF_TICK))
-    return checks
+def of_worst(board, machines):
+    """`machines`: figures of each kind of tick by machine."""
+    return [Check(f"{board}, {name}, {text}, instructions", machines[machine][kind]["max"], budget, target)
+            for machine, (name, budgets, targets) in WORST.items()
+            for (kind, text), budget, target in zip(KINDS.items(), budgets, targets)]
+
+
+def of_traced(machines):
+    """`machines`: figures by machine."""
+    return [Check(f"m7, {name}, plain tick, cycles estimated", machines[machine]["cycles"], budget, target)
+            for machine, (name, budget, target) in TRACED.items()]
+
+
+def of_stack(board, bounds):
+    """`bounds`: static stack of the tick by machine."""
+    return [Check(f"{board}, tick, {machine}, bytes of stack", bound, STACK_OF_TICK) for machine, bound in bounds.items() if machine not in DEEPER]

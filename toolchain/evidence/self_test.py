@@ -7,9 +7,13 @@ import tempfile
 import budgets
 import code_flow
 import elf
+import groups
+import instructions
+import link_map
 import sizes
 import stack_bound
 import symbol_rules
+import traced_tick
 from documented_calls import PointerCall, VirtualCall
 from failure import Failure
 
@@ -156,8 +160,36 @@ class SelfTest:
             found = budgets.Check("a figure", measured, 400).kept()
             self.expect(found == wanted, f"{measured} of 400 was judged wrongly")
 
+    def groups(self):
+        def piece(section, library, source):
+            return link_map.Piece(section, 0, 4, library, source)
+
+        unit = "_ZN7volcomp11CompensatorINS_13LoadedMachineILj5ELj0EEELj128ENS_13OffsetLimiterILb1EEEE"
+        for wanted, given in {"tick": piece(f".text.{unit}4tickERKNS_9TickInputE", "comp", "instances.cpp"),
+                              "compensator, background": piece(f".text.unlikely.{unit}7restartERK", "comp", "instances.cpp"),
+                              "node": piece(".text._ZN7volcomp4node4Node4tickERKNS_11CompensatorE", "node", "node.cpp"),
+                              "texts": piece(".rodata.str1.1", "node", "node.cpp"),
+                              "board": piece(".text.Reset_Handler", "", "startup.S"),
+                              "libgcc and libc": piece(".text.memcpy", "", "lib_a-memcpy")}.items():
+            found = groups.group_of(given)
+            self.expect(found == wanted, f"{given.section} of {given.source} belongs to \"{wanted}\", not to \"{found}\"")
+
+    def traced(self):
+        """Memory that an instruction touches, by the registers before it; a chain of dependent additions."""
+        registers = {n: 0x2000_0000 + 0x100 * n for n in range(16)}
+        for wanted, mnemonic, operands in (((0x2000_0104, 4), "ldr", "r0, [r1, #4]"), ((0x2000_0100, 8), "ldrd", "r0, r2, [r1], #8"),
+                                           ((0x2000_0200, 48), "vldmia", "r2, {s0-s11}"), ((0x2000_0CF4, 12), "push", "{r4, r5, lr}"),
+                                           ((0x2000_0102, 2), "ldrh.w", "r0, [r1, #2]"), ((0x104, 4), "ldr", "r0, [pc, #0]"),
+                                           (None, "add", "r0, r1")):
+            found = traced_tick.span_of(instructions.Instruction(0x100, mnemonic, operands), registers)
+            self.expect(found == wanted, f"{mnemonic} {operands} touches {wanted}, not {found}")
+        for wanted, encoded in ((1.0, 0x70), (2.0, 0x00), (-0.5, 0xE0), (31.0, 0x3F)):
+            self.expect(traced_tick.constant(encoded) == wanted, f"a vmov of #{encoded} is {wanted}")
+        one, many = (traced_tick.cycles([instructions.Instruction(0, "add", "r0, r0, r1")] * n) for n in (20, 40))
+        self.expect(many - one == 20, f"20 additions more, each waiting for the last, take {many - one} cycles")
+
     def run(self):
-        for check in (self.budgets, self.frames, self.offences, self.virtual_calls, self.dynamic_frames, self.tick, self.sizes):
+        for check in (self.budgets, self.groups, self.traced, self.frames, self.offences, self.virtual_calls, self.dynamic_frames, self.tick, self.sizes):
             check()
         print(f"self-test: {self.judged} small programs judged rightly")
 

@@ -1,5 +1,6 @@
 """The figures as Markdown, for docs/evidence.md and for reading."""
-from budgets import LATENCY, NODE_FLASH, SPREAD, STACK_OF_TICK, TICKS, TOUCH, TOUCHES
+import groups
+from budgets import DEEPER, KINDS, LATENCY, NODE_FLASH, STACK_OF_TICK, TOUCH, TOUCHES, TRACED, WORST
 
 BEGIN, END = "<!-- evidence: made by toolchain/evidence.sh --write -->", "<!-- end of evidence -->"
 BOARDS = {"m7": "Cortex-M7", "m4": "Cortex-M4F"}
@@ -24,17 +25,39 @@ def judged(text, value, budget):
     return f"**{text}**" if budget is not None and value > budget else text
 
 
-def ticks(boards):
+def worst(boards):
+    """Every kind of tick of every machine: least … most of the everyday ones, most of the others."""
     body = []
-    for variant, (name, budget, target, _) in TICKS.items():
-        spans = [(boards[b]["ticks"][variant]["min"], boards[b]["ticks"][variant]["max"]) for b in BOARDS]
-        body.append([name, *[judged(f"{number(least)} … {number(most)}", most, budget) for least, most in spans], limit(budget), limit(target)])
-    spread = [max(t["max"] - t["min"] for v, t in boards[b]["ticks"].items() if TICKS[v][1]) for b in BOARDS]
-    bound, seen = ([max(t[key] for t in boards[b]["ticks"].values()) for b in BOARDS] for key in ("stack_bound", "stack_painted"))
-    body.append(["most − least of a machine with a budget", *[str(s) for s in spread], "–", limit(SPREAD)])
-    body.append(["stack, bytes: proven / seen", *[judged(f"{b} / {s}", b, STACK_OF_TICK) for b, s in zip(bound, seen)],
-                 limit(STACK_OF_TICK), "–"])
-    return rows(["whole tick, instructions, least … most", *BOARDS.values(), "budget", "target"], body)
+    for machine, (name, budgets, targets) in WORST.items():
+        for (kind, text), budget, target in zip(KINDS.items(), budgets, targets):
+            cells = []
+            for board in BOARDS:
+                found = boards[board]["worst"][machine][kind]
+                least = f"{number(found['min'])} … " if kind == "everyday" else ""
+                cells.append(judged(least + number(found["max"]), found["max"], budget))
+            body.append([f"{name}: {text}", *cells, limit(budget), limit(target)])
+    return rows(["whole tick, instructions, at most", *BOARDS.values(), "budget", "target"], body)
+
+
+def stack_and_spread(boards):
+    second = [boards[b]["ticks"]["xyz_second_order_compiled"] for b in BOARDS]
+    everyday = [[kinds["everyday"] for kinds in boards[b]["worst"].values()] for b in BOARDS]
+    bound = [max(bytes for machine, bytes in boards[b]["stack_bounds"].items() if machine not in DEEPER) for b in BOARDS]
+    seen = [max(t["stack_painted"] for t in boards[b]["ticks"].values()) for b in BOARDS]
+    body = [["X, Y, Z, second order, compiled in, ordinary operation, instructions", *[f"{number(t['min'])} … {number(t['max'])}" for t in second], "–"],
+            ["most − least of the everyday ticks of a machine", *[str(max(k["max"] - k["min"] for k in kinds)) for kinds in everyday], "–"],
+            ["stack, bytes: proven / seen", *[judged(f"{b} / {s}", b, STACK_OF_TICK) for b, s in zip(bound, seen)], limit(STACK_OF_TICK)]]
+    body += [[f"stack, {text}, bytes: proven", *[str(boards[b]["stack_bounds"][machine]) for b in BOARDS], "–"] for machine, text in DEEPER.items()]
+    return rows(["whole tick", *BOARDS.values(), "budget"], body)
+
+
+def traced(machines):
+    """A plain tick as it is executed: what memory has to deliver, and what it takes when memory answers at once."""
+    body = [[name, number(m["instructions"]), judged(number(m["cycles"]), m["cycles"], budget), limit(budget), limit(target),
+             str(m["code_lines"]), str(m["data_lines"])]
+            for machine, (name, budget, target) in TRACED.items() for m in [machines[machine]]]
+    return rows(["plain tick, traced, Cortex-M7", "instructions", "cycles, estimated", "budget", "target", "lines of code, 32 bytes", "lines of data"],
+                body)
 
 
 def images(evidence):
@@ -56,6 +79,13 @@ def images(evidence):
             ["integrated servo loop: flash, bytes", *of("servo", "flash"), "–", "–"],
             ["integrated servo loop: RAM, bytes", *of("servo", "ram"), "–", "–"]]
     return rows(["images", *BOARDS.values(), "Cortex-A53", "budget"], body)
+
+
+def flash(boards):
+    """The node's flash by group."""
+    body = [[group, *[judged(number(boards[b]["groups"][group]), boards[b]["groups"][group], budget if b == "m7" else None) for b in BOARDS],
+             number(budget)] for group, budget in groups.BUDGETS.items()]
+    return rows(["flash of the node by group, bytes", *BOARDS.values(), "budget, M7"], body)
 
 
 def latency(boards):
@@ -113,16 +143,15 @@ def strokes(boards):
 
 def markdown(evidence):
     boards = evidence["boards"]
-    counted = {f["kind"]: f["count"] for f in boards["m7"]["kinds"] if f["variant"] == "xyfz_compiled" and f["phase"] == "usual"
-               and f["knots"] == max(k["knots"] for k in boards["m7"]["kinds"])}
     kernel = evidence["kernel_estimate"]
-    seen = (f"{number(counted['any'])} ticks of ordinary operation each; XYFZ saw {number(counted['segment'])} ticks with a segment border, "
-            f"{number(counted['reversal'])} reversals, {number(counted['clamp'])} clamps, {counted['swap']} exchanges of tables with "
-            f"{number(counted['ramp'])} ticks of ramp.")
+    ticks = {kind: boards["m7"]["worst"]["xyfz_compiled"][kind]["count"] for kind in KINDS}
+    seen = (f"{number(ticks['anything'])} ticks of each machine, searched for the most expensive one by chance and by plan, accelerations limited "
+            f"and not; of XYFZ {number(ticks['everyday'])} everyday ones, {number(ticks['limited'])} limited, {number(ticks['change'])} of a ramp or an "
+            "exchange; anything: besides these, axes lost, not homed, implausible, beyond their tables, all at once, settings changed, tables damaged.")
     text = [f"{seen} Bold: over its budget. {evidence['tables']}. {evidence['compiler']}, `{evidence['flags']}`; QEMU counts instructions, exactly, not cycles.",
-            "", *ticks(boards), "", *latency(boards), "", *touches(boards), "", *strokes(boards), "", *services(boards), "", *images(evidence), "",
-            f"llvm-mca estimates {kernel['cycles']} cycles on a Cortex-M7 for the {kernel['instructions']} instructions of the folded kernel, "
-            "memory that answers at once assumed."]
+            "", *worst(boards), "", *stack_and_spread(boards), "", *traced(evidence["traced"]), "", *latency(boards), "", *touches(boards), "", *strokes(boards), "", *services(boards), "", *images(evidence), "", *flash(boards), "",
+            f"llvm-mca estimates {kernel['cycles']} cycles on a Cortex-M7 for the {kernel['instructions']} instructions of the folded kernel. "
+            "Estimates assume memory that answers at once and branches taken as foreseen."]
     return "\n".join(text) + "\n"
 
 

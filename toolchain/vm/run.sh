@@ -8,7 +8,7 @@
 
 # run_in_vm FOLDER COMMAND...: ends the script with the exit code of the command.
 run_in_vm() {
-  local limit_s ended=0
+  local limit_s attempt ended
   find_input
   limit_s=${VOLCOMP_VM_TIMEOUT:-$([ "$input" = terminal ] && echo 86400 || echo 600)}
   [[ $limit_s =~ ^[1-9][0-9]*$ ]] || die "VOLCOMP_VM_TIMEOUT must be a whole number of seconds, not \"$limit_s\"."
@@ -19,14 +19,36 @@ run_in_vm() {
   write_orders "$@"
   take_input
 
-  boot_machine "$limit_s" &
-  machine=$!
-  pass_on "$run/output" &
-  [ ! -e "$run/errors" ] || pass_on "$run/errors" >&2 &
-  wait "$machine" || ended=$?
-  wait
+  for attempt in 1 2 3; do
+    boot_machine "$limit_s" &
+    machine=$!
+    watch_machine &
+    pass_on "$run/output" &
+    [ ! -e "$run/errors" ] || pass_on "$run/errors" >&2 &
+    ended=0
+    wait "$machine" || ended=$?
+    wait
+    if [ -e "$run/up" ] || [ ! -e "$run/hung" ]; then break; fi
+    rm "$run/hung"
+    printf 'with-vcan: the virtual machine did not come up within %s s (%s of 3)\n' "$boot_limit_s" "$attempt" >&2
+  done
   machine=
   finish "$ended" "$limit_s"
+}
+
+# An emulated machine now and then hangs before its command begins or after it has ended: the one is booted again, the
+# other switched off.
+readonly boot_limit_s=120 off_limit_s=60
+watch_machine() {
+  local left=$boot_limit_s
+  while kill -0 "$machine" 2> /dev/null; do
+    [ ! -e "$run/over" ] || [ -e "$run/off" ] || { : > "$run/off"; left=$off_limit_s; }
+    if [ ! -e "$run/up" ] || [ -e "$run/over" ]; then
+      left=$((left - 1))
+      [ "$left" -gt 0 ] || { : > "$run/hung"; kill "$machine" 2> /dev/null || true; }
+    fi
+    sleep 1
+  done
 }
 
 # find_input: "terminal" for a person who types and reads, "stream" for a pipe or file, "none" where nothing can be

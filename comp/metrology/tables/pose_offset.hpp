@@ -8,9 +8,10 @@
 namespace volcomp {
 
 struct PoseOffset {
-  Pose offset{};          // by NC axis, mm or rad; 0 for axes that take none
-  Vec3 remainder{};       // position error left over, base, mm
-  Vec3 tilt_remainder{};  // orientation error left over, its part across the tool's axis; base, rad
+  Pose offset{};                  // by NC axis, mm or rad; 0 for axes that take none
+  Vec3 remainder = Vec3::Zero();  // position error left over, base, mm
+  Vec3 tilt_remainder =
+      Vec3::Zero();  // orientation error left over, its part across the tool's axis; base, rad
   double authority = 0.0;  // of the correcting axes, as MotionOffset
   double grip = 0.0;       // of the orienting axes: below kMinTurning they fade; 0 without any
 };

@@ -91,6 +91,10 @@ using Task = volcomp::node::NodeTask<NodeLink, NodeLink, TickMask, Watchdog>;
 
 constexpr std::uint8_t kNodeId = 32;
 constexpr std::uint32_t kTick_us = 1000;
+// From turn to turn of the frame pipe, in the emulator's count of instructions. A turn can hold a
+// whole bus cycle and then keeps the processor busy for a millisecond; the background needs time
+// after each.
+constexpr std::uint32_t kTurn_us = 1250;
 
 // How long the tick and the background may be overdue.
 struct Timeouts {
@@ -99,7 +103,7 @@ struct Timeouts {
 };
 // 20 ticks without food. Not a whole number, so that the bite falls between two ticks: inside one
 // it could leave the other end of a frame pipe without the answer to its turn.
-constexpr Timeouts kTurnByTurn{20'500, {}};
+constexpr Timeouts kTurnByTurn{20 * kTurn_us + kTurn_us / 2, {}};
 // In real time the emulated processor stops while the computer is busy, but its timers do not: up
 // to a second was measured, after which all missed ticks come at once.
 constexpr Timeouts kRealTime{5'000'000, {5'000'000, 5'000'000, 5'000'000}};
@@ -195,7 +199,7 @@ int main() {
   task->watch_program({code_begin, program_bytes});
   task->power_on(volcomp::boards::take_reset_cause());
   watchdog.start(patience().bite_us);
-  volcomp::hal::mps2::timer0.start(kTick_us);
+  volcomp::hal::mps2::timer0.start(link.is_pipe() ? kTurn_us : kTick_us);
   if (!link.is_pipe()) volcomp::hal::mps2::timer1.enable();
   while (link.pipe().end() == PipePort::End::none) {
     const bool more = task->background_step();

@@ -1,6 +1,7 @@
-// volcomp-servo: the integrated form on a board. Two timers of 10 kHz: one turns the simulated
+// volcomp-servo: the integrated form on a board. Two timers of 5 kHz: one turns the simulated
 // encoders, half a period later the other runs the servo loop. Prints what the offsets were, which
-// a PC prints to the last bit the same (firmware/embed/cpp/servo_host.cpp).
+// a PC prints to the last bit the same (firmware/embed/cpp/servo_host.cpp), and fails when a servo
+// interrupt took longer than its period.
 
 #include <atomic>
 
@@ -61,18 +62,25 @@ void wait_us(std::uint32_t time_us) {
   }
 }
 
-void tell_cost() {
-  constexpr std::uint32_t kInstructionTime_ns = 64;  // in QEMU, see instruction_counter.hpp
-  if (!counter.exact()) return;
+// In QEMU, see instruction_counter.hpp.
+constexpr std::uint32_t kInstructionTime_ns = 64;
+constexpr std::uint32_t kInstructionsOfPeriod = kPeriod_us * 1000 / kInstructionTime_ns;
+
+// Whether every servo interrupt ended within its period, as far as instructions are counted.
+bool tell_cost() {
+  if (!counter.exact()) return true;
   console::put("servo interrupt: ");
   console::put_unsigned(fewest_instructions);
   console::put(" to ");
   console::put_unsigned(most_instructions);
   console::put(" instructions of ");
-  console::put_unsigned(kPeriod_us * 1000 / kInstructionTime_ns);
+  console::put_unsigned(kInstructionsOfPeriod);
   console::put("\nstack: ");
   console::put_unsigned(volcomp::boards::deepest_stack_bytes());
   console::put(" bytes\n");
+  if (most_instructions <= kInstructionsOfPeriod) return true;
+  console::put("a servo interrupt took longer than its period\n");
+  return false;
 }
 
 }  // namespace
@@ -112,6 +120,5 @@ int main() {
   }
   Uart uart;
   tell(example().summary(), uart);
-  tell_cost();
-  return volcomp::boards::kFine;
+  return tell_cost() ? volcomp::boards::kFine : volcomp::boards::kCheckFailed;
 }

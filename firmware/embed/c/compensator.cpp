@@ -7,6 +7,7 @@
 #include <new>
 
 #include "comp/tables/image.hpp"
+#include "comp/tick/offset_units.hpp"
 
 namespace {
 
@@ -23,13 +24,21 @@ using Settings = OrientingCompensator::Settings;
 
 static_assert(volcomp::kStatusBits == VOLCOMP_STATUS_BITS);
 static_assert(VOLCOMP_UNITS_PER_TURN == volcomp::kUnitsPerTurn);
+static_assert(VOLCOMP_ACCELERATION_TOO_SMALL ==
+              static_cast<int>(volcomp::Reason::acceleration_too_small));
 static_assert(VOLCOMP_TEMPERATURES == volcomp::kTemperatureInputs);
 
 Settings settings_of(const volcomp_settings& from) {
   Settings s;
   for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
     const volcomp_axis_limits& l = from.axis[a];
-    s.axis[a] = {l.limit, l.rate, l.soft_rate, l.hysteresis, l.max_step};
+    AxisLimits& limits = s.axis[a];
+    limits.limit = l.limit;
+    limits.rate = l.rate;
+    limits.soft_rate = l.soft_rate;
+    limits.hysteresis = l.hysteresis;
+    limits.max_step = l.max_step;
+    limits.acceleration = l.acceleration;
   }
   s.source = from.positions == VOLCOMP_TARGET ? volcomp::PositionSource::target
                                               : volcomp::PositionSource::actual;
@@ -116,12 +125,22 @@ void volcomp_default_settings(volcomp_settings* out) {
   const Settings s;
   for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
     const AxisLimits& l = s.axis[a];
-    out->axis[a] = {l.limit, l.rate, l.soft_rate, l.hysteresis, l.max_step};
+    out->axis[a] = {l.limit, l.rate, l.soft_rate, l.hysteresis, l.max_step, l.acceleration};
   }
   out->positions = VOLCOMP_TARGET;
   out->machine_id = s.machine_id;
   out->ramp_ticks = s.ramp_ticks;
   out->stale_drop_ticks = s.stale_drop_ticks;
+}
+
+volcomp_status volcomp_set_acceleration(volcomp_axis_limits* limits, bool rotary,
+                                        double acceleration, double period_s) {
+  if (limits == nullptr) return refused(VOLCOMP_NULL_POINTER, "limits");
+  const double stated = rotary ? acceleration : 1e3 * acceleration;
+  std::int32_t units = 0;
+  const Status status = volcomp::acceleration_in_units(rotary, stated, period_s, units);
+  if (status.ok()) limits->acceleration = units;
+  return from(status);
 }
 
 volcomp_status volcomp_configure(volcomp_compensator* c, const volcomp_settings* settings) {
@@ -214,6 +233,7 @@ void volcomp_diagnose(const volcomp_compensator* c, volcomp_diagnostics* out) {
   for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
     std::copy(d.began[a].begin(), d.began[a].end(), std::begin(out->began[a]));
     out->largest[a] = d.largest[a];
+    out->largest_lag[a] = d.largest_lag[a];
   }
 }
 

@@ -36,7 +36,7 @@ extern "C" {
 enum {
   VOLCOMP_AXES = 5,           // most a machine may have; those it has not are ignored
   VOLCOMP_KNOTS = 128,        // most a table of one axis may have
-  VOLCOMP_STATUS_BITS = 14,   // that an axis may show
+  VOLCOMP_STATUS_BITS = 15,   // that an axis may show
   VOLCOMP_TEMPERATURES = 4,   // inputs for temperatures
   VOLCOMP_RADIUS_TERMS = 16,  // of the radius of a probe ball by direction
   VOLCOMP_BYTES = 134 * 1024  // of one compensator, on any processor
@@ -81,6 +81,7 @@ enum volcomp_reason {
   VOLCOMP_EXPIRED = 81,
   VOLCOMP_CANNOT_ORIENT = 82,
   VOLCOMP_NO_WAY = 83,
+  VOLCOMP_ACCELERATION_TOO_SMALL = 84,
   // of this interface
   VOLCOMP_NULL_POINTER = 240,
   VOLCOMP_MEMORY_TOO_SMALL = 241,
@@ -122,6 +123,9 @@ struct volcomp_axis_limits {
   int32_t soft_rate;   // the same while an axis is lost, not homed or coming back, 1…rate
   int32_t hysteresis;  // of the direction, 0…4 194 303
   int64_t max_step;    // largest plausible |change of position| per tick; 0 = any
+  // Largest change of the change per tick, 1…2^24; 0 or at least 2·rate: none. A drive that is
+  // asked for more acceleration than it has to spare follows late, by micrometres.
+  int32_t acceleration;
 };
 
 enum volcomp_positions {
@@ -139,6 +143,14 @@ struct volcomp_settings {
 
 // What a compensator has before it is configured.
 void volcomp_default_settings(struct volcomp_settings* out);
+
+// Sets `acceleration` of `limits` from m/s² of a linear or rad/s² of a rotary axis, 0…1e6 (0:
+// none), and the period of the tick, 1e-6…1 s; rounded down. At most what the drive has to spare: a
+// tenth of the acceleration of the axis, or 0.2 m/s² and 2 rad/s² where that is not known. A result
+// below 4 is coarse: up to half tighter than stated. Refuses null_pointer, bad_setting, and
+// acceleration_too_small where less than one unit per tick and tick is left.
+struct volcomp_status volcomp_set_acceleration(struct volcomp_axis_limits* limits, bool rotary,
+                                               double acceleration, double period_s);
 
 // No tick may come. Refuses null_pointer and bad_setting with the field named.
 struct volcomp_status volcomp_configure(struct volcomp_compensator* c,
@@ -199,7 +211,8 @@ struct volcomp_diagnostics {
   uint32_t active_crc;                   // of the image behind the active tables
   struct volcomp_status last_rejection;  // why
   uint16_t began[VOLCOMP_AXES][VOLCOMP_STATUS_BITS];
-  int32_t largest[VOLCOMP_AXES];  // largest |offset| put out
+  int32_t largest[VOLCOMP_AXES];      // largest |offset| put out
+  int32_t largest_lag[VOLCOMP_AXES];  // largest |wanted offset − offset|, for rate or acceleration
 };
 void volcomp_diagnose(const struct volcomp_compensator* c, struct volcomp_diagnostics* out);
 
@@ -260,20 +273,21 @@ struct volcomp_output {
 };
 
 enum volcomp_status_bit {
-  VOLCOMP_VALID = 1 << 0,               // corrected as configured, nothing to report
-  VOLCOMP_NOT_HOMED = 1 << 1,           // correction goes to 0
-  VOLCOMP_STALE = 1 << 2,               // no valid position: last correction held
-  VOLCOMP_DROPPED = 1 << 3,             // stale for too long: correction ramps to 0
-  VOLCOMP_IMPLAUSIBLE = 1 << 4,         // position jumped: treated as stale
-  VOLCOMP_OUT_OF_RANGE = 1 << 5,        // beyond its table: corrected as at its end
-  VOLCOMP_FAR_OUT_OF_RANGE = 1 << 6,    // by more than half a pitch
-  VOLCOMP_CLAMPED = 1 << 7,             // limited to ±limit
-  VOLCOMP_RATE_LIMITED = 1 << 8,        // limited to ±rate per tick
-  VOLCOMP_DIRECTION_UNKNOWN = 1 << 9,   // not moved yet: mean of both directions
-  VOLCOMP_RAMPING = 1 << 10,            // a change is being ramped in
-  VOLCOMP_NO_AUTHORITY_HERE = 1 << 11,  // the correcting axes cannot act: last correction held
-  VOLCOMP_NO_TABLES = 1 << 12,          // nothing active: correction 0
-  VOLCOMP_TABLE_DAMAGED = 1 << 13       // active tables changed in memory: correction ramped to 0
+  VOLCOMP_VALID = 1 << 0,                 // corrected as configured, nothing to report
+  VOLCOMP_NOT_HOMED = 1 << 1,             // correction goes to 0
+  VOLCOMP_STALE = 1 << 2,                 // no valid position: last correction held
+  VOLCOMP_DROPPED = 1 << 3,               // stale for too long: correction ramps to 0
+  VOLCOMP_IMPLAUSIBLE = 1 << 4,           // position jumped: treated as stale
+  VOLCOMP_OUT_OF_RANGE = 1 << 5,          // beyond its table: corrected as at its end
+  VOLCOMP_FAR_OUT_OF_RANGE = 1 << 6,      // by more than half a pitch
+  VOLCOMP_CLAMPED = 1 << 7,               // limited to ±limit
+  VOLCOMP_RATE_LIMITED = 1 << 8,          // limited to ±rate per tick
+  VOLCOMP_DIRECTION_UNKNOWN = 1 << 9,     // not moved yet: mean of both directions
+  VOLCOMP_RAMPING = 1 << 10,              // a change is being ramped in
+  VOLCOMP_NO_AUTHORITY_HERE = 1 << 11,    // the correcting axes cannot act: last correction held
+  VOLCOMP_NO_TABLES = 1 << 12,            // nothing active: correction 0
+  VOLCOMP_TABLE_DAMAGED = 1 << 13,        // active tables changed in memory: correction ramped to 0
+  VOLCOMP_ACCELERATION_LIMITED = 1 << 14  // held back by its acceleration limit
 };
 
 // Bounded, no library call. The pointers must be good.

@@ -13,7 +13,7 @@ struct Travel {
   std::int32_t step;  // counts per servo period
 };
 
-// 220, 130 and 70 mm/s, a little beyond the tables at the lower end of X.
+// 110, 65 and 35 mm/s, a little beyond the tables at the lower end of X.
 constexpr std::array<Travel, kAxes> kTravel = {{
     {-50'200'000, -100'000, 2200},
     {-29'900'000, -100'000, 1300},
@@ -24,14 +24,14 @@ constexpr std::uint32_t kSignalFails = 12'000;  // servo periods since the start
 constexpr std::uint32_t kSignalReturns = 12'050;
 constexpr std::uint32_t kFailingAxis = 1;
 
-// 10 mm/s of offset, 0.2 s for a change, plausible up to 1 m/s: the same machine as
-// host_sim/machines/xyfz.toml, at 10 kHz.
+// 5 mm/s and 0.2 m/s² of offset, 0.4 s for a change, plausible up to 0.5 m/s.
 XyfzCompensator::Settings settings() {
   XyfzCompensator::Settings s;
   for (AxisLimits& axis : s.axis) {
     axis.limit = 200'000;
     axis.rate = 1'000;
     axis.soft_rate = 100;
+    axis.acceleration = 8;
     axis.hysteresis = 2'000;
     axis.max_step = 100'000;
   }

@@ -17,6 +17,8 @@
 //   volcomp.x.status            u32 out    VOLCOMP_VALID … of volcomp.h
 //   volcomp.x.out-of-range      bit out    referenced and beyond its table: corrected as at its end
 //   volcomp.x.far-out-of-range  bit out    by more than half a pitch: for a message to the operator
+//   volcomp.x.limited           bit out    held back by its rate or acceleration in this period
+//   volcomp.x.lag               float out  mm or degrees that it was held back by at most, so far
 //
 // and of all: volcomp.enable (bit in; false: all offsets go to 0), volcomp.compensating (bit out:
 // every axis is corrected as configured), volcomp.image-crc (u32 out).
@@ -28,6 +30,7 @@
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
 #include "hal.h"
@@ -51,6 +54,18 @@ static int rate_um_per_s = 10000;
 RTAPI_MP_INT(rate_um_per_s, "fastest change of the offset of a linear axis");
 static int rate_urad_per_s = 50000;
 RTAPI_MP_INT(rate_urad_per_s, "fastest change of the offset of a rotary axis");
+static int acceleration_mm_per_s2 = -1;
+RTAPI_MP_INT(acceleration_mm_per_s2,
+             "largest acceleration of the offset of a linear axis; 0: any; -1: a tenth of its "
+             "max_acceleration, without that 200");
+static int acceleration_mrad_per_s2 = -1;
+RTAPI_MP_INT(acceleration_mrad_per_s2,
+             "largest acceleration of the offset of a rotary axis; 0: any; -1: a tenth of its "
+             "max_acceleration, without that 2000");
+static char* max_acceleration[VOLCOMP_AXES];
+RTAPI_MP_ARRAY_STRING(max_acceleration, VOLCOMP_AXES,
+                      "[JOINT_n]MAX_ACCELERATION of the axes in the order of the image, mm/s^2 or "
+                      "degrees/s^2");
 static int ramp_ms = 200;
 RTAPI_MP_INT(ramp_ms, "for new tables, and for offsets of an axis that was lost or is back");
 static int hysteresis_nm = 2000;
@@ -68,6 +83,8 @@ struct axis_pins {
   hal_u32_t* status;
   hal_bit_t* out_of_range;
   hal_bit_t* far_out_of_range;
+  hal_bit_t* limited;
+  hal_float_t* lag;
 };
 
 struct pins {
@@ -108,12 +125,22 @@ static void tell_status(const struct axis_pins* axis, unsigned status) {
   *axis->status = status;
   *axis->out_of_range = homed && (status & VOLCOMP_OUT_OF_RANGE) != 0;
   *axis->far_out_of_range = homed && (status & VOLCOMP_FAR_OUT_OF_RANGE) != 0;
+  *axis->limited = (status & (VOLCOMP_RATE_LIMITED | VOLCOMP_ACCELERATION_LIMITED)) != 0;
+}
+
+// The largest lag grows only while an offset is held back.
+static void tell_lag(void) {
+  struct volcomp_diagnostics d;
+  volcomp_diagnose(compensation, &d);
+  for (size_t a = 0; a < machine.axes; ++a)
+    *pins->axis[a].lag = d.largest_lag[a] / units_per_offset(a);
 }
 
 static void update(void* unused, long period_ns) {
   struct volcomp_input in;
   struct volcomp_output out;
   bool all_valid = true;
+  bool any_limited = false;
   (void)unused;
   (void)period_ns;
   for (size_t a = 0; a < VOLCOMP_AXES; ++a) {
@@ -132,8 +159,10 @@ static void update(void* unused, long period_ns) {
     *axis->offset = out.offset[a] / units_per_offset(a);
     tell_status(axis, out.status[a]);
     if ((out.status[a] & VOLCOMP_VALID) == 0) all_valid = false;
+    if (*axis->limited) any_limited = true;
   }
   *pins->compensating = all_valid;
+  if (any_limited) tell_lag();
 }
 
 // --- loading -------------------------------------------------------------------------------------
@@ -178,6 +207,33 @@ static int32_t counts(double value) {
 
 static int32_t at_least_one(int32_t value) { return value == 0 ? 1 : value; }
 
+// m/s² or rad/s². Negative: max_acceleration is no number.
+static double acceleration_of(size_t axis) {
+  const bool rotary = machine.rotary[axis];
+  const int stated = rotary ? acceleration_mrad_per_s2 : acceleration_mm_per_s2;
+  const char* const most = max_acceleration[axis];
+  if (stated >= 0) return stated * 1e-3;
+  if (most == NULL || *most == '\0') return rotary ? 2.0 : 0.2;
+  char* end = NULL;
+  const double of_axis = strtod(most, &end);
+  if (*end != '\0' || !(of_axis > 0.0)) return -1.0;
+  return 0.1 * of_axis * (rotary ? 6.283185307179586 / 360.0 : 1e-3);
+}
+
+// Refuses what volcomp_set_acceleration() refuses, and tells where it is coarse.
+static struct volcomp_status accelerate(size_t axis, struct volcomp_axis_limits* limits) {
+  const bool rotary = machine.rotary[axis];
+  struct volcomp_status s =
+      volcomp_set_acceleration(limits, rotary, acceleration_of(axis), period_us * 1e-6);
+  s.axis = machine.letter[axis];
+  if (s.reason == VOLCOMP_OK && limits->acceleration > 0 && limits->acceleration < 4)
+    rtapi_print_msg(RTAPI_MSG_WARN,
+                    "volcomp: axis %c: the acceleration of the offset is %d per period and period, "
+                    "up to half less than stated\n",
+                    machine.letter[axis], (int)limits->acceleration);
+  return s;
+}
+
 static struct volcomp_axis_limits limits_of(size_t axis) {
   const bool rotary = machine.rotary[axis];
   const double per_second = period_us * 1e-6;
@@ -185,8 +241,8 @@ static struct volcomp_axis_limits limits_of(size_t axis) {
   const double limit = (rotary ? limit_urad : limit_um) * micro;
   const double rate = (rotary ? rate_urad_per_s : rate_um_per_s) * micro * per_second;
   const double hysteresis = rotary ? hysteresis_nrad * 1e-3 * micro : (double)hysteresis_nm;
-  struct volcomp_axis_limits l = {counts(limit), at_least_one(counts(rate)), 0, counts(hysteresis),
-                                  0};
+  struct volcomp_axis_limits l = {
+      counts(limit), at_least_one(counts(rate)), 0, counts(hysteresis), 0, 0};
   l.soft_rate = ramp_ms < 1 ? l.rate : at_least_one(counts(limit * per_second / (ramp_ms * 1e-3)));
   if (l.soft_rate > l.rate) l.soft_rate = l.rate;
   return l;
@@ -199,8 +255,11 @@ static int configure(void) {
     rtapi_print_msg(RTAPI_MSG_ERR, "volcomp: period_us must be at least 1.\n");
     return -EINVAL;
   }
-  for (size_t a = 0; a < machine.axes; ++a)
+  for (size_t a = 0; a < machine.axes; ++a) {
     settings.axis[a] = limits_of(a);
+    const struct volcomp_status s = accelerate(a, &settings.axis[a]);
+    if (s.reason != VOLCOMP_OK) return refused("settings", &s);
+  }
   settings.positions = actual != 0 ? VOLCOMP_ACTUAL : VOLCOMP_TARGET;
   settings.ramp_ticks = (uint32_t)at_least_one(counts(ramp_ms * 1e3 / period_us));
   struct volcomp_status status = volcomp_configure(compensation, &settings);
@@ -224,6 +283,9 @@ static int export_axis(size_t a) {
   if (r == 0)
     r = hal_pin_bit_newf(HAL_OUT, &axis->far_out_of_range, component, "volcomp.%c.far-out-of-range",
                          letter);
+  if (r == 0)
+    r = hal_pin_bit_newf(HAL_OUT, &axis->limited, component, "volcomp.%c.limited", letter);
+  if (r == 0) r = hal_pin_float_newf(HAL_OUT, &axis->lag, component, "volcomp.%c.lag", letter);
   return r;
 }
 

@@ -17,6 +17,7 @@ class ProbePart : public NodePart {
   void restart(bool operational);
   // Makes a point of the next touch.
   void background(std::uint64_t now_us);
+  [[nodiscard]] std::uint64_t rests_until_us() const { return path_.waiting() ? 0 : UINT64_MAX; }
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
     constexpr std::uint16_t kOwn = object::probe::command.index;
     constexpr std::uint16_t kBehind = object::stroke::command.index;

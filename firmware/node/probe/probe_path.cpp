@@ -154,9 +154,10 @@ ProbePoint ProbePath::point_of(const Touch& touch, JudgedTouch& judged) const {
 
 bool ProbePath::work() {
   objects_.lost += std::exchange(overrun_, 0);
+  if (touches_.empty()) return false;
   if (compensator_.pending()) return false;  // the tables of the point must stay while it is made
   Touch touch;
-  if (!touches_.pop(touch)) return false;
+  touches_.pop(touch);
   JudgedTouch judged;
   last_ = point_of(touch, judged);
   publish(last_, touch, judged);

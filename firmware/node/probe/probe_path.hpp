@@ -41,6 +41,8 @@ class ProbePath {
   // Makes a point of the next touch; the tick may come meanwhile. False when there was none, or
   // while tables are being exchanged.
   bool work();
+  // work() has something to do.
+  [[nodiscard]] bool waiting() const { return overrun_ != 0 || !touches_.empty(); }
   [[nodiscard]] const ProbePoint& last() const { return last_; }
 
   [[nodiscard]] PointFifo& points() { return points_; }

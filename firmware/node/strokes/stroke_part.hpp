@@ -17,6 +17,7 @@ class WatchedStrokes : public NodePart {
   void reset() { service_.switch_off(); }
   void restart(bool operational);
   void background(std::uint64_t now_us);
+  [[nodiscard]] std::uint64_t rests_until_us() const { return service_.on() ? 0 : UINT64_MAX; }
   canopen::AbortCode before_write(canopen::ObjectId object, Span<const std::uint8_t> bytes);
   void before_read(canopen::ObjectId object);
   static bool owns_domain(canopen::ObjectId object) {

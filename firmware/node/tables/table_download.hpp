@@ -78,8 +78,8 @@ class TableDownload : public NodePart {
 
   NodeCore& core_;
   ProbePart& probe_;
-  std::array<std::uint8_t, kImageCapacity> image_{};
   TablesView tables_{};  // of the image, since it was last checked
+  std::array<std::uint8_t, kImageCapacity> image_{};
 };
 
 }  // namespace volcomp::node

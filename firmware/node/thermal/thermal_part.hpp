@@ -37,6 +37,7 @@ class ThermalService {
   // Twice a second: updates 2701h, 2704h:01 and the assumed temperatures. False: it is not time
   // yet.
   bool poll(std::uint64_t now_us);
+  [[nodiscard]] std::uint64_t rests_until_us() const { return next_us_; }
 
  private:
   void set_clock(std::uint32_t unix_s) {
@@ -65,6 +66,7 @@ class FollowedTemperatures : public NodePart {
   void written(canopen::ObjectId object) { service_.arrived(object); }
   // Twice a second: temperatures, expiry, and tables folded again when they are behind.
   void background(std::uint64_t now_us);
+  [[nodiscard]] std::uint64_t rests_until_us() const { return service_.rests_until_us(); }
   void time_of_day(std::uint32_t midnight_ms, std::uint16_t days);
 
  private:

@@ -5,6 +5,7 @@
 
 #include "host_sim/sim/campaign/any_axes.hpp"
 #include "host_sim/sim/truth/drawn_machine.hpp"
+#include "host_sim/sim/truth/seeds.hpp"
 
 namespace volcomp::any_machine {
 namespace {
@@ -117,7 +118,7 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
   result.sphere = plan_sphere_test(file);
 
   const sim::NoiseClasses classes = options.noise ? sim::NoiseClasses{} : sim::no_noise();
-  sim::Random random(options.seed);
+  sim::Random random(sim::seed_of(options.seed, sim::SeedOf::instruments));
   const sim::Campaign campaign =
       sim::measure_any_machine(truth, file, classes, options.noise ? options.runs : 1, random);
   const auto tables = build(campaign, options);
@@ -127,12 +128,13 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
 
   sim::TrueMachine at_check = truth;
   at_check.temperature_offset_K = random.normal(classes.temperature_K);
-  const Verification verification{file,
-                                  at_check,
-                                  options,
-                                  diagonals_of(file),
-                                  random_poses(file, options.places, options.seed),
-                                  result.sphere};
+  const Verification verification{
+      file,
+      at_check,
+      options,
+      diagonals_of(file),
+      random_poses(file, options.places, sim::seed_of(options.seed, sim::SeedOf::places)),
+      result.sphere};
   progress(0.1, "the machine as it is");
   result.before = verify(verification, {});
   progress(0.55, "the machine compensated");

@@ -22,15 +22,6 @@ constexpr double kMapAgreement_um = 0.6;
 
 json or_null(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-std::optional<double> worst_profile(const FaceInspection& inspection) {
-  double worst = 0.0;
-  for (const FlankMap& flank : inspection.maps) {
-    if (!flank.profile) return std::nullopt;
-    worst = std::max(worst, *flank.profile);
-  }
-  return worst;
-}
-
 double largest_in(const MapDifference& difference, bool row, std::size_t number) {
   return row ? difference.row.at(number - 1).largest : difference.column.at(number - 1).largest;
 }
@@ -59,6 +50,20 @@ json stage_figures(const FaceGearResult& run, std::size_t stage) {
   return j;
 }
 
+json outliers_json(const FaceGearResult& run) {
+  json all = json::array();
+  for (std::size_t s = 0; s < kFaceStages.size(); ++s) {
+    for (const OutlierPoint& o : run.inspection.at(s).outliers)
+      all.push_back({{"stage", kFaceStages.at(s)},
+                     {"slot", o.flank.slot},
+                     {"side", kFaceSideNames.at(o.flank.side > 0 ? 0 : 1)},
+                     {"row", o.row + 1},
+                     {"column", o.column + 1},
+                     {"spread_um", o.spread_um}});
+  }
+  return all;
+}
+
 double scale_step_um(const FaceGearResult& run) {
   return kUmPerMm * kScaleStep_rad * run.gear.r_pitch;
 }
@@ -76,6 +81,32 @@ json frame_figures(const FaceGearResult& run) {
 }
 
 }  // namespace
+
+std::optional<double> worst_profile(const FaceInspection& inspection) {
+  double worst = 0.0;
+  for (const FlankMap& flank : inspection.maps) {
+    if (!flank.profile) return std::nullopt;
+    worst = std::max(worst, *flank.profile);
+  }
+  return worst;
+}
+
+std::string scatter_text(const FaceGearOptions& o) {
+  if (o.probe == 0 && !(o.targets.tracker_um > 0.0))
+    return "Without scatter: neither probe nor scales of the slides nor targets have any.";
+  const std::string found = o.targets.tracker_um > 0.0
+                                ? fmt::format("by a tracker to {:g} µm", o.targets.tracker_um)
+                                : fmt::format("by the probe in {} touches each, to {:.2f} µm",
+                                              o.targets.touches, kUmPerMm * target_sigma_mm(o));
+  const FaceScatter scatter = scatter_of(o);
+  return fmt::format(
+      "Probe {}: 2σ = {:g} µm in one direction, scales of the slides read to {:g} µm: {:.2f} µm "
+      "(1σ) a touch, {} touch{} of a point. Targets that identify the axes: found {} in each "
+      "coordinate (1σ).",
+      sim::kProbeClasses.at(o.probe).name, sim::kProbeClasses.at(o.probe).repeatability_2s_um,
+      kUmPerMm * scatter.slide_step_mm, kUmPerMm * scatter.sigma_mm(), o.touches,
+      o.touches == 1 ? "" : "es", found);
+}
 
 std::vector<PaperStatement> paper_statements() {
   std::array<MapDifference, 2> difference;
@@ -123,22 +154,36 @@ std::string grade_text(const FaceInspection& inspection) {
                      grade ? fmt::format("grade {}", *grade) : fmt::format("worse than {}", last));
 }
 
+// The centre that is subtracted from a map scatters, too: of two flanks the sum of scatter, rms, is
+// more than twice that of a point once in 20 times (e⁻³: chi-square of two degrees beyond 6).
+FaceLimits limits_of(const FaceGearResult& run) {
+  const double point =
+      kUmPerMm * scatter_of(run.options).sigma_mm() / std::sqrt(run.options.touches);
+  FaceLimits limits;
+  limits.scatter = 2.0 * point;
+  limits.map = std::hypot(kMapAgreement_um, limits.scatter);
+  // Of the highest tooth and of the lowest: a step of the scale, and 2σ.
+  limits.pitch = 2.0 * (scale_step_um(run) + 2.0 * point);
+  return limits;
+}
+
 host::Verdict face_gear_verdict(const FaceGearResult& run) {
   const MapError& one = run.map_error[0];
   const MapError& frame = run.map_error[1];
   const MapError& all = run.map_error[2];
   const double pitch = pitch_disagreement_um(run, FaceStage::compensated);
+  const FaceLimits limits = limits_of(run);
   host::Verdict v;
   const NodeAgreement node = agreement_of(run);
-  v.ok = node.largest_nm <= 1 && node.verdicts == 0 && all.rms <= kMapAgreement_um &&
-         all.rms <= std::min(one.rms, frame.rms) &&
-         pitch <= 2.0 * scale_step_um(run);  // of the highest tooth and of the lowest
+  v.ok = node.largest_nm <= 1 && node.verdicts == 0 && all.rms <= limits.map &&
+         all.rms <= std::hypot(std::min(one.rms, frame.rms), limits.scatter) &&
+         pitch <= limits.pitch;
   v.text = fmt::format(
       "Maps are {:.2f} µm rms from the gear with the frame of one ball, {:.2f} with that of {} "
-      "touches, {:.2f} with the machine compensated as well; F_p then differs by {:.1f} µm from "
-      "that of the gear, of which the scale of the table may be {:.1f}.",
-      one.rms, frame.rms, run.at(FaceStage::frame).frame.touches, all.rms, pitch,
-      2.0 * scale_step_um(run));
+      "touches, {:.2f} with the machine compensated as well (limit {:.2f}); F_p then differs by "
+      "{:.1f} µm from that of the gear, of which scale of the table and probe may be {:.1f}.",
+      one.rms, frame.rms, run.at(FaceStage::frame).frame.touches, all.rms, limits.map, pitch,
+      limits.pitch);
   return v;
 }
 
@@ -158,6 +203,10 @@ json face_gear_figures(const FaceGearResult& run) {
   j["node_agreement_nm"] = node.largest_nm;
   j["node_other_verdicts"] = node.verdicts;
   j["gear"] = run.options.gear;
+  j["probe"] = sim::kProbeClasses.at(run.options.probe).name;
+  j["touches"] = run.options.touches;
+  j["target_um"] = kUmPerMm * target_sigma_mm(run.options);
+  j["outliers"] = outliers_json(run);
   j["form"] = kFormTruths.at(static_cast<std::size_t>(run.options.form));
   j["seed"] = run.options.seed;
   j["version"] = host::kVersion;

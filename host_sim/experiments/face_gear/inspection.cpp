@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,27 +12,12 @@
 #include "comp/probe/face_relief.hpp"
 #include "comp/probe/face_touch.hpp"
 #include "firmware/node/probe/flank_probe.hpp"
-#include "host_sim/experiments/face_gear/truth.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::face_gear {
-namespace {
-
-constexpr int kFrameSlots = 3;
-
-struct GridCell {
-  std::size_t row;
-  std::size_t column;
-};
-// Cells of a flank for the frame: its centre, and four far out.
-constexpr std::array<GridCell, 5> kFrameCells{
-    {{kCentreRow, kCentreColumn}, {1, 1}, {1, 13}, {5, 13}, {5, 1}}};
-
-}  // namespace
-
 FaceInspector::FaceInspector(FaceStation& station, const FaceGear& gear, const FaceGrid& grid,
-                             double ball_radius)
-    : station_(station), gear_(gear), grid_(grid), radius_(ball_radius) {}
+                             double ball_radius, const FaceRules& rules)
+    : station_(station), gear_(gear), grid_(grid), radius_(ball_radius), rules_(rules) {}
 
 FaceFlank FaceInspector::flank_of(const FlankName& name) const {
   FaceFlank flank;
@@ -39,17 +25,35 @@ FaceFlank FaceInspector::flank_of(const FlankName& name) const {
   return flank;
 }
 
-FaceStationTouch FaceInspector::touch(const FlankName& name, std::size_t row, std::size_t column) {
-  const FaceGridNode& node = grid_[row][column];
-  FaceStationTouch found = station_.touch(name, {node.point, node.normal}, row, column);
-  const FaceTouch here = judge_touch(gear_, flank_of(name), {radius_, kGate_mm}, found.ball);
+void FaceInspector::agree(const FaceTouch& here, const sim::FlankJudgement& node) {
   ++agreement_.touches;
-  if (here.verdict != found.judgement.verdict || here.foot.reason != found.judgement.foot)
-    ++agreement_.verdicts;
-  const std::int64_t apart =
-      std::int64_t{found.judgement.distance_nm} - node::distance_nm(here.distance);
+  if (here.verdict != node.verdict || here.foot.reason != node.foot) ++agreement_.verdicts;
+  const std::int64_t apart = std::int64_t{node.distance_nm} - node::distance_nm(here.distance);
   agreement_.largest_nm = std::max(agreement_.largest_nm, std::abs(apart));
-  return found;
+}
+
+FaceStationTouch FaceInspector::touch(const PlannedTouch& planned) {
+  const auto& [name, row, column] = planned;
+  const FaceGridNode& node = grid_[row][column];
+  const FaceFlank flank = flank_of(name);
+  FaceStationTouch mean;
+  double least = std::numeric_limits<double>::infinity();
+  double most = -least;
+  for (int k = 0; k < rules_.touches; ++k) {
+    const FaceStationTouch one =
+        station_.touch(name, {node.point, node.normal}, row, column,
+                       k == 0 ? TouchFrom::beside : TouchFrom::where_it_was);
+    const FaceTouch here = judge_touch(gear_, flank, {radius_, kGate_mm}, one.ball);
+    agree(here, one.judgement);
+    if (k == 0 || one.judgement.verdict != Reason::ok) mean.judgement = one.judgement;
+    mean.ball += one.ball / rules_.touches;
+    if (here.foot.reason != Reason::ok) continue;  // no distance
+    least = std::min(least, here.distance);
+    most = std::max(most, here.distance);
+  }
+  if (rules_.sigma_mm > 0.0 && most - least > kOutlierSigmas * rules_.sigma_mm)
+    outliers_.push_back({name, row, column, kUmPerMm * (most - least)});
+  return mean;
 }
 
 void FaceInspector::use(const KnownFrame& frame) {
@@ -64,7 +68,7 @@ void FaceInspector::check_fresh() const {
 
 KnownFrame FaceInspector::frame_from_one_ball() {
   const FlankName name{1, 0};
-  const Vec3 ball = touch(name, kCentreRow, kCentreColumn).ball;
+  const Vec3 ball = touch({name, kCentreRow, kCentreColumn}).ball;
   station_.retract();
   const FaceContact contact{flank_of(name), radius_, ball};
   FaceAngle found;
@@ -81,13 +85,8 @@ KnownFrame FaceInspector::frame_from_one_ball() {
 
 KnownFrame FaceInspector::frame_from_many() {
   std::vector<FaceTouchPoint> points;
-  for (int k = 0; k < kFrameSlots; ++k) {
-    for (const int side : kFaceSides) {
-      const FlankName name{side, k * gear_.teeth / kFrameSlots};
-      for (const GridCell& cell : kFrameCells)
-        points.push_back({flank_of(name), touch(name, cell.row, cell.column).ball});
-    }
-  }
+  for (const PlannedTouch& planned : frame_touches(gear_.teeth))
+    points.push_back({flank_of(planned.flank), touch(planned).ball});
   station_.retract();
   FaceFrameSettings settings;
   settings.freedom = FrameFreedom::all;
@@ -109,18 +108,16 @@ FlankMap FaceInspector::map(const FlankName& name) {
   FlankMap result;
   result.flank = name;
   const FaceFlank flank = flank_of(name);
-  for (std::size_t c = 0; c < kGridColumns; ++c) {
-    for (std::size_t i = 0; i < kGridRows; ++i) {
-      const std::size_t r = c % 2 == 0 ? i : kGridRows - 1 - i;  // there and back
-      const FaceStationTouch found = touch(name, r, c);
-      if (found.judgement.verdict != Reason::ok) {
-        result.missing.push_back(
-            fmt::format("row {}, column {}: {}", r + 1, c + 1, sentence(found.judgement.verdict)));
-        continue;
-      }
-      const FaceFoot foot = distance_from_relieved_face(gear_, flank, found.ball);
-      result.map.set(r, c, kUmPerMm * (foot.distance - radius_));
+  for (const PlannedTouch& planned : map_touches(name)) {
+    const auto [r, c] = std::pair(planned.row, planned.column);
+    const FaceStationTouch found = touch(planned);
+    if (found.judgement.verdict != Reason::ok) {
+      result.missing.push_back(
+          fmt::format("row {}, column {}: {}", r + 1, c + 1, sentence(found.judgement.verdict)));
+      continue;
     }
+    const FaceFoot foot = distance_from_relieved_face(gear_, flank, found.ball);
+    result.map.set(r, c, kUmPerMm * (foot.distance - radius_));
   }
   station_.retract();
   double removed = 0.0;
@@ -134,12 +131,12 @@ FacePitch FaceInspector::pitch(int side) {
   check_fresh();
   ToothAngles round;
   host::require(ToothAngles::of(gear_.teeth, round), "pitch");
-  for (int k = 0; k < gear_.teeth; ++k) {
-    const FlankName name{side, k};
-    const Vec3 ball = touch(name, kCentreRow, kCentreColumn).ball;
-    const FaceFoot foot = distance_from_relieved_face(gear_, flank_of(name), ball);
-    host::require(refuse(foot.reason), fmt::format("pitch, slot {}", k));
-    host::require(round.record(k, side, foot.distance - radius_, gear_.arm), "pitch");
+  for (const PlannedTouch& planned : pitch_touches(side, gear_.teeth)) {
+    const Vec3 ball = touch(planned).ball;
+    const FaceFoot foot = distance_from_relieved_face(gear_, flank_of(planned.flank), ball);
+    const int slot = planned.flank.slot;
+    host::require(refuse(foot.reason), fmt::format("pitch, slot {}", slot));
+    host::require(round.record(slot, side, foot.distance - radius_, gear_.arm), "pitch");
   }
   station_.retract();
   FacePitch pitch;

@@ -11,6 +11,8 @@
 #include "comp/metrology/faces/face_frame.hpp"
 #include "comp/metrology/faces/face_grid.hpp"
 #include "comp/metrology/gears/pitch.hpp"
+#include "comp/probe/face_touch.hpp"
+#include "host_sim/experiments/face_gear/inspection_plan.hpp"
 #include "host_sim/experiments/face_gear/station.hpp"
 
 namespace volcomp::face_gear {
@@ -45,11 +47,28 @@ struct NodeAgreement {
   int verdicts = 0;             // that were not the same
 };
 
+// What is done against scatter.
+struct FaceRules {
+  int touches = 1;        // of each point; their mean counts
+  double sigma_mm = 0.0;  // of a touch, as the class of the probe has it; 0: nothing is an outlier
+};
+
+// Touches of one point that are further apart than their scatter explains. They count all the same.
+struct OutlierPoint {
+  FlankName flank;
+  std::size_t row = 0;
+  std::size_t column = 0;
+  double spread_um = 0.0;  // the largest less the least distance from the flank
+};
+inline constexpr double kOutlierSigmas = 6.0;
+
 struct FaceInspection {
   NodeAgreement node;
+  std::vector<OutlierPoint> outliers;  // in the order of the touches
   KnownFrame frame;
   std::vector<FlankMap> maps;      // left and right of the first chosen slot, then of the next
   std::array<FacePitch, 2> pitch;  // left, right
+  std::string program;             // the same in NC words (inspection_program.hpp)
 };
 
 inline constexpr std::size_t kPitchSpan = 10;
@@ -57,7 +76,7 @@ inline constexpr std::size_t kPitchSpan = 10;
 class FaceInspector {
  public:
   FaceInspector(FaceStation& station, const FaceGear& gear, const FaceGrid& grid,
-                double ball_radius);
+                double ball_radius, const FaceRules& rules = {});
 
   // The paper's procedure: takes the turn of the gear about its axis from one touch at the centre
   // of a flank, all else as assumed.
@@ -66,13 +85,16 @@ class FaceInspector {
   [[nodiscard]] KnownFrame frame_from_many();
   void use(const KnownFrame& frame);
   [[nodiscard]] const NodeAgreement& agreement() const { return agreement_; }
+  [[nodiscard]] const std::vector<OutlierPoint>& outliers() const { return outliers_; }
 
   // Throws UserError when the arm was deployed since the frame was found, or nothing was touched.
   [[nodiscard]] FlankMap map(const FlankName& name);
   [[nodiscard]] FacePitch pitch(int side);
 
  private:
-  [[nodiscard]] FaceStationTouch touch(const FlankName& name, std::size_t row, std::size_t column);
+  // Where the ball was, the mean of all touches, and how the worst of them was judged.
+  [[nodiscard]] FaceStationTouch touch(const PlannedTouch& planned);
+  void agree(const FaceTouch& here, const sim::FlankJudgement& node);
   [[nodiscard]] FaceFlank flank_of(const FlankName& name) const;
   void check_fresh() const;
 
@@ -81,7 +103,9 @@ class FaceInspector {
   const FaceGrid& grid_;
   double radius_;
   KnownFrame frame_;
+  FaceRules rules_;
   NodeAgreement agreement_;
+  std::vector<OutlierPoint> outliers_;
 };
 
 }  // namespace volcomp::face_gear

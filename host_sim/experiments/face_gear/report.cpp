@@ -56,6 +56,22 @@ json stage_table(const FaceGearResult& run) {
       fmt::format("Grades: {}.", kFaceGearLimitsSource)));
 }
 
+// Touches that are too far apart are named and count all the same.
+std::string outlier_text(const FaceGearResult& run) {
+  const double limit_um = kOutlierSigmas * kUmPerMm * scatter_of(run.options).sigma_mm();
+  if (run.options.touches < 2 || !(limit_um > 0.0))
+    return "outliers: none can be told without several touches of a point that scatter";
+  std::string named;
+  for (std::size_t s = 0; s < kFaceStages.size(); ++s) {
+    for (const OutlierPoint& o : run.inspection.at(s).outliers)
+      named += fmt::format("; {}, slot {} {}, row {}, column {}: {:.2f} µm", kFaceStages.at(s),
+                           o.flank.slot + 1, kFaceSideNames.at(o.flank.side > 0 ? 0 : 1), o.row + 1,
+                           o.column + 1, o.spread_um);
+  }
+  return fmt::format("outliers, touches of a point more than {:.1f} µm apart: {}", limit_um,
+                     named.empty() ? "none" : named.substr(2));
+}
+
 // What was found besides maps and pitch, in words.
 json found_text(const FaceGearResult& run) {
   const KnownFrame& frame = run.at(FaceStage::compensated).frame;
@@ -81,7 +97,8 @@ json found_text(const FaceGearResult& run) {
                        run.kernel_ns),
            fmt::format("{} touches judged by the node: distances as here to {} nm, {} other "
                        "verdicts",
-                       node.touches, node.largest_nm, node.verdicts)})));
+                       node.touches, node.largest_nm, node.verdicts),
+           scatter_text(run.options), outlier_text(run)})));
 }
 
 double largest_over_all_rows() {
@@ -113,33 +130,46 @@ json statement_table() {
                   largest_over_all_rows()));
 }
 
-// The paper gives nothing of it.
+std::string published_errors(bool rotary) {
+  return rotary ? fmt::format("radial and axial {:g} µm", kUmPerMm * kRunOut_mm)
+                : fmt::format("straight to {:g} µm in {:g} mm, square to {:.1f} µrad",
+                              kUmPerMm * kStraightness_mm, kStraightnessLength_mm,
+                              host::kUradPerRad * kSquareness_rad);
+}
+std::string chosen_errors(bool rotary) {
+  return rotary ? fmt::format("position {:g} µrad, tilt as the axial run-out at {:g} mm",
+                              host::kUradPerRad * kTablePosition_rad, kTableRim_mm)
+                : fmt::format("position {:g} µm, angles {:g} µrad", kUmPerMm * kPositioning_mm,
+                              host::kUradPerRad * kSlideAngle_rad);
+}
+
 json machine_table(const FaceGearResult& run) {
   json rows = json::array();
   for (const host::AxisFile& axis : run.machine.axes) {
     const double scale = axis.rotary ? host::kDegPerRad : 1.0;
     rows.push_back({std::string(1, axis.letter), scale * axis.lo, scale * axis.hi,
-                    axis.rotary ? "deg" : "mm",
-                    fmt::format("{:g} µm, {:g} µrad {}", kUmPerMm * kFaceLengthError_mm,
-                                host::kUradPerRad * kFaceAngleError_rad,
-                                axis.rotary ? "once per turn" : "along the travel")});
+                    axis.rotary ? "deg" : "mm", published_errors(axis.rotary),
+                    chosen_errors(axis.rotary)});
   }
   const Vec3 off = kUmPerMm * (true_mounting().t - nominal_mounting().t);
   const Mat3 rotation = nominal_mounting().R.transpose() * true_mounting().R;
   return host::with_id(
       "machine",
       host::table_section(
-          "The machine, as chosen here",
+          "The machine: its errors as far as published, the rest chosen",
           {host::plain_column("axis"), host::column("from", "", 0), host::column("to", "", 0),
-           host::plain_column("unit"), host::plain_column("size of its six errors")},
+           host::plain_column("unit"), host::plain_column("at the limits published"),
+           host::plain_column("amplitudes chosen")},
           rows),
-      fmt::format("Neither chain nor strokes of the YK7280 are published, and of its errors only "
-                  "limits: all of it is free. The gear lies {:.1f}, {:.1f}, {:.1f} µm out of place "
-                  "and {:.1f}' turned; steps of the table's scale {:.1f}\", swing arm within {:g} "
-                  "µm.",
-                  off.x(), off.y(), off.z(),
-                  kArcSeconds / 60.0 * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
-                  kArcSeconds * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm));
+      fmt::format(
+          "Z is parallel to the axis of C within {:g} µrad, as published. Neither chain nor "
+          "strokes of the YK7280 are: they are chosen. The gear lies {:.1f}, {:.1f}, {:.1f} µm out "
+          "of place "
+          "and {:.1f}' turned; steps of the table's scale {:.1f}\", swing arm within {:g} "
+          "µm.",
+          host::kUradPerRad * kParallelism_rad, off.x(), off.y(), off.z(),
+          kArcSeconds / 60.0 * std::abs(std::atan2(rotation(1, 0), rotation(0, 0))),
+          kArcSeconds * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm));
 }
 
 json before_after(const FaceGearResult& run) {
@@ -171,14 +201,14 @@ host::Origins origins(const FaceGearResult& run) {
   host::Origins origins;
   origins.settings = {{"gear", o.gear},
                       {"form of the flanks", kFormTruths.at(static_cast<std::size_t>(o.form))},
-                      {"seed", fmt::format("{} (errors of machine and gear)", o.seed)}};
+                      {"seed", fmt::format("{} (errors of machine and gear, scatter)", o.seed)}};
   origins.inputs = run.inputs;
   origins.instruments = {
       "touch probe of the machine: delays and radius of the machine file, corrected by the node",
+      scatter_text(o),
       fmt::format("table: steps of its scale {:.1f}\"; swing arm repeats within {:g} µm",
                   kArcSeconds * kScaleStep_rad, kUmPerMm * kArmRepeatability_mm)};
-  origins.chosen = {
-      "chain, strokes and errors of the machine: of these only limits of the errors are published"};
+  origins.chosen = {kChosenText};
   origins.untouched = {"maps, pitch and frame as measured"};
   return origins;
 }

@@ -9,6 +9,7 @@
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/faces/face_angle.hpp"
+#include "host_sim/experiments/face_gear/inspection_program.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/gear_choice.hpp"
 
@@ -76,14 +77,32 @@ MapError map_error(const std::vector<FlankMap>& maps, const FaceGearErrors& erro
   return error;
 }
 
+// With the tables in the program instead of in the node.
+std::string program(const FaceHall& hall, const FaceGearResult& run, const KnownFrame& frame,
+                    host::TableKind kind, const host::Identification& identification) {
+  const MachineChain& chain = hall.file.chain;
+  const FaceProgramSetup setup{run.gear,
+                               run.grid,
+                               {chain, run.gear, frame.mounting},
+                               hall.file.probe->radius_mm,
+                               run.options.touches,
+                               run.options.flanks};
+  if (kind == host::TableKind::none)
+    return face_program(setup, "before compensation", no_face_offset);
+  const host::IdentifiedModel model(identification, kind, chain);
+  return face_program(setup, "the identified errors of X, Y, Z and C compensated",
+                      [&](const Pose& pose) { return face_offset_at(model.volumetric(), pose); });
+}
+
 FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStage stage,
                        const host::Identification& identification, const host::Progress& progress) {
   const host::TableKind kind =
       stage == FaceStage::compensated ? host::TableKind::identified : host::TableKind::none;
   const MachineTables tables = host::tables_of(
       identification, hall.file, hall.file.chain.description(), kind, run.options.knots);
-  FaceStation station(hall, tables, nominal_mounting());
-  FaceInspector inspector(station, run.gear, run.grid, hall.file.probe->radius_mm);
+  FaceStation station(hall, tables, nominal_mounting(), static_cast<std::uint32_t>(stage));
+  FaceInspector inspector(station, run.gear, run.grid, hall.file.probe->radius_mm,
+                          {run.options.touches, hall.scatter.sigma_mm()});
   FaceInspection result;
   const auto share = [&](double part, const std::string& what) {
     progress((static_cast<double>(stage) + part) / kFaceStages.size(),
@@ -97,19 +116,36 @@ FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStag
     result.frame = inspector.frame_from_many();
     inspector.use(result.frame);
   }
-  for (int i = 0; i < run.options.flanks; ++i) {
-    share(0.1 + 0.5 * i / run.options.flanks, "maps");
+  for (const int slot : mapped_slots(run.options.flanks, run.gear.teeth)) {
+    share(0.1 + 0.25 * static_cast<double>(result.maps.size()) / run.options.flanks, "maps");
     for (const int side : kFaceSides)
-      result.maps.push_back(inspector.map({side, i * run.gear.teeth / run.options.flanks}));
+      result.maps.push_back(inspector.map({side, slot}));
   }
   share(0.6, "pitch");
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
     result.pitch[side] = inspector.pitch(kFaceSides[side]);
+  result.program = program(hall, run, result.frame, kind, identification);
   result.node = inspector.agreement();
+  result.outliers = inspector.outliers();
   return result;
 }
 
 }  // namespace
+
+FaceScatter scatter_of(const FaceGearOptions& options) {
+  FaceScatter scatter;
+  scatter.seed = options.seed;
+  if (options.probe == 0) return scatter;
+  scatter.noise.repeatability_2s =
+      sim::kProbeClasses.at(options.probe).repeatability_2s_um / kUmPerMm;
+  scatter.slide_step_mm = kSlideStep_mm;
+  return scatter;
+}
+
+double target_sigma_mm(const FaceGearOptions& options) {
+  if (options.targets.tracker_um > 0.0) return options.targets.tracker_um / kUmPerMm;
+  return scatter_of(options).sigma_mm() / std::sqrt(static_cast<double>(options.targets.touches));
+}
 
 FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progress& progress) {
   FaceGearResult run;
@@ -136,9 +172,12 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progres
                       deviation_of(run.errors, run.gear, run.grid),
                       options.make_axes,
                       options.cycle_hz,
-                      options.seed};
+                      options.seed,
+                      scatter_of(options)};
   progress(0.0, "identification of the machine");
-  const host::Identification identification = sim::identify_axes(hall.truth, run.machine).found;
+  const host::Identification identification =
+      sim::identify_axes(hall.truth, run.machine, {target_sigma_mm(options), options.seed, 0})
+          .found;
   for (const FaceStage stage : {FaceStage::one_ball, FaceStage::frame, FaceStage::compensated}) {
     const auto s = static_cast<std::size_t>(stage);
     run.inspection[s] = inspect(hall, run, stage, identification, progress);

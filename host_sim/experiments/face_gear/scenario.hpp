@@ -8,23 +8,41 @@
 #include <vector>
 
 #include "host_sim/experiments/face_gear/inspection.hpp"
+#include "host_sim/experiments/face_gear/machine_errors.hpp"
 #include "host_sim/experiments/face_gear/truth.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/sim/campaign/identification.hpp"
+#include "host_sim/sim/instruments/probe_class.hpp"
 
 namespace volcomp::face_gear {
 
+// How the machine finds its own errors: from targets that the axes carry, each coordinate of which
+// scatters.
+struct TargetReading {
+  int touches = 10;         // of each target, by the probe of the machine
+  double tracker_um = 0.0;  // > 0: by a tracker instead, standard deviation of a coordinate
+};
+
+// Free of noise as it stands; the command line is not.
 struct FaceGearOptions {
   std::filesystem::path machine;
   std::string gear = "table3";  // gear_choice.hpp
   int flanks = 1;               // pairs of flanks that are mapped, evenly over the gear
   FormTruth form = FormTruth::tables;
-  std::uint64_t seed = 1;  // of the errors of machine and gear
+  std::uint64_t seed = 1;  // of the errors of machine and gear, and of all scatter
+  std::size_t probe = 0;   // of sim::kProbeClasses; with none the scales have no steps either
+  int touches = 1;         // of each point; their mean counts
+  TargetReading targets{};
   std::size_t knots = kDefaultKnots;
   double cycle_hz = sim::kBusCycleOfFive_hz;
   sim::BusAxesFactory make_axes = sim::loopback_axes();
 };
+
+// What a touch scatters by, from the class of the probe and the scales of the slides.
+[[nodiscard]] FaceScatter scatter_of(const FaceGearOptions& options);
+// Standard deviation of a coordinate of a target, mm.
+[[nodiscard]] double target_sigma_mm(const FaceGearOptions& options);
 
 // The three ways to measure, in their order.
 enum class FaceStage : std::uint8_t { one_ball, frame, compensated };

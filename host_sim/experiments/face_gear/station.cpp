@@ -3,39 +3,51 @@
 #include <cmath>
 
 #include "comp/core/units.hpp"
+#include "comp/metrology/statistics/random_stream.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/truth/seeds.hpp"
 
 namespace volcomp::face_gear {
 namespace {
 
-constexpr double kStandOff_mm = 0.4;    // of the ball before a touch
-constexpr double kOverTravel_mm = 0.4;  // as far as it may go without one
-constexpr double kAboveTips_mm = 8.0;
+constexpr std::uint32_t kDeployments = 1000;  // more than any station sees
 constexpr sim::ProbingFeeds kFeeds{50.0, 5.0, 20.0};
-
-Vec3 in_slot(const FaceGear& gear, const FlankName& flank, const Vec3& v) {
-  const double angle = 2.0 * kPi * flank.slot / gear.teeth;
-  const Vec3 mirrored(v.x(), flank.side * v.y(), v.z());
-  return axis_rotation(Axis::z, angle) * mirrored;
-}
 
 }  // namespace
 
-FaceStation::FaceStation(const FaceHall& hall, const MachineTables& tables, const Frame& believed)
+double FaceScatter::sigma_mm() const {
+  return std::hypot(noise.sigma(), slide_step_mm / std::sqrt(12.0));
+}
+
+std::function<double(std::uint32_t)> FaceScatter::of_set_up(std::uint32_t set_up) const {
+  if (!(sigma_mm() > 0.0)) return {};
+  return [scatter = *this, set_up](std::uint32_t touch) {
+    const auto index = [&](RandomStream stream) {
+      return RandomIndex{static_cast<std::uint32_t>(stream), 0, set_up, touch};
+    };
+    const double in_step = uniforms(scatter.seed, index(RandomStream::repeatability)).u - 0.5;
+    return scatter.noise.sigma() * normal(scatter.seed, index(RandomStream::probe)) +
+           scatter.slide_step_mm * in_step;
+  };
+}
+
+FaceStation::FaceStation(const FaceHall& hall, const MachineTables& tables, const Frame& believed,
+                         std::uint32_t placement)
     : hall_(hall),
       truth_(hall.truth),
       gear_(hall.gear, hall.mounting, hall.errors),
-      random_(hall.seed),
-      believed_(believed) {
+      random_(sim::seed_of(hall.seed, sim::SeedOf::arm)),
+      believed_(believed),
+      placement_(placement) {
   host::require(MachineChain::build(tables.machine, chain_), hall.file.path);
   auto axes =
       hall.make_axes(host::bus_settings(hall.file, hall.cycle_hz), host::make_image(tables));
   axes_ = axes.get();
   axes_->controller().use_probe(host::node_probe(hall.file));
   cell_ = std::make_unique<sim::MotionCell>(truth_, std::move(axes));
-  last_ = pose_at({hall.gear.r_pitch, 0.0, hall.gear.z_tip - kAboveTips_mm});
+  last_ = path().above_tips({});
   cell_->place(last_);
   prober_ = std::make_unique<sim::Prober>(*cell_, *axes_, hall.file);
   deploy_arm();
@@ -51,8 +63,9 @@ void FaceStation::deploy_arm() {
   const host::NodeProbe described = host::node_probe(hall_.file);
   probe.radius_mm = described.radius.coefficient[0];
   probe.delay_ns = std::llround(1e3 * described.delay_us);
-  axes_->mount(sim::TouchProbe(truth_, gear_, probe));
   ++deployments_;
+  probe.scatter_mm = hall_.scatter.of_set_up(kDeployments * placement_ + deployments_);
+  axes_->mount(sim::TouchProbe(truth_, gear_, probe));
 }
 
 void FaceStation::believe(const Frame& mounting) {
@@ -64,35 +77,15 @@ void FaceStation::believe(const Frame& mounting) {
   prober_->configure(probe);
 }
 
-// The slides are parallel to the axes of base.
-Pose FaceStation::pose_at(const Vec3& in_gear) const {
-  Pose at_zero{};
-  at_zero[3] = table_;
-  const Vec3 from = ideal_points(chain_, at_zero, chain_.tool_point()).work;
-  const Vec3 way = axis_rotation(Axis::z, table_) * (believed_.apply(in_gear) - from);
-  return {way.x(), way.y(), way.z(), table_};
-}
-
-// Turns to the nearest line of the scale; the scale does not resolve the true position of the
-// table.
+// The scale does not resolve the true position of the table.
 void FaceStation::turn_to(int slot) {
-  const Vec3 centre =
-      believed_.R * axis_rotation(Axis::z, 2.0 * kPi * slot / hall_.gear.teeth) * Vec3::UnitX();
-  const double wanted = -std::atan2(centre.y(), centre.x());
-  const double whole = 2.0 * kPi;
-  const double steps = std::round((wanted - whole * std::floor(wanted / whole)) / kScaleStep_rad);
-  table_ = steps * kScaleStep_rad;
+  table_ = path().table_at(slot);
   gear_.turn_table(random_.uniform(-0.5, 0.5) * kScaleStep_rad);
-}
-
-Pose FaceStation::above_tips(Pose at) const {
-  at[2] = pose_at({hall_.gear.r_pitch, 0.0, hall_.gear.z_tip - kAboveTips_mm})[2];
-  return at;
 }
 
 void FaceStation::retract() {
   if (clear_) return;
-  last_ = above_tips(last_);
+  last_ = path().above_tips(last_);
   cell_->move_to(last_, kFeeds.rapid);
   clear_ = true;
 }
@@ -100,22 +93,21 @@ void FaceStation::retract() {
 // Over the slot, then down; along the flank where the ball is already there.
 void FaceStation::approach(const FlankName& flank, const Pose& from) {
   if (!clear_) return;
-  cell_->move_to(above_tips(from), kFeeds.rapid);
+  cell_->move_to(path().above_tips(from), kFeeds.rapid);
   clear_ = false;
   last_flank_ = flank;
 }
 
 FaceStationTouch FaceStation::touch(const FlankName& flank, const SurfacePoint& at, std::size_t row,
-                                    std::size_t column) {
+                                    std::size_t column, TouchFrom away) {
   if (flank.slot != last_flank_.slot || flank.side != last_flank_.side) {
     retract();
     if (flank.slot != last_flank_.slot) turn_to(flank.slot);
   }
   const double radius = hall_.file.probe->radius_mm;
-  const auto off = [&](double mm) {
-    return pose_at(in_slot(hall_.gear, flank, at.point + mm * at.normal));
-  };
-  const Pose from = off(radius + kStandOff_mm);
+  const FacePath way = path();
+  const auto off = [&](double mm) { return way.ball_at(flank, at, mm, table_); };
+  const Pose from = off(radius + (away == TouchFrom::beside ? kStandOff_mm : kAgain_mm));
   approach(flank, from);
   const sim::FlankFeature feature{kGearId, flank.side, flank.slot, row, column, radius, kGate_mm};
   const sim::NodePoint point = prober_->touch(from, off(radius - kOverTravel_mm), feature, kFeeds);

@@ -1,15 +1,31 @@
 #pragma once
 // The YK7280 on its bus: axes, node with tables, a probe on a swing arm, a face gear on the table.
 
+#include <functional>
 #include <memory>
 
-#include "comp/metrology/faces/measuring_grid.hpp"
 #include "comp/tables/machine_tables.hpp"
+#include "host_sim/experiments/face_gear/face_path.hpp"
 #include "host_sim/sim/artefacts/face_gear.hpp"
 #include "host_sim/sim/controller/prober.hpp"
+#include "host_sim/sim/instruments/touch_noise.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 
 namespace volcomp::face_gear {
+
+// How far touches scatter, and which random numbers they take.
+struct FaceScatter {
+  sim::TouchNoise noise;       // of it only the repeatability; none by default
+  double slide_step_mm = 0.0;  // of the scales of the slides: a reading lies anywhere in a step
+  std::uint64_t seed = 1;
+
+  // Standard deviation of a touch along the normal. Rounding three coordinates independently of one
+  // another scatters by the same in every direction.
+  [[nodiscard]] double sigma_mm() const;
+  // What each touch adds, by its number within a set-up (touch_probe.hpp); empty without scatter.
+  // Another set-up, other numbers.
+  [[nodiscard]] std::function<double(std::uint32_t touch)> of_set_up(std::uint32_t set_up) const;
+};
 
 // What all stations of a run share; outlives them.
 struct FaceHall {
@@ -21,17 +37,12 @@ struct FaceHall {
   sim::BusAxesFactory make_axes;
   double cycle_hz = sim::kBusCycleOfFive_hz;
   std::uint64_t seed = 1;
+  FaceScatter scatter{};
 };
 
-// Both are limits the paper gives (docs/papers/face-gear.md, "What stays open").
-inline constexpr double kScaleStep_rad = 1.8 / 3600.0 * kPi / 180.0;  // of the table
-inline constexpr double kArmRepeatability_mm = 3e-3;                  // of the swing arm
-
-// One flank of one slot.
-struct FlankName {
-  int side = 1;
-  int slot = 0;
-};
+// Limits the paper gives (docs/papers/face-gear.md, "The machine").
+inline constexpr double kSlideStep_mm = 1e-3;         // of the scales of the slides
+inline constexpr double kArmRepeatability_mm = 3e-3;  // of the swing arm
 
 inline constexpr std::uint32_t kGearId = 1;  // of the gear on the table, for the node
 inline constexpr double kGate_mm = 0.25;     // more than a frame is off before it was found
@@ -42,11 +53,14 @@ struct FaceStationTouch {
   sim::FlankJudgement judgement;
 };
 
+enum class TouchFrom : std::uint8_t { beside, where_it_was };
+
 class FaceStation {
  public:
   // The arm is deployed once. `believed`: the assumed gear frame in the work frame, until
-  // believe().
-  FaceStation(const FaceHall& hall, const MachineTables& tables, const Frame& believed);
+  // believe(). `placement`: another number for every station of a run, for its random numbers.
+  FaceStation(const FaceHall& hall, const MachineTables& tables, const Frame& believed,
+              std::uint32_t placement = 0);
 
   // The arm swings out and back: the ball is up to kArmRepeatability_mm from where it was, and a
   // frame that was solved before is stale.
@@ -57,14 +71,15 @@ class FaceStation {
   [[nodiscard]] const Frame& believed() const { return believed_; }
 
   // Turns the slot to the arm, touches this point of its flank, given for slot 0, along the normal.
-  // Sends `row` and `column` to the node. Throws UserError when nothing was touched.
+  // Sends `row` and `column` to the node. Throws UserError when nothing was touched. `away`: from
+  // there the ball sets out; nearer when the same point is touched once more.
   [[nodiscard]] FaceStationTouch touch(const FlankName& flank, const SurfacePoint& at,
-                                       std::size_t row, std::size_t column);
+                                       std::size_t row, std::size_t column,
+                                       TouchFrom away = TouchFrom::beside);
   void retract();
 
  private:
-  [[nodiscard]] Pose pose_at(const Vec3& in_gear) const;
-  [[nodiscard]] Pose above_tips(Pose at) const;
+  [[nodiscard]] FacePath path() const { return {chain_, hall_.gear, believed_}; }
   void turn_to(int slot);
   void approach(const FlankName& flank, const Pose& from);
 
@@ -77,6 +92,7 @@ class FaceStation {
   sim::BusAxes* axes_ = nullptr;
   std::unique_ptr<sim::MotionCell> cell_;
   std::unique_ptr<sim::Prober> prober_;
+  std::uint32_t placement_ = 0;
   unsigned deployments_ = 0;
   double table_ = 0.0;  // C, rad
   bool clear_ = true;   // the ball is above the tips

@@ -7,41 +7,14 @@
 #include "comp/core/units.hpp"
 #include "host_sim/experiments/face_gear/published_maps.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/sim/truth/drawn_errors.hpp"
+#include "host_sim/sim/truth/noise.hpp"
+#include "host_sim/sim/truth/seeds.hpp"
 
 namespace volcomp::face_gear {
 namespace {
 
 constexpr double kHeight_mm = 200.0;    // of the gear above the table
 constexpr double kFirstSlot_rad = 0.3;  // lies anywhere
-
-// A table repeats itself every turn.
-sim::ErrorFunction once_per_turn(double amplitude, sim::Random& random) {
-  sim::ErrorFunction f;
-  f.amplitude[1] = amplitude;  // sin 2πu
-  f.phase[1] = random.uniform(0.0, 2.0 * kPi);
-  f.ripple = 0.3 * amplitude;
-  f.ripple_period = 2.0 * kPi / 3.0;
-  f.ripple_phase = random.uniform(0.0, 2.0 * kPi);
-  return f;
-}
-
-sim::ErrorFunction along_slide(double amplitude, sim::Random& random) {
-  const double rise = amplitude * random.uniform(-1.0, 1.0);
-  return sim::waves_on_line(rise, amplitude, random);
-}
-
-sim::TrueAxis true_axis(const host::AxisFile& file, sim::Random& random) {
-  sim::TrueAxis axis;
-  axis.lo = file.lo;
-  axis.hi = file.hi;
-  for (std::size_t c = 0; c < axis.channel.size(); ++c) {
-    const double amplitude = c < 3 ? kFaceLengthError_mm : kFaceAngleError_rad;
-    axis.channel[c] =
-        file.rotary ? once_per_turn(amplitude, random) : along_slide(amplitude, random);
-  }
-  return axis;
-}
 
 // Waves over rows and columns, zero at the centre.
 ErrorMap synthetic_form(sim::Random& random) {
@@ -118,18 +91,8 @@ double value_at(const ErrorMap& map, const GridPlace& place) {
 
 }  // namespace
 
-sim::TrueMachine make_yk7280_truth(const host::MachineFile& file, std::uint64_t seed) {
-  file.expect_axes("XYZC");
-  sim::Random random(seed);
-  sim::TrueMachine machine;
-  machine.chain = file.chain;
-  for (std::size_t a = 0; a < file.axes.size(); ++a)
-    machine.axis[a] = true_axis(file.axes[a], random);
-  return machine;
-}
-
 FaceGearErrors make_face_errors(const FaceGear& gear, FormTruth form, std::uint64_t seed) {
-  sim::Random random(seed);
+  sim::Random random(sim::seed_of(seed, sim::SeedOf::gear));
   FaceGearErrors errors;
   for (std::size_t side = 0; side < kFaceSides.size(); ++side) {
     errors.form[side] = form == FormTruth::tables ? published_map(PublishedMap::centre, side)

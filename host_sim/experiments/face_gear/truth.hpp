@@ -1,7 +1,6 @@
 #pragma once
-// The YK7280 as it really is, and the face gear on it: the paper gives neither errors of the
-// machine nor pitch deviations, so both are chosen here (docs/papers/face-gear.md, "What stays
-// open").
+// The face gear as it really is, and where it lies: the paper gives no pitch deviations, so they
+// are chosen here (docs/papers/face-gear.md, "What stays open").
 
 #include <array>
 #include <cstdint>
@@ -10,22 +9,10 @@
 #include "comp/machine/frame.hpp"
 #include "comp/metrology/faces/error_map.hpp"
 #include "comp/metrology/faces/face_grid.hpp"
-#include "host_sim/host/machine/machine_file.hpp"
+#include "host_sim/experiments/face_gear/inspection_plan.hpp"
 #include "host_sim/sim/artefacts/face_gear.hpp"
-#include "host_sim/sim/truth/true_machine.hpp"
 
 namespace volcomp::face_gear {
-
-inline constexpr std::array<int, 2> kFaceSides{1, -1};  // left is the flank at y > 0
-inline constexpr std::array<const char*, 2> kFaceSideNames{"left", "right"};
-
-// Amplitudes of the errors of every axis.
-inline constexpr double kFaceLengthError_mm = 3e-3;
-inline constexpr double kFaceAngleError_rad = 10e-6;
-
-// Smooth errors of a few µm and µrad on every axis, phases from `seed`. Throws UserError when the
-// machine has other axes than X Y Z C.
-[[nodiscard]] sim::TrueMachine make_yk7280_truth(const host::MachineFile& file, std::uint64_t seed);
 
 enum class FormTruth : std::uint8_t {
   tables,     // of the paper's gear measuring centre (Tables 7 and 8)

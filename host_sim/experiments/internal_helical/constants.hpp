@@ -14,7 +14,6 @@ namespace volcomp::internal_helical {
 inline constexpr double kRadPerDegree = kPi / 180.0;
 
 inline constexpr double kStrokeTick_s = 2e-3;
-inline constexpr double kNodeSpacing_mm = 0.25;  // of the tables along the stroke
 
 struct GrindingTruth {
   // Position loops and what disturbs them.

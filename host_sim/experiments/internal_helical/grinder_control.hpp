@@ -7,8 +7,11 @@
 
 #include "host_sim/experiments/internal_helical/stroke_plan.hpp"
 #include "host_sim/host/bus/watched_strokes.hpp"
+#include "host_sim/host/tables/learned_tables.hpp"
 
 namespace volcomp::internal_helical {
+
+using host::LearnedTables;
 
 // How the control learns: the right way and three wrong ones (docs/papers/internal-helical.md, "How
 // to reproduce").
@@ -36,14 +39,6 @@ struct MonitorView {
   Repeatability over_stroke;   // forward, rad
   Repeatability over_slots;    // rad
   bool knows_repeats = false;  // else the two hold the amplitude only
-};
-
-// What has been learned, rad added to the command of C.
-struct LearnedTables {
-  double z0_mm = 0.0;
-  double pitch_mm = 0.0;
-  std::array<std::vector<double>, 2> stroke;  // T1 by direction
-  std::vector<double> slot;                   // T2
 };
 
 class GrinderControl {

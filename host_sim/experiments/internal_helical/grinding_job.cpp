@@ -27,7 +27,7 @@ host::GrindingFile grinding_job(const host::MachineFile& machine) {
         fmt::format("'teeth' of [gear] must be at most {}: the table of the slots has no "
                     "room for more",
                     kGearSlots));
-  const double widest = kNodeSpacing_mm * static_cast<double>(kStrokeNodes - 1);
+  const double widest = host::kNodeSpacing_mm * static_cast<double>(kStrokeNodes - 1);
   if (job.width_mm > widest)
     refuse_it(
         fmt::format("'width_mm' of [gear] must be at most {:g}: the tables of the stroke "

@@ -33,7 +33,10 @@ StrokeState stroke_state(const StrokeStep& step) {
 
 IntegratedGrinder::IntegratedGrinder(const host::WatchedStrokes& watched, LearningWay way,
                                      GrinderPlant& plant, sim::MachineWatch* watch)
-    : watched_(watched), way_(way), plant_(plant), watch_(watch) {
+    : watched_(watched),
+      way_(way),
+      plant_(plant),
+      observer_(watch != nullptr ? watch->enter() : nullptr) {
   host::require(monitor_->configure(watched.monitor), "monitor");
   host::require(offsets_->configure(watched.offsets), "offsets");
   for (auto& learner : stroke_)
@@ -63,11 +66,11 @@ void IntegratedGrinder::cycle(const StrokeStep& step) {
   plant_.follow_z(step.z);
   const std::int64_t demand = step.c + node::offset_to_wire(offset, kScaleOfC);
   plant_.follow_c(demand);
-  if (watch_ != nullptr) show(step, kFiner * (demand - step.c));
+  if (observer_) show(step, kFiner * (demand - step.c));
 }
 
 void IntegratedGrinder::show(const StrokeStep& step, std::int64_t offset_of_c) {
-  if (++shown_.cycle == 1) shown_.machine = watch_->enter();
+  ++shown_.cycle;
   shown_.period_s = kStrokeTick_s;
   shown_.axes = 3;
   const auto linear = [](char letter, std::int64_t target, std::int64_t actual) {
@@ -85,7 +88,7 @@ void IntegratedGrinder::show(const StrokeStep& step, std::int64_t offset_of_c) {
   c.target = kFiner * step.c;
   c.offset = offset_of_c;
   c.position = static_cast<double>(plant_.read_c()) / kWirePerRad;
-  watch_->cycle(shown_);
+  observer_->cycle(shown_);
 }
 
 void IntegratedGrinder::collect() {

@@ -36,7 +36,7 @@ class IntegratedGrinder final : public GrinderControl {
   host::WatchedStrokes watched_;
   LearningWay way_;
   GrinderPlant& plant_;
-  sim::MachineWatch* watch_;
+  std::unique_ptr<sim::MachineObserver> observer_;  // null: nothing looks on
   sim::MachineSnapshot shown_;
   std::uint16_t sequence_ = 0;
   std::int32_t feed_nm_per_s_ = 0;

@@ -9,7 +9,9 @@
 #include "host_sim/experiments/internal_helical/bus_grinder.hpp"
 #include "host_sim/experiments/internal_helical/grinding_job.hpp"
 #include "host_sim/experiments/internal_helical/integrated_grinder.hpp"
+#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/report/shared_progress.hpp"
 
 namespace volcomp::internal_helical {
 namespace {
@@ -159,13 +161,17 @@ InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options
                 "lags");
   const FlankGrinding grinding(run.job, truth);
   run.roll_length.assign(grinding.roll_length().begin(), grinding.roll_length().end());
-  for (int seed = 0; seed < options.seeds; ++seed) {
-    const auto share = [&progress, &options, seed](double part) {
-      progress((seed + part) / options.seeds, fmt::format("seed {}", seed + 1));
+  const auto seeds = static_cast<std::size_t>(options.seeds);
+  run.seed.resize(seeds);
+  host::SharedProgress shared(progress, seeds);
+  host::in_parallel(seeds, options.threads, [&](std::size_t seed) {
+    const auto share = [&](double part) {
+      shared.show(seed, part, fmt::format("seed {}", seed + 1));
     };
-    Campaign campaign(machine, run.job, grinding, options, static_cast<std::uint64_t>(seed) + 1);
-    run.seed.push_back(campaign.run(seed == 0 ? &run.detail : nullptr, share));
-  }
+    Campaign campaign(machine, run.job, grinding, options, seed + 1);
+    run.seed[seed] = campaign.run(seed == 0 ? &run.detail : nullptr, share);
+    share(1.0);
+  });
   progress(1.0, "done");
   return run;
 }

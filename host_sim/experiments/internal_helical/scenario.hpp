@@ -46,6 +46,7 @@ struct InternalHelicalOptions {
   std::filesystem::path machine;       // file
   sim::BusAxesFactory make_axes;       // with the compensation on a bus; empty: integrated
   sim::MachineWatch* watch = nullptr;  // of the integrated form
+  std::size_t threads = 1;             // for the grinders; 1 where they share a bus
 };
 
 // A ground gear and the monitor's view of its grinding.

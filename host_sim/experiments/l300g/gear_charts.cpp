@@ -86,12 +86,17 @@ std::string values(const char* when, const host::FlankTrace& t, const char* symb
 json trace_chart(const L300gResult& r, const TraceKind& kind, std::size_t side) {
   const host::FlankTrace& before = (r.before.*kind.traces)[side];
   const host::FlankTrace& after = (r.after.*kind.traces)[side];
+  std::vector<json> series{band_series(r, kind, side), trace_series("uncompensated", before),
+                           trace_series("compensated", after)};
+  std::string text = values("Before", before, kind.symbol) + values("After", after, kind.symbol);
+  if (r.on_centre) {
+    const host::FlankTrace& centre = ((*r.on_centre).*kind.traces)[side];
+    series.push_back(trace_series("on a measuring centre", centre));
+    text += values("On the centre", centre, kind.symbol);
+  }
   return host::lines_chart(
       fmt::format("{}-{}", kind.id, kSideNames[side]), fmt::format("{} flank", kSideNames[side]),
-      host::axis_label("deviation, + = excess", "µm"), kind.place,
-      {band_series(r, kind, side), trace_series("uncompensated", before),
-       trace_series("compensated", after)},
-      values("Before", before, kind.symbol) + values("After", after, kind.symbol));
+      host::axis_label("deviation, + = excess", "µm"), kind.place, series, text);
 }
 
 json trace_group(const L300gResult& r, const TraceKind& kind) {
@@ -151,6 +156,7 @@ json gear_table(const L300gResult& r) {
       };
       add("before", r.before);
       add("after", r.after);
+      if (r.on_centre) add("on a measuring centre", *r.on_centre);
       add("the gear itself", r.truth);
     }
   }
@@ -161,9 +167,10 @@ json gear_table(const L300gResult& r) {
                            host::column("f_f", "µm", 2), host::column("f_H", "µm", 2),
                            host::plain_column("grade 1995"), host::plain_column("class 2013")},
                           rows),
-      "Grades of the total deviation F. ISO 1328-1:1995 (= GB/T 10095.1-2008): rows d 50 to 125, m "
-      "3.5 to 6, b 20 to 40 mm, geometric means, limits rounded as the standard does; profile over "
-      "92 % of the active flank. ISO 1328-1:2013: from the sizes themselves, profile over 95 %. "
+      "Grades of the total deviation F. ISO 1328-1:1995 (= GB/T 10095.1-2008): from the geometric "
+      "means of its ranges of sizes (d 50 to 125, m 3.5 to 6, b 20 to 40 mm for the master gear), "
+      "limits rounded as the standard does; profile over 92 % of the active flank. ISO "
+      "1328-1:2013: from the sizes themselves, profile over 95 %. "
       "The formulas were not checked against the printed standards."));
 }
 

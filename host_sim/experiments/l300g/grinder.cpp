@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "comp/metrology/statistics/random_stream.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
@@ -38,12 +39,21 @@ Grinder::Grinder(const GrinderHall& hall, const MachineTables& tables) : hall_(h
   prober_ = std::make_unique<sim::Prober>(*cell_, *axes_, hall.file);
 }
 
-void Grinder::mount(const sim::Artefact& artefact, std::function<double(const Vec3&)> lobing_mm) {
+void Grinder::mount(const sim::Artefact& artefact, Mounted as,
+                    std::function<double(const Vec3&)> lobing_mm) {
   const host::NodeProbe described = host::node_probe(hall_.file);
   sim::TouchProbe::Settings probe;
   probe.radius_mm = described.radius.coefficient[0];
   probe.lobing_mm = std::move(lobing_mm);
   probe.delay_ns = std::llround(1e3 * described.delay_us);
+  const ProbeScatter& scatter = hall_.scatter;
+  if (scatter.noise.sigma() > 0.0) {
+    probe.scatter_mm = [scatter, as](std::uint32_t touch) {
+      return scatter.noise.sigma() *
+             normal(scatter.seed, {static_cast<std::uint32_t>(RandomStream::probe), scatter.draw,
+                                   static_cast<std::uint32_t>(as), touch});
+    };
+  }
   axes_->mount(sim::TouchProbe(hall_.truth, artefact, probe));
 }
 

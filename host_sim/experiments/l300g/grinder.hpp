@@ -8,6 +8,7 @@
 #include "comp/tables/machine_tables.hpp"
 #include "host_sim/experiments/l300g/truth.hpp"
 #include "host_sim/sim/controller/prober.hpp"
+#include "host_sim/sim/instruments/touch_noise.hpp"
 
 namespace volcomp::l300g {
 
@@ -21,12 +22,30 @@ struct GrinderGeometry {
 // The same machine with the axis of A where the probe has found it, mm.
 [[nodiscard]] MachineDescription with_origin(const MachineChain& chain, double y0, double z0);
 
+// How far the touches of a probe scatter: which class, and which random numbers.
+struct ProbeScatter {
+  sim::TouchNoise noise;  // of it only the repeatability; none by default
+  std::uint64_t seed = 1;
+  std::uint32_t draw = 0;  // one of several measurements of everything
+};
+
+// What is touched, for the random numbers: a new one gets a new number.
+enum class Mounted : std::uint32_t {
+  mandrel = 0,
+  gear_before = 1,
+  gear_after = 2,
+  sphere = 3,
+  mandrel_before = 4,
+  mandrel_after = 5,
+};
+
 // What all grinders of a run share; outlives them.
 struct GrinderHall {
   host::MachineFile file;
   sim::TrueMachine truth;
   sim::BusAxesFactory make_axes;
   double cycle_hz = sim::kBusCycleOfFive_hz;
+  ProbeScatter scatter{};
 };
 
 // From the axis of A: beyond everything that may stand there.
@@ -38,7 +57,8 @@ class Grinder {
 
   // What stands on A from now on; it must outlive the touches. Only while the probe is clear of it.
   // `lobing_mm`: what the direction of a touch adds to the radius of the ball (touch_probe.hpp).
-  void mount(const sim::Artefact& artefact, std::function<double(const Vec3&)> lobing_mm = {});
+  void mount(const sim::Artefact& artefact, Mounted as,
+             std::function<double(const Vec3&)> lobing_mm = {});
   [[nodiscard]] sim::Prober& prober() { return *prober_; }
   // Without touching.
   void go(const Pose& to, double feed) { cell_->move_to(to, feed); }

@@ -1,23 +1,35 @@
 #include "host_sim/experiments/l300g/inspection.hpp"
 
+#include <utility>
+
 #include "comp/core/units.hpp"
+#include "comp/metrology/gears/trace_filter.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::l300g {
 
+void filter_as_2013(host::FlankTrace& trace, const EvaluationRange& range) {
+  std::vector<double> smooth(trace.at.size());
+  host::require(filter_trace(trace.at, trace.deviation, trace_cutoff(range.high - range.low),
+                             FilterOrder::line, smooth),
+                "filter");
+  trace.deviation = std::move(smooth);
+}
+
 GearInspection true_gear(const InvoluteGear& gear) {
   GearInspection truth;
+  const OwnDeviation own(gear);
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     host::FlankTrace& profile = truth.profile[side];
     for (const FlankTouch& touch : profile_touches(gear, kSides[side])) {
       profile.at.push_back(touch.roll_length);
-      profile.deviation.push_back(kUmPerMm * own_deviation(touch.roll_length, 0.0));
+      profile.deviation.push_back(kUmPerMm * own(touch.roll_length, 0.0));
     }
     host::grade_profile(gear, "true profile", profile);
     host::FlankTrace& lead = truth.lead[side];
     for (const FlankTouch& touch : lead_touches(gear, kSides[side])) {
       lead.at.push_back(touch.x);
-      lead.deviation.push_back(kUmPerMm * own_deviation(touch.roll_length, touch.x));
+      lead.deviation.push_back(kUmPerMm * own(touch.roll_length, touch.x));
     }
     host::grade_lead(gear, "true lead", lead);
     truth.pitch[side].position.assign(static_cast<std::size_t>(gear.teeth), 0.0);
@@ -64,13 +76,22 @@ GearInspector::Deviation GearInspector::deviation(const Flank& flank, const Vec3
   return d;
 }
 
+// Workpiece frame.
+Vec3 GearInspector::mean_point(const FlankTouch& wanted) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < rules_.touches; ++k)
+    sum += touch(wanted, {}).workpiece;
+  return sum / static_cast<double>(rules_.touches);
+}
+
 host::FlankTrace GearInspector::profile(FlankSide side) {
   host::FlankTrace trace;
   for (const FlankTouch& wanted : profile_touches(setup_.gear, side)) {
-    const Deviation d = deviation(wanted.flank, touch(wanted, {}).workpiece);
+    const Deviation d = deviation(wanted.flank, mean_point(wanted));
     trace.at.push_back(d.roll_length);
     trace.deviation.push_back(kUmPerMm * d.mm);
   }
+  if (rules_.filter) filter_as_2013(trace, host::profile_range(setup_.gear, 0.92));
   host::grade_profile(setup_.gear, "profile", trace);
   return trace;
 }
@@ -78,10 +99,11 @@ host::FlankTrace GearInspector::profile(FlankSide side) {
 host::FlankTrace GearInspector::lead(FlankSide side) {
   host::FlankTrace trace;
   for (const FlankTouch& wanted : lead_touches(setup_.gear, side)) {
-    const sim::NodePoint point = touch(wanted, {});
-    trace.at.push_back(point.workpiece.x());
-    trace.deviation.push_back(kUmPerMm * deviation(wanted.flank, point.workpiece).mm);
+    const Vec3 point = mean_point(wanted);
+    trace.at.push_back(point.x());
+    trace.deviation.push_back(kUmPerMm * deviation(wanted.flank, point).mm);
   }
+  if (rules_.filter) filter_as_2013(trace, host::lead_range(setup_.gear));
   host::grade_lead(setup_.gear, "lead", trace);
   return trace;
 }
@@ -89,9 +111,9 @@ host::FlankTrace GearInspector::lead(FlankSide side) {
 host::PitchRound GearInspector::pitch(FlankSide side) {
   host::PitchRound round;
   for (const FlankTouch& wanted : pitch_touches(setup_.gear, side)) {
-    const sim::NodePoint point = touch(wanted, {});
+    const Vec3 point = mean_point(wanted);
     retract();
-    const double along_base = distance(wanted.flank, point.workpiece).distance;
+    const double along_base = distance(wanted.flank, point).distance;
     round.position.push_back(kUmPerMm * along_base * setup_.gear.r / setup_.gear.r_b);
   }
   host::grade_pitch(setup_.gear, "pitch", round);

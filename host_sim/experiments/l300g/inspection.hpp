@@ -7,6 +7,12 @@
 
 namespace volcomp::l300g {
 
+// How a point and a trace become figures.
+struct InspectionRules {
+  std::size_t touches = 1;  // of a point; their mean counts
+  bool filter = false;  // low-pass before evaluation (trace_filter.hpp), as ISO 1328-1:2013 asks
+};
+
 // Traces by kSides.
 struct GearInspection {
   std::array<host::FlankTrace, 2> profile;
@@ -15,14 +21,17 @@ struct GearInspection {
   std::string program;  // that does the same (inspection_program.hpp); empty where nothing moved
 };
 
+// Low-pass of ISO 1328-1:2013 over the whole trace, cut-off from `range` (trace_filter.hpp).
+void filter_as_2013(host::FlankTrace& trace, const EvaluationRange& range);
+
 // What a perfect machine would find.
 [[nodiscard]] GearInspection true_gear(const InvoluteGear& gear);
 
 class GearInspector {
  public:
   // The gear stands on A as long as the inspector is used.
-  GearInspector(Grinder& grinder, const InspectionSetup& setup)
-      : grinder_(grinder), setup_(setup) {}
+  GearInspector(Grinder& grinder, const InspectionSetup& setup, const InspectionRules& rules = {})
+      : grinder_(grinder), setup_(setup), rules_(rules) {}
 
   [[nodiscard]] GearInspection inspect();
 
@@ -48,10 +57,12 @@ class GearInspector {
   [[nodiscard]] host::FlankTrace profile(FlankSide side);
   [[nodiscard]] host::FlankTrace lead(FlankSide side);
   [[nodiscard]] host::PitchRound pitch(FlankSide side);
+  [[nodiscard]] Vec3 mean_point(const FlankTouch& wanted);
   void approach(const Pose& from);
 
   Grinder& grinder_;
   InspectionSetup setup_;
+  InspectionRules rules_;
   bool beside_gear_ = true;  // it is there
   Pose last_{};              // where the last touch began
 };

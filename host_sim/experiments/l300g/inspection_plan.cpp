@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/gear_inspection.hpp"
 
@@ -47,6 +49,17 @@ std::vector<FlankTouch> pitch_touches(const InvoluteGear& gear, FlankSide side) 
   for (int tooth = 0; tooth < gear.teeth; ++tooth)
     touches.push_back({{side, tooth}, pitch_roll(gear), 0.5 * gear.width});
   return touches;
+}
+
+void require_ball_fits(const InvoluteGear& gear, double ball_radius, const std::string& name) {
+  constexpr double kClear_mm = 0.5;
+  const FlankTouch deepest = profile_touches(gear, FlankSide::left).front();
+  const Transverse centre = ball_centre_at(gear, deepest.flank, deepest.roll_length, ball_radius);
+  FlankDistance other;
+  const bool beyond = distance_from_flank(gear, {FlankSide::right, 1}, centre, 0.0, other).ok();
+  if (!beyond || other.distance < ball_radius + kClear_mm)
+    throw host::UserError(fmt::format(
+        "{}: a ball of radius {:.4f} mm does not fit between the teeth", name, ball_radius));
 }
 
 double InspectionSetup::beside() const {

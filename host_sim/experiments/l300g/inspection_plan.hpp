@@ -2,6 +2,7 @@
 // What an inspection touches, in which order, and how the machine moves at each touch.
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "comp/metrology/gears/gear_deviations.hpp"
@@ -20,6 +21,10 @@ inline constexpr std::array<const char*, 2> kSideNames{"left", "right"};
 [[nodiscard]] std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, FlankSide side);
 [[nodiscard]] std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, FlankSide side);
 [[nodiscard]] std::vector<FlankTouch> pitch_touches(const InvoluteGear& gear, FlankSide side);
+
+// Throws UserError with `name` where a ball of this radius, mm, on one flank of a tooth space is
+// not clear of the other by what a touch moves.
+void require_ball_fits(const InvoluteGear& gear, double ball_radius, const std::string& name);
 
 // What the paths of an inspection depend on.
 struct InspectionSetup {

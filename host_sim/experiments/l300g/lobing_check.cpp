@@ -72,7 +72,7 @@ class SphereBench {
  public:
   SphereBench(const GrinderHall& hall, const MachineTables& tables, const LobingMap& truth)
       : file_(hall.file), grinder_(hall, tables) {
-    grinder_.mount(sphere_, [truth](const Vec3& d) { return truth.radius(d); });
+    grinder_.mount(sphere_, Mounted::sphere, [truth](const Vec3& d) { return truth.radius(d); });
   }
 
   // The radius that the probe has shown in each direction of the tool frame.

@@ -113,9 +113,9 @@ MandrelEffect effect_of_pivot(const SwingArm& arm, double higher) {
   });
 }
 
-MandrelCalibration calibrate_on_mandrel(Grinder& grinder, const MandrelBudget& budget) {
+MandrelCalibration calibrate_on_mandrel(Grinder& grinder, const MandrelBudget& budget, Mounted as) {
   const sim::Mandrel mandrel(kMandrelRadius_mm);
-  grinder.mount(mandrel);
+  grinder.mount(mandrel, as);
   MandrelCalibration result;
   touch_all(grinder, result);
   host::require(fit_circle(result.y, result.z, result.fit), "mandrel calibration");

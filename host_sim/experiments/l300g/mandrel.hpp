@@ -33,8 +33,8 @@ struct MandrelCalibration {
 
 // 162 touches, 81 above and 81 below, 0.2 mm apart in Y. Throws UserError when the radius comes out
 // implausible: outside (0, r_b + 0.05).
-[[nodiscard]] MandrelCalibration calibrate_on_mandrel(Grinder& grinder,
-                                                      const MandrelBudget& budget);
+[[nodiscard]] MandrelCalibration calibrate_on_mandrel(Grinder& grinder, const MandrelBudget& budget,
+                                                      Mounted as = Mounted::mandrel);
 
 // Change of the fit when the machine differs from its model, mm.
 struct MandrelEffect {

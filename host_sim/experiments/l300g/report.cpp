@@ -185,9 +185,22 @@ json before_after(const L300gResult& r) {
   }
   return host::before_after_table(
       lines,
-      "Deviations of the master gear as the machine finds them, with zero tables and with those of "
+      "Deviations of the gear as the machine finds them, with zero tables and with those of "
       "the identified error functions. Grades by ISO 1328-1:1995; that of a pitch is the worse of "
       "F_p and f_pt.");
+}
+
+std::string scatter_text(const L300gOptions& o) {
+  const sim::ProbeClass& probe = sim::kProbeClasses.at(o.probe);
+  if (o.probe == 0) return "; its touches do not scatter";
+  return fmt::format("; touches scatter with 2σ = {:g} µm ({}), {} of each point{}",
+                     probe.repeatability_2s_um, probe.name, o.rules.touches,
+                     o.rules.filter ? ", filtered" : "");
+}
+
+std::string found_by(const L300gOptions& o) {
+  if (o.tracker_um) return "read by an instrument beside the machine";
+  return fmt::format("found by {} touches of the machine's own probe", o.target_touches);
 }
 
 host::Origins origins(const L300gResult& r) {
@@ -201,10 +214,16 @@ host::Origins origins(const L300gResult& r) {
       {"seed", fmt::format("{} (phases of waves, noise of the lobing check)", o.seed)}};
   origins.inputs = r.inputs;
   origins.instruments = {
-      fmt::format("laser tracker for the error functions: {:g} µm of each target assumed for the "
-                  "bands, none added",
-                  kUmPerMm * host::kTracker_mm),
-      "touch probe of the machine: delays and radius of the machine file, corrected by the node"};
+      fmt::format("targets of the identification: {:g} µm of each assumed for the bands, {:.2g} µm "
+                  "added to each coordinate, {}",
+                  kUmPerMm * host::kTracker_mm, o.target_um(), found_by(o)),
+      "touch probe of the machine: delays and radius of the machine file, corrected by the node" +
+          scatter_text(o)};
+  if (r.on_centre)
+    origins.instruments.push_back(
+        fmt::format("gear measuring centre: {:g} µm of each point, {:g} µm of the slope of each "
+                    "trace (standard deviations)",
+                    CentreErrors{}.point_um, CentreErrors{}.slope_um));
   origins.chosen = {"amounts and signs of the errors, such that they add up"};
   origins.untouched = {"deviations and grades of the gear"};
   return origins;

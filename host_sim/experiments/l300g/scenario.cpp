@@ -1,6 +1,7 @@
 #include "host_sim/experiments/l300g/scenario.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
@@ -70,7 +71,9 @@ host::NodeProbe probe_of(const host::MachineFile& file, double rc) {
 MachineDescription zeroed_on_mandrel(const Inspection& run, host::TableKind kind) {
   const MachineChain& nominal = run.hall.file.chain;
   Grinder grinder(run.hall, tables_at(run, kind, nominal.description()));
-  const Circle circle = calibrate_on_mandrel(grinder, {}).fit.geometric;
+  const Mounted as =
+      kind == host::TableKind::none ? Mounted::mandrel_before : Mounted::mandrel_after;
+  const Circle circle = calibrate_on_mandrel(grinder, {}, as).fit.geometric;
   return with_origin(nominal, circle.y, circle.z);
 }
 
@@ -99,14 +102,24 @@ GearInspection inspect(const Inspection& run, host::TableKind kind, FeedCheck* f
                                          ? run.hall.file.chain.description()
                                          : zeroed_on_mandrel(run, kind);
   Grinder grinder(run.hall, tables_at(run, kind, machine));
-  grinder.mount(run.gear);
+  grinder.mount(run.gear,
+                kind == host::TableKind::none ? Mounted::gear_before : Mounted::gear_after);
   grinder.prober().configure(probe_of(run.hall.file, run.rc));
   const InspectionSetup setup{grinder.geometry(), run.involute, run.options.path, run.rc};
-  GearInspector inspector(grinder, setup);
+  GearInspector inspector(grinder, setup, run.options.rules);
   GearInspection result = inspector.inspect();
   result.program = program(run, kind, setup, grinder.chain());
   if (feeds != nullptr) *feeds = check_feeds(grinder, inspector, run.involute);
   return result;
+}
+
+ProbeScatter scatter_of(const L300gOptions& options) {
+  ProbeScatter scatter;
+  scatter.noise.repeatability_2s =
+      sim::kProbeClasses.at(options.probe).repeatability_2s_um / kUmPerMm;
+  scatter.seed = options.seed;
+  scatter.draw = options.draw;
+  return scatter;
 }
 
 MandrelCalibration calibrate_first(const GrinderHall& hall,
@@ -118,6 +131,11 @@ MandrelCalibration calibrate_first(const GrinderHall& hall,
 
 }  // namespace
 
+double L300gOptions::target_um() const {
+  const double of_touch = 0.5 * sim::kProbeClasses.at(probe).repeatability_2s_um;
+  return tracker_um.value_or(of_touch / std::sqrt(static_cast<double>(target_touches)));
+}
+
 double FeedCheck::raw_spread_nm() const { return spread(raw_nm); }
 double FeedCheck::corrected_spread_nm() const { return spread(corrected_nm); }
 
@@ -128,16 +146,21 @@ L300gResult run_l300g(const L300gOptions& options, const host::Progress& progres
   result.inputs = {host::hashed_file("machine file", options.machine)};
   if (!is_named(options.errors))
     result.inputs.push_back(host::hashed_file("errors of the machine", options.errors));
-  result.gear = master_gear();
+  result.gear = gear_to_measure(options.gear);
+  if (!options.gear.empty()) result.inputs.push_back(host::hashed_file("gear", options.gear));
+  if (result.machine.probe)
+    require_ball_fits(result.gear, result.machine.probe->radius_mm,
+                      options.gear.empty() ? "master gear" : options.gear.string());
   const GrinderHall hall{
       result.machine,
       make_l300g_truth(result.machine, grinder_errors(options.errors), options.seed),
-      options.make_axes, options.cycle_hz};
-  const sim::Gear gear(result.gear,
-                       [](const Flank&, double s, double x) { return own_deviation(s, x); });
+      options.make_axes, options.cycle_hz, scatter_of(options)};
+  const sim::Gear gear(result.gear, [own = OwnDeviation(result.gear)](
+                                        const Flank&, double s, double x) { return own(s, x); });
 
   progress(0.0, "identification of 24 error functions");
-  result.identification = sim::identify_axes(hall.truth, result.machine);
+  result.identification = sim::identify_axes(
+      hall.truth, result.machine, {options.target_um() / kUmPerMm, options.seed, options.draw});
   result.printed = printed_procedure(result.identification, result.machine);
   progress(0.05, "probe calibration on the mandrel");
   result.calibration = calibrate_first(hall, result.identification.found, options.knots);
@@ -150,10 +173,12 @@ L300gResult run_l300g(const L300gOptions& options, const host::Progress& progres
                        gear,    result.gear, result.calibration.rc};
   result.truth = true_gear(result.gear);
   result.orientation = orientation_at_pitch_point(run);
-  progress(0.2, "master gear, uncompensated");
+  progress(0.2, "gear, uncompensated");
   result.before = inspect(run, host::TableKind::none, nullptr);
-  progress(0.6, "master gear, compensated");
+  progress(0.6, "gear, compensated");
   result.after = inspect(run, options.tables, &result.feeds);
+  if (options.scatters())
+    result.on_centre = gear_on_centre(result.gear, {}, options.seed, options.draw);
   progress(0.95, "lobing of the probe");
   result.lobing = check_lobing(result.machine, options.make_axes, options.cycle_hz, options.seed);
   progress(1.0, "done");

@@ -1,17 +1,20 @@
 #pragma once
-// The L300G measuring a master gear, before and after the errors of its axes are compensated: the
+// The L300G measuring a gear, before and after the errors of its axes are compensated: the
 // paper's procedure, every touch through drives, bus and node (docs/papers/l300g.md).
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host_sim/experiments/l300g/inspection.hpp"
 #include "host_sim/experiments/l300g/lobing_check.hpp"
 #include "host_sim/experiments/l300g/mandrel.hpp"
+#include "host_sim/experiments/l300g/measuring_centre.hpp"
 #include "host_sim/experiments/l300g/printed_procedure.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/report/progress.hpp"
+#include "host_sim/sim/instruments/probe_class.hpp"
 
 namespace volcomp::l300g {
 
@@ -31,9 +34,16 @@ enum class Origin : std::uint8_t {
   mandrel,  // where the calibration has found it, with the same tables as the gear
 };
 
+// The least touches of a point that, filtered, give the gear its own grades in 95 of 100
+// measurements with a probe of this of sim::kProbeClasses (docs/papers/l300g.md, "With a probe that
+// scatters").
+inline constexpr std::array<std::size_t, sim::kProbeClasses.size()> kLeastTouches{1, 1, 3};
+inline constexpr std::size_t kTargetTouches = 10;
+
 struct L300gOptions {
   std::filesystem::path machine;
-  std::string errors = "p8";  // machine_errors.hpp
+  std::filesystem::path gear;  // a spur gear (involute_gear_file.hpp); empty: the master gear
+  std::string errors = "p8";   // machine_errors.hpp
   PathStyle path = PathStyle::fixed_a;
   Origin origin = Origin::nominal;
   host::TableKind tables = host::TableKind::identified;  // of the compensation
@@ -41,6 +51,17 @@ struct L300gOptions {
   std::size_t knots = kDefaultKnots;                     // per table: what the node has room for
   double cycle_hz = sim::kBusCycleOfFive_hz;
   sim::BusAxesFactory make_axes = sim::loopback_axes();
+  std::size_t probe = 0;  // of sim::kProbeClasses
+  // Standard deviation of each coordinate of a target where an instrument beside the machine reads
+  // them; none: its own probe finds them, as in section 2.2 of the paper.
+  std::optional<double> tracker_um;
+  std::size_t target_touches = kTargetTouches;  // of a coordinate of a target; their mean counts
+  InspectionRules rules;
+  std::uint32_t draw = 0;  // which of several measurements with that seed
+
+  // How far targets of the identification scatter: standard deviation of a coordinate, µm.
+  [[nodiscard]] double target_um() const;
+  [[nodiscard]] bool scatters() const { return probe != 0 || target_um() > 0.0; }
 };
 
 struct L300gResult {
@@ -57,6 +78,7 @@ struct L300gResult {
   GearInspection truth;  // what a perfect machine would find
   GearInspection before;
   GearInspection after;
+  std::optional<GearInspection> on_centre;  // by a second instrument; none: nothing scatters
   FeedCheck feeds;
   LobingCheck lobing;
 };

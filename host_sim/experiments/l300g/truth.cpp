@@ -6,6 +6,8 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/gear_inspection.hpp"
+#include "host_sim/host/measure/involute_gear_file.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 
 namespace volcomp::l300g {
@@ -79,10 +81,30 @@ InvoluteGear master_gear() {
   return gear;
 }
 
-double own_deviation(double s, double x) {
-  const double u = (s - 9.510) / 19.781;
-  const double um = 3.4 * u + 2.2 * std::sin(3.0 * kPi * u) + 3.2 * x / 27.0 +
-                    1.85 * std::sin(3.0 * kPi * (x - 1.5) / 27.0);
+InvoluteGear gear_to_measure(const std::filesystem::path& file) {
+  if (file.empty()) return master_gear();
+  const InvoluteGear gear = host::read_involute_gear(file);
+  if (std::abs(gear.helix_angle) > 0.0)
+    throw host::UserError(file.string() +
+                          ": helix_angle_deg: the grinder measures spur gears only");
+  return gear;
+}
+
+// To a micrometre, as the published case of the master gear states its ranges.
+OwnDeviation::OwnDeviation(const InvoluteGear& gear) {
+  const auto to_micrometre = [](double mm) { return std::round(1e3 * mm) / 1e3; };
+  const EvaluationRange profile = host::profile_range(gear, 0.92);
+  const EvaluationRange lead = host::lead_range(gear);
+  s0_ = to_micrometre(profile.low);
+  s_range_ = to_micrometre(profile.high - profile.low);
+  x0_ = to_micrometre(lead.low);
+  x_range_ = to_micrometre(lead.high - lead.low);
+}
+
+double OwnDeviation::operator()(double s, double x) const {
+  const double u = (s - s0_) / s_range_;
+  const double um = 3.4 * u + 2.2 * std::sin(3.0 * kPi * u) + 3.2 * x / x_range_ +
+                    1.85 * std::sin(3.0 * kPi * (x - x0_) / x_range_);
   return 1e-3 * um;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
-// The L300G as it really is, and the master gear on it.
+// The L300G as it really is, and the gear on it.
+
+#include <filesystem>
 
 #include "host_sim/experiments/l300g/machine_errors.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
@@ -16,8 +18,24 @@ namespace volcomp::l300g {
 // z = 31, m = 4, 30 mm wide, d_a = 132 (the paper's Table 3).
 [[nodiscard]] InvoluteGear master_gear();
 
-// The gear's own deviation at roll length s and x, mm, the same on every flank: a slope and a wave
-// over s, a slope and a wave over x, chosen to be of grade 4.
-[[nodiscard]] double own_deviation(double s, double x);
+// The master gear where `file` is empty. Throws UserError naming file, line and field; a helical
+// gear is refused: all touches lie in transverse planes.
+[[nodiscard]] InvoluteGear gear_to_measure(const std::filesystem::path& file);
+
+// What is wrong with the gear itself, the same on every flank: a slope and a wave over the roll
+// length, a slope and a wave over x, over the evaluation ranges of profile and lead. Chosen to be
+// of grade 4 on the master gear.
+class OwnDeviation {
+ public:
+  explicit OwnDeviation(const InvoluteGear& gear);
+  // At roll length s and x, mm, normal to the flank.
+  [[nodiscard]] double operator()(double s, double x) const;
+
+ private:
+  double s0_;
+  double s_range_;
+  double x0_;
+  double x_range_;
+};
 
 }  // namespace volcomp::l300g

@@ -1,5 +1,7 @@
 #include "host_sim/experiments/xyfz/bench.hpp"
 
+#include <utility>
+
 namespace volcomp::xyfz {
 namespace {
 
@@ -12,11 +14,20 @@ host::MachineFile read_first(const XyfzOptions& options, const host::Progress& p
 }  // namespace
 
 Bench::Bench(const XyfzOptions& chosen, const host::Progress& progress)
+    : Bench(chosen, read_first(chosen, progress)) {}
+
+Bench::Bench(const XyfzOptions& chosen, const host::MachineFile& file)
+    : Bench(chosen, file, tune_xyfz(file, chosen.machine_seed)) {}
+
+Bench::Bench(const XyfzOptions& chosen, host::MachineFile file, const XyfzTuning& found)
     : options(chosen),
-      machine(read_first(chosen, progress)),
-      tuning(tune_xyfz(machine, chosen.machine_seed)),
+      machine(std::move(file)),
+      tuning(found),
       truth(make_xyfz_truth(machine, chosen.machine_seed, tuning)),
-      box(sim::travel_box(machine)) {}
+      box(sim::travel_box(machine)) {
+  // The machine is the same one, whichever way it is measured.
+  if (options.circle_radius) machine.squareness->circle_radius = options.circle_radius;
+}
 
 std::unique_ptr<sim::MotionCell> Bench::cell(const sim::TrueMachine& of,
                                              const std::vector<std::uint8_t>& image) const {

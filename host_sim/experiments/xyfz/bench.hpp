@@ -6,14 +6,17 @@
 namespace volcomp::xyfz {
 
 struct Bench {
-  const XyfzOptions& options;
+  XyfzOptions options;
   host::MachineFile machine;
   XyfzTuning tuning;
   sim::TrueMachine truth;
   DiagonalBox box;
 
-  // Throws UserError.
+  // Both find the tuning of options.machine_seed. Throw UserError.
   Bench(const XyfzOptions& chosen, const host::Progress& progress);
+  Bench(const XyfzOptions& chosen, const host::MachineFile& file);
+  // For a tuning that is known. Throws UserError.
+  Bench(const XyfzOptions& chosen, host::MachineFile file, const XyfzTuning& found);
 
   // The machine with these tables, at a corner of its travel; `of` must outlive it.
   [[nodiscard]] std::unique_ptr<sim::MotionCell> cell(const sim::TrueMachine& of,

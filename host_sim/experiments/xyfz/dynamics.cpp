@@ -151,7 +151,7 @@ Dynamics run_dynamics(const sim::TrueMachine& truth, const host::MachineFile& ma
 double measure_tick_error_nm(const host::BuiltTables& closed, int points, std::uint64_t seed) {
   LoadedCompensator::Settings settings;
   for (AxisLimits& l : settings.axis)
-    l = {4'000'000, 1'000'000'000, 1, 0, 0};
+    l = {{4'000'000, 1'000'000'000, 1, 0}, 0, 0};
   settings.source = PositionSource::actual;
   settings.ramp_ticks = 1;
   const auto compensator = std::make_unique<LoadedCompensator>(

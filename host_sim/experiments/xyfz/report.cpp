@@ -9,18 +9,12 @@
 #include "host_sim/host/report/before_after.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
+#include "host_sim/sim/instruments/circular_ball_bar.hpp"
 
 namespace volcomp::xyfz {
 namespace {
 
 using nlohmann::json;
-
-json tuned_text(const XyfzResult& r) {
-  return {fmt::format("angle scale {:.4f} so that the naive residual on PNP is {} µm",
-                      r.tuning.angle_scale, kPaperNaive_um),
-          fmt::format("scale error of X {:.3e} so that PNP reads {} µm uncompensated",
-                      r.tuning.scale_error, kPaperRaw_um)};
-}
 
 json before_after(const XyfzResult& r) {
   std::vector<host::BeforeAfter> lines;
@@ -110,16 +104,16 @@ json limits_table(const XyfzResult& r) {
                                     rows)));
 }
 
-std::vector<std::string> instruments(const sim::NoiseClasses& n, std::size_t runs) {
-  return {
-      fmt::format("laser of six degrees of freedom, {} bidirectional runs: repeatability {:g} µm "
-                  "and {:g} µrad, scale {:g} µm/m, roll {:g} µrad, levers known to {:g} mm",
-                  runs, kUmPerMm * n.repeatability_mm, host::kUradPerRad * n.repeatability_rad,
-                  host::kUradPerRad * n.scale, host::kUradPerRad * n.roll_rad, n.arm_mm),
-      fmt::format("ball bar for squareness: {:g} µrad", host::kUradPerRad * n.ball_bar_rad),
-      fmt::format("interferometer along diagonals: scale {:g} µm/m; {:g} K between measuring "
-                  "and checking",
-                  host::kUradPerRad * n.interferometer, n.temperature_K)};
+std::string ball_bar(const sim::NoiseClasses& n, const std::optional<double>& radius) {
+  if (!radius)
+    return fmt::format("ball bar for squareness along lines: {:g} µrad",
+                       host::kUradPerRad * n.ball_bar_rad);
+  const sim::BallBarClass bar;
+  return fmt::format(
+      "ball bar for squareness, two circles each way of {:g} mm: reading {:g} µm, socket {:g} µm, "
+      "start {:g} mrad, length {:g} µm, sensor ± {:g} µm",
+      *radius, kUmPerMm * bar.reading, kUmPerMm * bar.centre, 1e3 * bar.start_angle,
+      kUmPerMm * bar.length, kUmPerMm * bar.sensor);
 }
 
 host::Origins origins(const XyfzResult& r) {
@@ -130,8 +124,8 @@ host::Origins origins(const XyfzResult& r) {
       {"machine seed", fmt::format("{} (phases of the error functions)", r.options.machine_seed)},
       {"noisy campaigns", std::to_string(r.options.draws)}};
   o.inputs = r.inputs;
-  o.instruments = instruments({}, r.options.runs);
-  for (const auto& text : tuned_text(r))
+  o.instruments = instruments_of(r.options);
+  for (const auto& text : tuned_text(r.tuning))
     o.tuned.push_back(text);
   o.chosen = {
       "amplitudes of the error functions by class; squareness so that a perfect ball bar "
@@ -144,24 +138,68 @@ host::Origins origins(const XyfzResult& r) {
 
 }  // namespace
 
-host::Verdict xyfz_verdict(const XyfzResult& r) {
+json tuned_text(const XyfzTuning& tuning) {
+  return {fmt::format("angle scale {:.4f} so that the naive residual on PNP is {} µm",
+                      tuning.angle_scale, kPaperNaive_um),
+          fmt::format("scale error of X {:.3e} so that PNP reads {} µm uncompensated",
+                      tuning.scale_error, kPaperRaw_um)};
+}
+
+std::vector<std::string> instruments_of(const XyfzOptions& options) {
+  const sim::NoiseClasses n;
+  const std::size_t runs = options.runs;
+  return {
+      fmt::format("laser of six degrees of freedom, {} bidirectional runs: repeatability {:g} µm "
+                  "and {:g} µrad, scale {:g} µm/m, roll {:g} µrad, levers known to {:g} mm",
+                  runs, kUmPerMm * n.repeatability_mm, host::kUradPerRad * n.repeatability_rad,
+                  host::kUradPerRad * n.scale, host::kUradPerRad * n.roll_rad, n.arm_mm),
+      ball_bar(n, options.circle_radius),
+      fmt::format("interferometer along diagonals: scale {:g} µm/m; {:g} K between measuring "
+                  "and checking",
+                  host::kUradPerRad * n.interferometer, n.temperature_K)};
+}
+
+host::Verdict noise_free_verdict(const XyfzResult& r) {
   host::Verdict v;
   v.ok = r.rate(3) >= 98.0 && r.dynamics.line_is_good() && r.tick_max_error_nm < 1.0;
   v.text =
       fmt::format("PNP diagonal {:.2f} µm before, {:.2f} µm after ({:.1f} % less, noise-free).",
                   r.mode[0].body[2].max_abs_um, r.mode[3].body[2].max_abs_um, r.rate(3));
-  if (!r.draws.empty()) {
-    const double reached = r.draws_reaching(kPaperRate);
-    v.ok = v.ok && reached >= 0.95;
-    v.text += fmt::format(
-        " With realistic instruments {:.1f} % (median of {}), the paper's {} % reached in "
-        "{:.0f} %.",
-        r.draw_quantile(2, 0.5), r.draws.size(), kPaperRate, 100.0 * reached);
-  }
   return v;
 }
 
+void add_draw_verdict(const XyfzResult& r, host::Verdict& v) {
+  if (r.draws.empty()) return;
+  const double reached = r.draws_reaching(kPaperRate);
+  v.ok = v.ok && reached >= 0.95;
+  v.text += fmt::format(
+      " With realistic instruments {:.1f} % (median of {}), the paper's {} % reached in "
+      "{:.0f} %.",
+      r.draw_quantile(2, 0.5), r.draws.size(), kPaperRate, 100.0 * reached);
+}
+
+host::Verdict xyfz_verdict(const XyfzResult& r) {
+  host::Verdict v = noise_free_verdict(r);
+  add_draw_verdict(r, v);
+  return v;
+}
+
+void add_draw_figures(const XyfzResult& r, json& figures) {
+  if (r.draws.empty()) return;
+  for (std::size_t m = 1; m < kModeNames.size(); ++m)
+    figures["draws"]["rate"][kModeNames[m]] = {{"median", r.draw_quantile(m - 1, 0.5)},
+                                               {"p05", r.draw_quantile(m - 1, 0.05)}};
+  figures["draws"]["count"] = r.draws.size();
+  figures["draws"]["abbe_closed_reaching_8707"] = r.draws_reaching(kPaperRate);
+}
+
 json xyfz_figures(const XyfzResult& r) {
+  json j = noise_free_figures(r);
+  add_draw_figures(r, j);
+  return j;
+}
+
+json noise_free_figures(const XyfzResult& r) {
   json j;
   for (std::size_t m = 0; m < r.mode.size(); ++m) {
     for (const sim::MeasuredDiagonal& d : r.mode[m].body)
@@ -171,13 +209,6 @@ json xyfz_figures(const XyfzResult& r) {
     if (m == 0) continue;
     j["rate"][kModeNames[m]] = r.rate(m);
     j["rate_on_knots"][kModeNames[m]] = r.rate_on_knots(m);
-    if (r.draws.empty()) continue;
-    j["draws"]["rate"][kModeNames[m]] = {{"median", r.draw_quantile(m - 1, 0.5)},
-                                         {"p05", r.draw_quantile(m - 1, 0.05)}};
-  }
-  if (!r.draws.empty()) {
-    j["draws"]["count"] = r.draws.size();
-    j["draws"]["abbe_closed_reaching_8707"] = r.draws_reaching(kPaperRate);
   }
   j["line_worst_nm"] = r.dynamics.line_worst_nm;
   j["per_axis_remainder_um"] = {r.per_axis.max_um.x(), r.per_axis.max_um.y(),
@@ -186,7 +217,7 @@ json xyfz_figures(const XyfzResult& r) {
   j["model_bound_nm"] = r.mode[3].model_bound_nm;
   j["seed"] = r.options.seed;
   j["machine_seed"] = r.options.machine_seed;
-  j["tuned"] = tuned_text(r);
+  j["tuned"] = tuned_text(r.tuning);
   j["version"] = host::kVersion;
   return j;
 }

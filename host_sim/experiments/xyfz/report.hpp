@@ -18,4 +18,14 @@ namespace volcomp::xyfz {
 
 [[nodiscard]] host::Verdict xyfz_verdict(const XyfzResult& result);
 
+// Both in two pieces: what does not depend on the noisy campaigns, and what these add.
+[[nodiscard]] nlohmann::json noise_free_figures(const XyfzResult& result);
+void add_draw_figures(const XyfzResult& result, nlohmann::json& figures);
+[[nodiscard]] host::Verdict noise_free_verdict(const XyfzResult& result);
+void add_draw_verdict(const XyfzResult& result, host::Verdict& verdict);
+
+// What was tuned, and the instruments of the noisy campaigns, a sentence each.
+[[nodiscard]] nlohmann::json tuned_text(const XyfzTuning& tuning);
+[[nodiscard]] std::vector<std::string> instruments_of(const XyfzOptions& options);
+
 }  // namespace volcomp::xyfz

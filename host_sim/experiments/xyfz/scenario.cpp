@@ -6,31 +6,17 @@
 #include <fmt/format.h>
 
 #include "comp/metrology/tables/per_axis.hpp"
-#include "host_sim/experiments/xyfz/bench.hpp"
 #include "host_sim/experiments/xyfz/dynamics.hpp"
+#include "host_sim/experiments/xyfz/noisy_campaign.hpp"
+#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
-#include "host_sim/host/io/whole_file.hpp"
-#include "host_sim/sim/campaign/campaign.hpp"
+#include "host_sim/host/report/shared_progress.hpp"
 #include "host_sim/sim/campaign/measured_positions.hpp"
 
 namespace volcomp::xyfz {
 namespace {
 
-constexpr std::array<host::ModelKind, 3> kModels{host::ModelKind::naive, host::ModelKind::abbe,
-                                                 host::ModelKind::abbe_closed};
 constexpr std::size_t kPerAxisKnots = 32;
-
-// Writes the runs to files and reads them back, as with a user's own data.
-sim::Campaign through_files(const sim::Campaign& campaign, const std::filesystem::path& folder) {
-  host::create_folder(folder);
-  sim::Campaign reread{campaign.machine, {}};
-  for (const host::RunsFile& runs : campaign.runs) {
-    const std::filesystem::path path = folder / runs.name;
-    host::write_runs_file(path, runs);
-    reread.runs.push_back(host::read_runs_file(path));
-  }
-  return reread;
-}
 
 ModeResult verify_mode(const Bench& bench, const std::vector<std::uint8_t>& image) {
   sim::Random unused(0);
@@ -59,41 +45,15 @@ void note_inputs(const sim::Campaign& campaign, const host::BuiltTables& tables,
                                              host::make_image(tables.tables)));
 }
 
-std::uint64_t draw_seed(std::uint64_t seed, std::size_t draw) { return seed * 1'000'003U + draw; }
-
-DrawResult run_draw(const Bench& bench, const std::filesystem::path& folder, std::size_t draw,
-                    XyfzResult& result) {
-  const sim::NoiseClasses classes;
-  sim::Random random(draw_seed(bench.options.seed, draw));
-  const sim::Campaign measured =
-      sim::measure_machine(bench.truth, bench.machine, classes, bench.options.runs, random);
-  const sim::Campaign campaign =
-      through_files(measured, folder / fmt::format("draw_{:03}", draw + 1));
-
-  sim::TrueMachine at_check = bench.truth;
-  at_check.temperature_offset_K = random.normal(classes.temperature_K);
-  const sim::InterferometerSetup setup{random.normal(classes.interferometer),
-                                       classes.repeatability_mm,
-                                       static_cast<int>(bench.options.runs)};
-  const auto measure_um = [&](const std::vector<std::uint8_t>& image) {
-    return bench.pnp(at_check, image, sim::kDiagonalPoints, setup, random).max_abs_um;
-  };
-  DrawResult out;
-  out.raw_um = measure_um({});
-  for (std::size_t m = 0; m < kModels.size(); ++m) {
-    auto tables = host::build_tables(campaign.machine, campaign.runs,
-                                     host::tables_only(kModels[m], bench.options.knots));
-    out.residual_um[m] = measure_um(host::make_image(tables->tables));
-    const bool keep = draw == 0 && kModels[m] == host::ModelKind::abbe_closed;
-    if (!keep) continue;
-    result.positioning.clear();
-    for (const auto& built : tables->built)
-      result.positioning.push_back(built->positioning);
-    result.warnings = tables->warnings;
-    note_inputs(campaign, *tables, result);
-    result.example = std::move(tables);
-  }
-  return out;
+// The report shows this campaign.
+void keep_example(const sim::Campaign& campaign, std::unique_ptr<host::BuiltTables> closed,
+                  XyfzResult& result) {
+  result.positioning.clear();
+  for (const auto& built : closed->built)
+    result.positioning.push_back(built->positioning);
+  result.warnings = closed->warnings;
+  note_inputs(campaign, *closed, result);
+  result.example = std::move(closed);
 }
 
 PerAxisRemainder per_axis_remainder(const host::BuiltTables& closed) {
@@ -127,6 +87,25 @@ void look_closer(const Bench& bench, const host::BuiltTables& closed, XyfzResult
   }
 }
 
+// `result` receives each draw at its place; only the first one touches anything else in it.
+void run_draws(const Bench& bench, const std::filesystem::path& folder,
+               const host::Progress& progress, XyfzResult& result) {
+  const std::size_t draws = bench.options.draws;
+  const std::vector<std::size_t> own = bench.options.shard.draws_of(draws);
+  result.draws.resize(own.size());
+  host::SharedProgress shared(progress, own.size(), 0.25);
+  host::in_parallel(own.size(), bench.options.threads, [&](std::size_t i) {
+    const std::string what = fmt::format("noisy campaign {} of {}", own[i] + 1, draws);
+    shared.show(i, 0.0, what);
+    MeasuredCampaign measured =
+        noisy_campaign(bench, folder / fmt::format("draw_{:03}", own[i] + 1), own[i]);
+    Compensated compensated = compensate(bench, measured);
+    result.draws[i] = compensated.pnp;
+    if (own[i] == 0) keep_example(measured.campaign, std::move(compensated.closed), result);
+    shared.show(i, 1.0, what);
+  });
+}
+
 // Modes verified without noise; returns the closed model for what follows.
 std::unique_ptr<host::BuiltTables> run_noise_free(const Bench& bench,
                                                   const std::filesystem::path& folder,
@@ -134,19 +113,23 @@ std::unique_ptr<host::BuiltTables> run_noise_free(const Bench& bench,
                                                   XyfzResult& result) {
   const sim::Campaign campaign =
       through_files(sim::perfect_campaign(bench.truth, bench.machine), folder / "noise_free");
-  progress(0.0, "uncompensated machine");
-  result.mode[0] = verify_mode(bench, {});
-  std::unique_ptr<host::BuiltTables> closed;
-  for (std::size_t m = 0; m < kModels.size(); ++m) {
-    progress(0.05 * static_cast<double>(m + 1), fmt::format("verifying {}", kModeNames[m + 1]));
-    host::BuildOptions options;
-    options.model = kModels[m];
-    options.knots = bench.options.knots;
-    auto tables = host::build_tables(campaign.machine, campaign.runs, options);
-    result.mode[m + 1] = verify_mode(bench, host::make_image(tables->tables));
-    result.mode[m + 1].model_bound_nm = tables->model_bound_nm;
-    closed = std::move(tables);
-  }
+  std::array<std::unique_ptr<host::BuiltTables>, kModels.size()> tables;
+  host::SharedProgress shared(progress, result.mode.size(), 0.0, 0.2);
+  host::in_parallel(result.mode.size(), bench.options.threads, [&](std::size_t mode) {
+    shared.show(mode, 0.0, fmt::format("verifying {}", kModeNames[mode]));
+    std::vector<std::uint8_t> image;  // none: the uncompensated machine
+    if (mode > 0) {
+      host::BuildOptions options;
+      options.model = kModels[mode - 1];
+      options.knots = bench.options.knots;
+      tables[mode - 1] = host::build_tables(campaign.machine, campaign.runs, options);
+      image = host::make_image(tables[mode - 1]->tables);
+    }
+    result.mode[mode] = verify_mode(bench, image);
+    if (mode > 0) result.mode[mode].model_bound_nm = tables[mode - 1]->model_bound_nm;
+    shared.show(mode, 1.0, fmt::format("verifying {}", kModeNames[mode]));
+  });
+  std::unique_ptr<host::BuiltTables> closed = std::move(tables.back());
   note_inputs(campaign, *closed, result);
   return closed;
 }
@@ -160,10 +143,6 @@ double ModeResult::faces_max_um() const {
   return worst;
 }
 
-double DrawResult::rate(std::size_t model) const {
-  return improvement_percent(raw_um, residual_um.at(model));
-}
-
 double XyfzResult::rate(std::size_t m) const {
   return improvement_percent(mode[0].body[sim::kPnp].max_abs_um,
                              mode.at(m).body[sim::kPnp].max_abs_um);
@@ -174,21 +153,10 @@ double XyfzResult::rate_on_knots(std::size_t m) const {
 }
 
 double XyfzResult::draw_quantile(std::size_t model, double fraction) const {
-  std::vector<double> rates;
-  for (const DrawResult& d : draws)
-    rates.push_back(d.rate(model));
-  std::sort(rates.begin(), rates.end());
-  const double place = fraction * static_cast<double>(rates.size() - 1);
-  const auto i = static_cast<std::size_t>(place);
-  const double next = i + 1 < rates.size() ? rates[i + 1] : rates[i];
-  return rates[i] + (place - static_cast<double>(i)) * (next - rates[i]);
+  return rate_quantile(draws, model, fraction);
 }
 
-double XyfzResult::draws_reaching(double wanted) const {
-  const auto reached = std::count_if(draws.begin(), draws.end(),
-                                     [&](const DrawResult& d) { return d.rate(2) >= wanted; });
-  return static_cast<double>(reached) / static_cast<double>(draws.size());
-}
+double XyfzResult::draws_reaching(double wanted) const { return share_reaching(draws, 2, wanted); }
 
 XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) {
   XyfzResult result;
@@ -211,11 +179,7 @@ XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) 
   for (const auto& built : closed->built)
     result.positioning.push_back(built->positioning);
   result.example = std::move(closed);
-  for (std::size_t d = 0; d < options.draws; ++d) {
-    progress(0.25 + 0.75 * static_cast<double>(d) / static_cast<double>(options.draws),
-             fmt::format("noisy campaign {} of {}", d + 1, options.draws));
-    result.draws.push_back(run_draw(bench, folder, d, result));
-  }
+  run_draws(bench, folder, progress, result);
   progress(1.0, "done");
   return result;
 }

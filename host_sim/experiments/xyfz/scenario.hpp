@@ -3,11 +3,14 @@
 // rate, measures again.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "host_sim/experiments/xyfz/draws.hpp"
 #include "host_sim/experiments/xyfz/truth.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/report/parts_of_run.hpp"
 #include "host_sim/host/report/positioning.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
@@ -33,7 +36,14 @@ struct XyfzOptions {
   int volume_points = 800;
   int tick_points = 200'000;  // places at which the tick is compared with the double model
   sim::CellFactory make_cell = sim::make_integrated_cell;  // what drives the machine
+  std::size_t threads = 1;   // for the noisy campaigns; 1 where machines share a bus
+  std::size_t machines = 1;  // of machine_seed and the seeds after it: run_machines()
+  // Of the circles by which the ball bar finds squareness, mm; none: along the lines of the file.
+  std::optional<double> circle_radius;
+  host::Shard shard{};  // which of the noisy campaigns
 };
+
+inline constexpr double kBallBar_mm = 100.0;
 
 // 0 = uncompensated, then the three models in the order of ModelKind.
 inline constexpr std::array<const char*, 4> kModeNames{"uncompensated", "naive", "abbe",
@@ -47,14 +57,6 @@ struct ModeResult {
   double model_bound_nm = 0.0;
 
   [[nodiscard]] double faces_max_um() const;
-};
-
-// One noisy campaign and check, PNP.
-struct DrawResult {
-  double raw_um = 0.0;
-  std::array<double, 3> residual_um{};  // naive, abbe, abbe_closed
-
-  [[nodiscard]] double rate(std::size_t model) const;
 };
 
 // Samples of a motion.
@@ -86,7 +88,7 @@ struct XyfzResult {
   XyfzOptions options;
   XyfzTuning tuning;
   std::array<ModeResult, 4> mode;
-  std::vector<DrawResult> draws;
+  std::vector<DrawResult> draws;  // of the shard, in order
   Dynamics dynamics;
   double tick_max_error_nm = 0.0;  // integer tick against the same model in double
   PerAxisRemainder per_axis;
@@ -106,8 +108,6 @@ struct XyfzResult {
   [[nodiscard]] double draw_quantile(std::size_t model, double fraction) const;
   [[nodiscard]] double draws_reaching(double wanted) const;  // share of abbe_closed
 };
-
-inline constexpr double kPaperRate = 87.07;
 
 // Throws UserError.
 [[nodiscard]] XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress);

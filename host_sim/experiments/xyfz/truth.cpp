@@ -34,11 +34,6 @@ sim::TrueAxis draw_axis(const host::AxisFile& file, std::size_t own, const XyfzT
   return axis;
 }
 
-SquarenessLines lines_of(const host::SquarenessFile& file,
-                         const std::array<std::vector<double>, 3>& line) {
-  return {file.at, line[0], line[1], line[2]};
-}
-
 // Largest deviation on PNP, mean of both directions, µm: measured − predicted where a model is
 // given.
 double pnp_um(const sim::TrueMachine& machine, const host::MachineFile& file,
@@ -116,27 +111,6 @@ std::optional<double> nearest_root(double start, double step, int steps, const F
   return std::nullopt;
 }
 
-std::optional<XyfzTuning> find_tuning(const host::MachineFile& file, std::uint64_t phase_seed) {
-  XyfzTuning tuning;
-  constexpr int kRounds = 2;  // the two figures hardly influence each other
-  for (int round = 0; round < kRounds; ++round) {
-    const bool first = round == 0;
-    const auto scale =
-        nearest_root(tuning.angle_scale, first ? 0.1 : 0.01, first ? 25 : 50, [&](double s) {
-          return naive_residual_um(file, phase_seed, {s, tuning.scale_error}) - kPaperNaive_um;
-        });
-    if (!scale) return std::nullopt;
-    tuning.angle_scale = *scale;
-    const auto slope = nearest_root(tuning.scale_error, 2e-6, 150, [&](double s) {
-      return raw_um(file, phase_seed, {tuning.angle_scale, s}) - kPaperRaw_um;
-    });
-    if (!slope) return std::nullopt;
-    tuning.scale_error = *slope;
-  }
-  if (tuning.angle_scale <= 0.0) return std::nullopt;
-  return tuning;
-}
-
 // The chain that the paper's figures are of: X and Y under the work, Z with the tool, and its
 // laser.
 bool has_chain_of_paper(const host::MachineFile& file) {
@@ -171,12 +145,31 @@ sim::TrueMachine make_xyfz_truth(const host::MachineFile& file, std::uint64_t ph
 
   // A ball bar on this machine must read the value of the machine file: unit gain, so one step is
   // exact.
-  const std::array<std::vector<double>, 3> line{file.squareness->line(0), file.squareness->line(1),
-                                                file.squareness->line(2)};
-  const XyfzSquareness own = sim::measure_squareness(machine, machine.chain.tool_point(),
-                                                     lines_of(*file.squareness, line), 0.0, random);
+  const XyfzSquareness own =
+      sim::measure_squareness(machine, *file.squareness, sim::no_noise(), random);
   machine.directions = xyfz_directions(close_squareness(file.squareness->measured, own));
   return machine;
+}
+
+std::optional<XyfzTuning> find_tuning(const host::MachineFile& file, std::uint64_t phase_seed) {
+  XyfzTuning tuning;
+  constexpr int kRounds = 2;  // the two figures hardly influence each other
+  for (int round = 0; round < kRounds; ++round) {
+    const bool first = round == 0;
+    const auto scale =
+        nearest_root(tuning.angle_scale, first ? 0.1 : 0.01, first ? 25 : 50, [&](double s) {
+          return naive_residual_um(file, phase_seed, {s, tuning.scale_error}) - kPaperNaive_um;
+        });
+    if (!scale) return std::nullopt;
+    tuning.angle_scale = *scale;
+    const auto slope = nearest_root(tuning.scale_error, 2e-6, 150, [&](double s) {
+      return raw_um(file, phase_seed, {tuning.angle_scale, s}) - kPaperRaw_um;
+    });
+    if (!slope) return std::nullopt;
+    tuning.scale_error = *slope;
+  }
+  if (tuning.angle_scale <= 0.0) return std::nullopt;
+  return tuning;
 }
 
 XyfzTuning tune_xyfz(const host::MachineFile& file, std::uint64_t phase_seed) {

@@ -24,7 +24,10 @@ inline constexpr double kPaperNaive_um = 16.37;
 [[nodiscard]] sim::TrueMachine make_xyfz_truth(const host::MachineFile& file,
                                                std::uint64_t phase_seed, const XyfzTuning& tuning);
 
-// Finds the tuning for a phase seed; throws UserError if this seed cannot show the paper's figures.
+// The tuning for a phase seed; where that seed cannot show the paper's figures, none, or UserError.
+// Both throw UserError for a file of another kind of machine.
+[[nodiscard]] std::optional<XyfzTuning> find_tuning(const host::MachineFile& file,
+                                                    std::uint64_t phase_seed);
 [[nodiscard]] XyfzTuning tune_xyfz(const host::MachineFile& file, std::uint64_t phase_seed);
 
 // The tuned machine of a phase seed, where the file has the paper's chain and travels with which

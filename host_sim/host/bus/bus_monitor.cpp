@@ -20,42 +20,16 @@ constexpr std::size_t kMostEmergencies = 20;
 constexpr double kLate = 2.5;
 constexpr std::uint64_t kFirstPatience_us = 2'000'000;
 
-// The number on the wire; nothing when the frame is too short.
-std::optional<std::int64_t> raw_of(const BusSignal& s, const hal::CanFrame& frame) {
-  if (s.first_bit + s.bits > std::size_t{frame.size} * 8) return std::nullopt;
-  const std::uint64_t value = load_le(frame.data.data(), frame.size) >> s.first_bit;
-  const std::uint64_t mask = s.bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.bits) - 1;
-  const std::uint64_t cut = value & mask;
-  const bool negative = s.is_signed && (cut >> (s.bits - 1) & 1U) != 0;
-  return static_cast<std::int64_t>(negative ? cut | ~mask : cut);
-}
-
-const BusSignal* signal_of(const BusMessage& message, const char* name) {
-  const auto found = std::find_if(message.signals.begin(), message.signals.end(),
-                                  [name](const BusSignal& s) { return s.name == name; });
-  return found == message.signals.end() ? nullptr : &*found;
-}
-
-// A signal of a message in its own unit.
-std::optional<double> value_of(const BusMessage& message, const char* name,
-                               const hal::CanFrame& frame) {
-  const BusSignal* const signal = signal_of(message, name);
-  if (signal == nullptr) return std::nullopt;
-  const std::optional<std::int64_t> raw = raw_of(*signal, frame);
-  if (!raw) return std::nullopt;
-  return signal->factor * static_cast<double>(*raw);
-}
-
 template <class T>
 void take_whole(const BusMessage& message, const char* name, const hal::CanFrame& frame,
                 std::optional<T>& out) {
-  if (const std::optional<double> value = value_of(message, name, frame))
+  if (const std::optional<double> value = signal_value(message, name, frame))
     out = static_cast<T>(*value);
 }
 
 void take_value(const BusMessage& message, const char* name, const hal::CanFrame& frame,
                 std::optional<double>& out) {
-  if (const std::optional<double> value = value_of(message, name, frame)) out = value;
+  if (const std::optional<double> value = signal_value(message, name, frame)) out = value;
 }
 
 std::string name_of(const ValueNames& names, unsigned value) {
@@ -96,11 +70,12 @@ void BusMonitor::take(std::uint64_t time_us, const hal::CanFrame& frame) {
   if (found == message_.end()) return;
   const BusMessage& message = found->second;
   if (message.name == "Node_Status" && frame.size >= message.size) {
-    const auto state = static_cast<unsigned>(value_of(message, "NodeState", frame).value_or(0.0));
+    const auto state =
+        static_cast<unsigned>(signal_value(message, "NodeState", frame).value_or(0.0));
     node_ = NodeSeen{
         name_of(node_states(), state),
-        static_cast<std::uint32_t>(value_of(message, "ActiveCrc", frame).value_or(0.0)),
-        static_cast<std::uint16_t>(value_of(message, "AxisStatusBits", frame).value_or(0.0))};
+        static_cast<std::uint32_t>(signal_value(message, "ActiveCrc", frame).value_or(0.0)),
+        static_cast<std::uint16_t>(signal_value(message, "AxisStatusBits", frame).value_or(0.0))};
   }
   for (Axis& axis : axis_) {
     if (message.name[0] == axis.seen.letter && message.name[1] == '_')

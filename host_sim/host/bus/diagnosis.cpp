@@ -63,11 +63,12 @@ json axis_facts(NodeClient& client, std::size_t axis, const std::string& letters
                               client.read(object::scale_denominator[axis]), rotary,
                               client.read(object::units_per_turn[axis])};
   const std::int32_t offset = client.read(object::offset[axis]);
-  const std::int32_t largest = client.read(object::largest[axis]);
+  const double unit = rotary ? kMicroradPerTurn / kOffsetUnitsPerTurn : kUmPerNm;
+  const auto in_user_units = [unit](std::int32_t value) { return value * unit; };
   facts["offset"] = static_cast<double>(offset) * node::units_per_wire(scale) *
                     (rotary ? kMicroradPerTurn / kPositionUnitsPerTurn : kUmPerNm);
-  facts["largest_offset"] =
-      static_cast<double>(largest) * (rotary ? kMicroradPerTurn / kOffsetUnitsPerTurn : kUmPerNm);
+  facts["largest_offset"] = in_user_units(client.read(object::largest[axis]));
+  facts["largest_lag"] = in_user_units(client.read(object::largest_lag[axis]));
   facts["unit"] = rotary ? "µrad" : "µm";
   add_way_facts(client, axis, facts);
   facts["status_text"] = describe_status(facts["status"]);
@@ -98,9 +99,11 @@ json error_facts(NodeClient& client) {
 std::string describe_axis(const json& a) {
   const std::string letter = a["letter"];
   std::string text = fmt::format(
-      "axis {}: {}\n  drive: node {}, {}\n  offset {:.3f} {}, largest so far {:.3f} {}\n",
+      "axis {}: {}\n  drive: node {}, {}\n  offset {:.3f} {}, largest so far {:.3f} {}, lag {:.3f} "
+      "{}\n",
       letter.empty() ? a["axis"] : json(letter), a["status_text"], a["drive"],
-      describe_drive(a["drive_status"]), a["offset"], a["unit"], a["largest_offset"], a["unit"]);
+      describe_drive(a["drive_status"]), a["offset"], a["unit"], a["largest_offset"], a["unit"],
+      a["largest_lag"], a["unit"]);
   text += describe_way(a);
   for (std::size_t bit = 1; bit < kStatusBits; ++bit) {
     const json& times = a["began"][name_of_bit(bit)];

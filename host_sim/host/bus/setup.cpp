@@ -6,7 +6,9 @@
 
 #include "comp/tables/image.hpp"
 #include "firmware/node/cia402_words.hpp"
+#include "firmware/node/node_objects.hpp"
 #include "firmware/node/object_handles.hpp"
+#include "firmware/node/offset_gate.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -167,7 +169,9 @@ BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz
         fmt::format("{}: [bus] has no cycle_hz, the rate of SYNC, and there is no "
                     "--cycle-hz",
                     machine.path));
-  BusSettings settings = bus_settings(machine, *cycle_hz);
+  MachineFile limited = machine;
+  limited.correction = machine.correction.with_default_acceleration();
+  BusSettings settings = bus_settings(limited, *cycle_hz);
   settings.node = node.value_or(settings.node);
   take_referenced_masks(machine, settings);
   const auto taken = [&](std::uint8_t other, const std::string& who) {
@@ -179,6 +183,19 @@ BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz
   for (const BusAxis& axis : settings.axes)
     taken(axis.drive, fmt::format("the drive of axis {}", axis.letter));
   return settings;
+}
+
+std::vector<OffsetFacts> node_offsets(const MachineFile& machine, const BusSettings& settings) {
+  const node::NodeObjects defaults{};
+  std::vector<OffsetFacts> facts;
+  for (const std::size_t a : axes_with_offsets(machine.chain)) {
+    OffsetLimits limits = settings.limits.axis.at(a);
+    limits.rate = node::OffsetGate::unhindered(limits.rate, defaults.late_cycles);
+    limits.soft_rate = std::min(limits.soft_rate, limits.rate);
+    facts.push_back(offset_facts(settings.axes.at(a).letter, settings.axes.at(a).rotary, limits,
+                                 1e-6 * settings.period_us));
+  }
+  return facts;
 }
 
 void refuse_while_following(NodeClient& client, std::optional<NmtState> state) {

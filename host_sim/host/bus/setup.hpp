@@ -11,15 +11,21 @@
 #include "host_sim/host/bus/node_client.hpp"
 #include "host_sim/host/bus/setup_plan.hpp"
 #include "host_sim/host/bus/table_transfer.hpp"
+#include "host_sim/host/machine/offset_facts.hpp"
 
 namespace volcomp::host {
 
 // How the machine is wired to a real bus. `cycle_hz` and `node` take precedence over the file.
 // Throws UserError when the file has no [bus] or no cycle rate, when an axis names its drive but
 // not what bits of 6041h mean referenced (2033h), or when two devices would have one
-// node id: on a real bus a wrong default of any of them moves axes wrongly.
+// node id: on a real bus a wrong default of any of them moves axes wrongly. Offsets whose
+// acceleration the file does not state get the default.
 [[nodiscard]] BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz,
                                     std::optional<std::uint8_t> node);
+
+// What limits the offsets of the axes in the node: a correction has only a part of 2202h.
+[[nodiscard]] std::vector<OffsetFacts> node_offsets(const MachineFile& machine,
+                                                    const BusSettings& settings);
 
 // One object and its value after the last of its writes.
 struct SetupValue {

@@ -96,6 +96,7 @@ void plan_axis(SetupPlan& plan, const BusSettings& b, std::size_t axis) {
   set(node::object::limit, l.limit, offset);
   set(node::object::slew, l.rate, offset);
   set(node::object::soft_rate, l.soft_rate, offset);
+  if (l.acceleration != 0) set(node::object::acceleration, l.acceleration, offset);
   set(node::object::hysteresis, l.hysteresis, offset);
   set(node::object::max_step, l.max_step, position);
 }
@@ -179,6 +180,7 @@ SetupPlan setup_plan(const MachineFile& machine, const BusSettings& settings,
   for (std::size_t i = 0; i < node::kNodeAxes; ++i) {
     plan_value(plan, node::object::way[i], 0);
     plan_value(plan, node::object::units_per_turn[i], 0);
+    plan_value(plan, node::object::acceleration[i], 0);
   }
   plan_value(plan, node::object::drives_report, 1);
   append(plan, node_plan(settings));

@@ -4,6 +4,7 @@
 #include "comp/strokes/helix_monitor.hpp"
 #include "comp/strokes/learning_choice.hpp"
 #include "comp/strokes/stroke_offsets.hpp"
+#include "host_sim/host/machine/machine_file.hpp"
 
 namespace volcomp::host {
 
@@ -15,6 +16,13 @@ struct WatchedStrokes {
   LearningRules around;  // the gear, for the table by slot
   LearningTarget target = LearningTarget::synchronisation;
 };
+
+inline constexpr double kNodeSpacing_mm = 0.25;  // of the tables along the stroke
+
+// For this gear and stroke: half of the error is learned per step, within limits that keep a bad
+// pass out and are several times what a grinder needs. `period_s`: of the cycle.
+[[nodiscard]] WatchedStrokes watched_strokes(const GrindingFile& job, double pitch_mm,
+                                             double period_s);
 
 // The process state that the controller sends with the targets of a cycle.
 struct ProcessState {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <ctime>
 
 namespace volcomp::host {
 namespace {
@@ -21,8 +22,23 @@ constexpr std::size_t kMostRemoved = 64;
 std::array<std::atomic<const char*>, kMostRemoved> removed{};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
+std::atomic<bool> ending{false};
+std::atomic<int> holding{0};  // threads between the creation of a file and its registration
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+// No thread begins to create a file any more. Not for ever: one may wait for memory that the
+// interrupted thread holds. The thread of the handler is none of them.
+void await_registrations() {
+  constexpr int kMostTurns = 100;
+  constexpr timespec kTurn{0, 1'000'000};
+  ending = true;
+  for (int turn = 0; turn < kMostTurns && holding.load() > 0; ++turn)
+    static_cast<void>(::nanosleep(&kTurn, nullptr));
+}
+
 // As without a handler, but for the files. Calls what a handler may (POSIX.1-2017, 2.4.3).
 void end_program(int signal) {
+  await_registrations();
   for (const std::atomic<const char*>& path : removed) {
     if (const char* const name = path.load(); name != nullptr) static_cast<void>(::unlink(name));
   }
@@ -44,8 +60,10 @@ void note(int signal) {
 // Only where the signal would end the program: not under nohup, nor while an Interruption lives.
 void end_program_by_signals() {
   for (const Noted& each : noted_signals) {
-    const auto before = std::signal(each.signal, end_program);
-    if (before != SIG_DFL) static_cast<void>(std::signal(each.signal, before));
+    struct sigaction now {};
+    const bool known = ::sigaction(each.signal, nullptr, &now) == 0;
+    if (known && now.sa_handler == SIG_DFL)
+      static_cast<void>(std::signal(each.signal, end_program));
   }
 }
 
@@ -84,15 +102,23 @@ void Interruption::check() const {
 }
 // NOLINTEND(readability-convert-member-functions-to-static)
 
+// Another thread receives what this one holds.
 SignalsHeld::SignalsHeld() {
+  end_program_by_signals();
   sigset_t held{};
   static_cast<void>(::sigemptyset(&held));
   for (const Noted& each : noted_signals)
     static_cast<void>(::sigaddset(&held, each.signal));
   static_cast<void>(::pthread_sigmask(SIG_BLOCK, &held, &before_));
+  ++holding;
+  if (!ending) return;
+  --holding;
+  for (;;)
+    static_cast<void>(::pause());
 }
 
 SignalsHeld::~SignalsHeld() {
+  --holding;
   static_cast<void>(::pthread_sigmask(SIG_SETMASK, &before_, nullptr));
 }
 

@@ -33,7 +33,8 @@ class Interruption {
 };
 
 // While one exists, this thread receives SIGINT, SIGTERM and SIGHUP only afterwards, and threads
-// that it starts never do: nothing is left between the creation of a file and its registration.
+// that it starts never do; where another thread receives one that ends the program, it waits for
+// this one: nothing is left between the creation of a file and its registration.
 class SignalsHeld {
  public:
   SignalsHeld();

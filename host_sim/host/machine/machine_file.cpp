@@ -26,6 +26,7 @@ void allow_fields(const Section& s, bool in_chain) {
   std::vector<std::string> fields{
       "name",          "travel_mm",       "travel_rad", "targets",        "reference_mm",
       "reference_rad", "sensed_point_mm", "kappa",      "latch_delay_us", "error_at_reference"};
+  fields.insert(fields.end(), axis_acceleration_fields().begin(), axis_acceleration_fields().end());
   fields.insert(fields.end(), drive_fields().begin(), drive_fields().end());
   if (in_chain) fields.insert(fields.end(), joint_fields().begin(), joint_fields().end());
   s.allow_only(fields);
@@ -65,6 +66,7 @@ AxisFile read_axis(const Section& s, std::size_t number, bool in_chain) {
   axis.sensed.at_zero = Vec3(point[0], point[1], point[2]);
   axis.sensed.kappa = static_cast<int>(s.integer("kappa", -1, 1));
   axis.latch_delay_us = read_delay_us(s, "latch_delay_us");
+  read_axis_acceleration(s, axis);
   axis.drive = read_drive(s, axis, number);
   if (s.has("error_at_reference")) axis.at_reference = read_error(s, "error_at_reference");
   return axis;
@@ -106,13 +108,15 @@ void read_correction(const Section& top, MachineFile& file, MachineDescription& 
   const Section s = top.table("correction");
   s.allow_only({"axes", "orienting", "limit_mm", "rate_mm_per_s", "hysteresis_mm",
                 "max_speed_mm_per_s", "limit_rad", "rate_rad_per_s", "hysteresis_rad",
-                "max_speed_rad_per_s", "ramp_s", "tick_hz"});
+                "max_speed_rad_per_s", "ramp_s", "tick_hz", "acceleration_mm_per_s2",
+                "acceleration_rad_per_s2"});
   const auto correcting = read_letters(s, "axes", kMaxCorrecting, "correcting", file);
   for (const std::uint8_t axis : correcting)
     d.correcting.at(d.correcting_count++) = axis;
   for (const std::uint8_t axis : read_orienting(s, file, correcting))
     d.orienting.at(d.orienting_count++) = axis;
   read_correction_values(s, file.correction);
+  read_offset_acceleration(s, file);
 }
 
 void read_tables(const Section& s, MachineFile& file) {
@@ -121,6 +125,20 @@ void read_tables(const Section& s, MachineFile& file) {
   if (s.has("interpolation")) {
     file.interpolation =
         static_cast<Interpolation>(s.choice("interpolation", {"linear", "catmull_rom", "pchip"}));
+  }
+}
+
+// A ball bar cannot have gone where the axes do not go.
+void require_circles_in_travel(const MachineFile& file, const Section& s) {
+  if (!file.squareness->circle_radius) return;
+  for (const AxisFile& axis : file.axes) {
+    if (axis.rotary || axis.letter < 'X' || axis.letter > 'Z') continue;
+    const double at = file.squareness->at(axis.letter - 'X');
+    const double radius = *file.squareness->circle_radius;
+    if (at - radius >= axis.lo && at + radius <= axis.hi) continue;
+    s.complain("circle_radius_mm",
+               fmt::format("the circle leaves the travel of {}: {:g} ± {:g} mm in {:g} … {:g}",
+                           axis.letter, at, radius, axis.lo, axis.hi));
   }
 }
 
@@ -168,11 +186,21 @@ MachineFile read_machine(const toml::value& root, const std::string& name) {
   if (top.has("thermal")) file.thermal = read_thermal(top.table("thermal"), file);
   if (top.has("probe")) file.probe = read_probe(top.table("probe"));
   if (top.has("gear") || top.has("wheel") || top.has("stroke")) file.grinding = read_grinding(top);
-  if (top.has("squareness")) file.squareness = read_squareness(top.table("squareness"));
+  if (top.has("squareness")) {
+    file.squareness = read_squareness(top.table("squareness"));
+    require_circles_in_travel(file, top.table("squareness"));
+  }
   return file;
 }
 
 }  // namespace
+
+CorrectionFile CorrectionFile::with_default_acceleration() const {
+  CorrectionFile limited = *this;
+  for (OffsetAcceleration& a : limited.acceleration)
+    a.stated = true;
+  return limited;
+}
 
 bool AxisFile::full_turn() const { return rotary && std::abs(hi - lo - 2.0 * kPi) < 1e-9; }
 

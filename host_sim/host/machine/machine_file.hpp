@@ -2,6 +2,7 @@
 // A machine as its owner describes it: machine.toml. Every mandatory field is named when it is
 // missing, every error carries file and line.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -52,6 +53,9 @@ struct AxisFile {
   SensedPoint sensed;
   double latch_delay_us = 0.0;  // of the touch probe input of its drive
   DriveFile drive;
+  // mm/s² or rad/s²: of the axis as it moves, and what its drive has beyond that; not said.
+  std::optional<double> max_acceleration;
+  std::optional<double> spare_acceleration;
   // Its error where the runs count as zero, in the convention and on the side of the file. For a
   // rotary axis: its position and tilt.
   ErrorMotion at_reference = ErrorMotion::Zero();
@@ -70,13 +74,17 @@ struct ProbeFile {
   double delay_us = 0.0;   // from the contact to the edge at the drives
 };
 
-// Squareness measured at a place: three lines through a point, each from two ends.
+// Squareness measured at a place: by circles of a ball bar about a point, or along three lines
+// through it, each from two ends.
 struct SquarenessFile {
   XyfzSquareness measured;
   Vec3 at = Vec3::Zero();
+  std::optional<double> circle_radius;  // mm; none: along lines
+  // Of the lines; without ends where only circles are stated.
   std::array<std::array<double, 2>, 3> segment{};
   std::size_t points = 7;  // per line
 
+  [[nodiscard]] bool has_lines() const { return segment[0][0] < segment[0][1]; }
   [[nodiscard]] std::vector<double> line(std::size_t axis) const;
 };
 
@@ -86,6 +94,12 @@ struct ThermalFile {
   double reference_C = 20.0;  // of the campaign
   double expires_days = 0.0;  // after tables are built; 0: never
   Expansions expansion{};     // by NC axis
+};
+
+// Largest acceleration of the offset of an axis.
+struct OffsetAcceleration {
+  double value = 0.0;   // mm/s² or rad/s²; 0: any
+  bool stated = false;  // by the file; otherwise the default, which only `setup` switches on
 };
 
 struct CorrectionFile {
@@ -100,6 +114,10 @@ struct CorrectionFile {
   double rate_rad_per_s = 0.05;
   double hysteresis_rad = 1e-5;
   double max_speed_rad_per_s = 0.0;
+  std::array<OffsetAcceleration, kMaxAxes> acceleration{};  // by NC axis
+
+  // Defaults count as stated.
+  [[nodiscard]] CorrectionFile with_default_acceleration() const;
 };
 
 // What a grinder of internal gears grinds, and how: [gear], [wheel] and [stroke].

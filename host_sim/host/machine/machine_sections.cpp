@@ -1,10 +1,15 @@
 #include "host_sim/host/machine/machine_sections.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
+#include "comp/metrology/circles/circle_test.hpp"
 #include "comp/metrology/tables/plausibility.hpp"
 #include "comp/probe/probe_rule.hpp"
+#include "comp/tick/offset_units.hpp"
 
 namespace volcomp::host {
 
@@ -27,8 +32,62 @@ void read_correction_values(const TomlSection& s, CorrectionFile& c) {
   read("tick_hz", c.tick_hz, 1.0, 1e5);
 }
 
+const std::vector<std::string>& axis_acceleration_fields() {
+  static const std::vector<std::string> fields{
+      "max_acceleration_mm_per_s2", "max_acceleration_rad_per_s2", "spare_acceleration_mm_per_s2",
+      "spare_acceleration_rad_per_s2"};
+  return fields;
+}
+
+namespace {
+
+constexpr double kMostAcceleration = 1e6;
+
+// Nothing where the field is missing.
+std::optional<double> read_acceleration(const TomlSection& s, const std::string& key,
+                                        double least) {
+  if (!s.has(key)) return {};
+  const double value = s.number(key);
+  if (!(value >= least && value <= kMostAcceleration))
+    s.complain(key, fmt::format("'{}' must be from {} to {}", key, least, kMostAcceleration));
+  return value;
+}
+
+}  // namespace
+
+void read_axis_acceleration(const TomlSection& s, AxisFile& axis) {
+  constexpr double kLeast = 1e-3;
+  const std::string unit = axis.rotary ? "rad_per_s2" : "mm_per_s2";
+  for (const std::string& key : axis_acceleration_fields()) {
+    const bool of_this_kind = key.find(unit) != std::string::npos;
+    if (s.has(key) && !of_this_kind)
+      s.complain(key,
+                 fmt::format("'{}' is not for a {} axis", key, axis.rotary ? "rotary" : "linear"));
+  }
+  axis.max_acceleration = read_acceleration(s, "max_acceleration_" + unit, kLeast);
+  axis.spare_acceleration = read_acceleration(s, "spare_acceleration_" + unit, kLeast);
+}
+
+void read_offset_acceleration(const TomlSection& correction, MachineFile& machine) {
+  const auto linear = read_acceleration(correction, "acceleration_mm_per_s2", 0.0);
+  const auto rotary = read_acceleration(correction, "acceleration_rad_per_s2", 0.0);
+  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    const AxisFile& axis = machine.axes[a];
+    const std::optional<double>& wanted = axis.rotary ? rotary : linear;
+    OffsetAcceleration& of_offset = machine.correction.acceleration.at(a);
+    of_offset.stated = wanted || axis.max_acceleration || axis.spare_acceleration;
+    const double unknown =
+        axis.rotary ? kSpareAcceleration_rad_per_s2 : kSpareAcceleration_mm_per_s2;
+    const double of_axis = axis.max_acceleration ? kSpareShare * *axis.max_acceleration : unknown;
+    of_offset.value = wanted.value_or(of_axis);
+    if (axis.spare_acceleration && (!wanted || *wanted > 0.0))
+      of_offset.value = std::min(of_offset.value, *axis.spare_acceleration);
+  }
+}
+
 SquarenessFile read_squareness(const TomlSection& s) {
-  s.allow_only({"a_xy_rad", "a_xz_rad", "a_yz_rad", "at_mm", "x_mm", "y_mm", "z_mm", "points"});
+  s.allow_only({"a_xy_rad", "a_xz_rad", "a_yz_rad", "at_mm", "circle_radius_mm", "x_mm", "y_mm",
+                "z_mm", "points"});
   SquarenessFile q;
   q.points = static_cast<std::size_t>(s.integer_or("points", 7, 2, 101));
   const std::array<std::string, 3> keys{"a_xy_rad", "a_xz_rad", "a_yz_rad"};
@@ -40,7 +99,15 @@ SquarenessFile read_squareness(const TomlSection& s) {
   q.measured = {angle[0], angle[1], angle[2]};
   const auto at = s.numbers<3>("at_mm");
   q.at = Vec3(at[0], at[1], at[2]);
+  if (s.has("circle_radius_mm")) {
+    const double radius = s.number("circle_radius_mm");
+    if (!(radius >= kLeastCircle && radius <= kMostCircle))
+      s.complain("circle_radius_mm", fmt::format("'circle_radius_mm' must be from {:g} to {:g}",
+                                                 kLeastCircle, kMostCircle));
+    q.circle_radius = radius;
+  }
   const std::array<std::string, 3> lines{"x_mm", "y_mm", "z_mm"};
+  if (q.circle_radius && !s.has("x_mm") && !s.has("y_mm") && !s.has("z_mm")) return q;
   for (std::size_t i = 0; i < 3; ++i) {
     q.segment[i] = s.numbers<2>(lines[i]);
     if (!(q.segment[i][0] < q.segment[i][1]))

@@ -10,6 +10,12 @@ namespace volcomp::host {
 // Limits, rates and times of [correction].
 void read_correction_values(const TomlSection& s, CorrectionFile& c);
 
+// Fields of [[axis]] for its acceleration, and their values.
+[[nodiscard]] const std::vector<std::string>& axis_acceleration_fields();
+void read_axis_acceleration(const TomlSection& s, AxisFile& axis);
+// Acceleration of the offsets from [correction] and what the axes state, which must be read.
+void read_offset_acceleration(const TomlSection& correction, MachineFile& machine);
+
 [[nodiscard]] SquarenessFile read_squareness(const TomlSection& s);
 
 // Needs the axes and the chain of the machine.

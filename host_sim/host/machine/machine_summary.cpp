@@ -9,6 +9,7 @@
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/machine/machine_bus.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
+#include "host_sim/host/machine/offset_facts.hpp"
 #include "host_sim/host/report/json_format.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/text_of.hpp"
@@ -225,6 +226,7 @@ json summary_of(const MachineFile& m) {
           {"tool_point_mm", {tool.x(), tool.y(), tool.z()}},
           {"axes", axis_facts(m)},
           {"correction", authority_facts(m)},
+          {"offsets", offset_json(offset_facts(m))},
           {"orientation", orientation_facts(m)},
           {"model", model_of(m)},
           {"node_id", m.bus.node},
@@ -254,6 +256,7 @@ std::string short_text(const MachineFile& m) {
     text += fmt::format("axis {}: {} {} to {} {}, {} targets, zero at {}\n", axis.letter,
                         axis.rotary ? "rotary" : "linear", axis.lo, axis.hi, unit_of(axis),
                         axis.targets, axis.reference);
+  text += offset_text(offset_facts(m));
   text += fmt::format("run-time model: {}\n", model_of(m));
   if (!m.squareness) text += "no [squareness]: tables will hold no squareness\n";
   return text;

@@ -86,7 +86,8 @@ class Identifier {
 
 // What an uncertainty of the targets becomes, and how well they are spread: the same at every node.
 void judge_targets(Identification& found) {
-  const std::array<Vec3, kTargets.size()> still{};
+  std::array<Vec3, kTargets.size()> still;
+  still.fill(Vec3::Zero());
   RigidFit fit;
   require(fit_rigid({kTargets.data(), kTargets.size()}, {still.data(), still.size()}, fit),
           "targets");
@@ -101,7 +102,15 @@ ErrorMotion mean_of(const std::vector<ErrorMotion>& motion) {
   return mean;
 }
 
-ErrorTable table_of(const IdentifiedAxis& axis, TableKind kind) {
+// The ends of a turn are one place, read twice.
+void join_ends(const Joint& joint, ErrorTable& table) {
+  if (!is_full_turn(table, joint)) return;
+  ErrorMotion& first = table.forward[0];
+  ErrorMotion& last = table.forward[table.knots - 1];
+  first = last = ErrorMotion(0.5 * (first + last));
+}
+
+ErrorTable table_of(const IdentifiedAxis& axis, const Joint& joint, TableKind kind) {
   ErrorTable table;
   table.knots = axis.nodes.size();
   table.q0 = axis.nodes.front();
@@ -112,6 +121,7 @@ ErrorTable table_of(const IdentifiedAxis& axis, TableKind kind) {
     if (kind == TableKind::means) table.forward[i] = mean;
     if (kind == TableKind::none) table.forward[i].setZero();
   }
+  join_ends(joint, table);
   table.backward = table.forward;
   return table;
 }
@@ -150,7 +160,7 @@ IdentifiedModel::IdentifiedModel(const Identification& found, TableKind kind,
   model_.chain = chain;
   model_.tool_point = chain.tool_point();
   for (std::size_t a = 0; a < found.axis.size(); ++a) {
-    tables_[a] = table_of(found.axis[a], kind);
+    tables_[a] = table_of(found.axis[a], chain.axis(a), kind);
     model_.table[a] = &tables_[a];
   }
 }
@@ -168,7 +178,8 @@ MachineTables tables_of(const Identification& found, const MachineFile& file,
   tables.machine = machine;
   tables.provenance.machine_id = file.id;
   for (std::size_t a = 0; a < found.axis.size(); ++a)
-    require(quantise(table_of(found.axis[a], kind), file.chain.axis(a), knots, tables.axis[a]),
+    require(quantise(table_of(found.axis[a], file.chain.axis(a), kind), file.chain.axis(a), knots,
+                     tables.axis[a]),
             file.path);
   return tables;
 }

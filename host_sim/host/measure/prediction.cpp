@@ -1,5 +1,7 @@
 #include "host_sim/host/measure/prediction.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -68,6 +70,23 @@ std::vector<double> TablesModel::deviations_um(const std::string& diagonal,
   for (const double distance : distance_mm)
     deviations.push_back(error_along(distance) - first);
   return deviations;
+}
+
+PredictedDiagonal TablesModel::prediction(const std::string& diagonal,
+                                          const std::vector<double>& distance_mm,
+                                          const std::vector<double>& before_um,
+                                          const std::vector<double>& after_um) const {
+  const std::vector<double> model = deviations_um(diagonal, distance_mm);
+  PredictedDiagonal p;
+  double squares = 0.0;
+  for (std::size_t t = 0; t < model.size(); ++t) {
+    p.after_um.push_back(before_um[t] - model[t]);
+    const double difference = after_um[t] - p.after_um[t];
+    p.max_difference_um = std::max(p.max_difference_um, std::abs(difference));
+    squares += difference * difference;
+  }
+  p.rms_difference_um = std::sqrt(squares / static_cast<double>(model.size()));
+  return p;
 }
 
 }  // namespace volcomp::host

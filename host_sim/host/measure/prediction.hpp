@@ -11,6 +11,12 @@
 
 namespace volcomp::host {
 
+struct PredictedDiagonal {
+  std::vector<double> after_um;    // measured before, less the model
+  double max_difference_um = 0.0;  // of what was measured after from it
+  double rms_difference_um = 0.0;
+};
+
 // The model of a table image in double.
 class TablesModel {
  public:
@@ -28,16 +34,16 @@ class TablesModel {
   [[nodiscard]] std::vector<double> deviations_um(const std::string& diagonal,
                                                   const std::vector<double>& distance_mm) const;
 
+  // What is left of `before_um` after it, held against `after_um`.
+  [[nodiscard]] PredictedDiagonal prediction(const std::string& diagonal,
+                                             const std::vector<double>& distance_mm,
+                                             const std::vector<double>& before_um,
+                                             const std::vector<double>& after_um) const;
+
  private:
   DiagonalBox box_;
   XyzAxes axes_;
   TableModel tables_;
-};
-
-struct PredictedDiagonal {
-  std::vector<double> after_um;    // measured before, less the model
-  double max_difference_um = 0.0;  // of what was measured after from it
-  double rms_difference_um = 0.0;
 };
 
 }  // namespace volcomp::host

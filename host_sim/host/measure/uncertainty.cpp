@@ -44,15 +44,17 @@ bool knows_expansion(const UncertaintyStatement& s) {
   return s.expansion_limits_um_per_m_K && s.from_20_K;
 }
 
+// The cosine error of a diagonal lies between 0 and this: r² / 2 L.
+double most_cosine_um(double misalignment_mm, double length_mm) {
+  return 1e3 * misalignment_mm * misalignment_mm / (2.0 * length_mm);
+}
+
 // Along the diagonal: they stretch all of it, so they act on what is compared over its length.
 void add_lengths(const UncertaintyStatement& s, double length_mm, std::vector<Contribution>& out) {
   const double length_m = 1e-3 * length_mm;
   if (s.device_um_per_m) out.push_back({"device", 0.5 * *s.device_um_per_m * length_m});
-  if (s.misalignment_mm) {
-    // The cosine error lies between 0 and r² / 2 L.
-    const double most_um = 1e3 * *s.misalignment_mm * *s.misalignment_mm / (2.0 * length_mm);
-    out.push_back({"alignment", rectangular(most_um)});
-  }
+  if (s.misalignment_mm)
+    out.push_back({"alignment", rectangular(most_cosine_um(*s.misalignment_mm, length_mm))});
   if (knows_temperature(s))
     out.push_back(
         {"temperature", *s.expansion_um_per_m_K * rectangular(2.0 * *s.temperature_K) * length_m});
@@ -109,7 +111,7 @@ std::vector<Contribution> contributions(const UncertaintyStatement& s, const Rep
   const bool along = figure == FigureKind::largest || figure == FigureKind::systematic;
   if (along) add_lengths(s, r.length_mm, out);
   // The figure is the difference of two means of n readings, or of 2 n where it uses the means of
-  // both directions; of single readings for R, which is four standard deviations.
+  // both directions; of single readings for R.
   const auto n = static_cast<double>(r.runs);
   const bool both = figure == FigureKind::largest && r.both_directions;
   const double difference = std::sqrt(2.0 / (both ? 2.0 * n : n));
@@ -117,10 +119,6 @@ std::vector<Contribution> contributions(const UncertaintyStatement& s, const Rep
   if (s.eve_um)
     out.push_back({"environmental variation",
                    rectangular(*s.eve_um) * (repeatability ? std::sqrt(2.0) : difference)});
-  if (r.runs > 1) {
-    const double of_four_sigma = 4.0 / std::sqrt(2.0 * (n - 1.0));
-    out.push_back({"repeatability", r.spread_um * (repeatability ? of_four_sigma : difference)});
-  }
   return out;
 }
 
@@ -130,6 +128,31 @@ std::optional<double> expanded_um(const std::vector<Contribution>& contributions
   for (const Contribution& c : contributions)
     squares += c.u_um * c.u_um;
   return 2.0 * std::sqrt(squares);
+}
+
+StatedErrors stated_errors(const UncertaintyStatement& s, double length_mm) {
+  std::vector<Contribution> list;
+  UncertaintyStatement aligned = s;
+  aligned.misalignment_mm.reset();
+  add_lengths(aligned, length_mm, list);
+  double squares = 0.0;
+  for (const Contribution& c : list)
+    squares += c.u_um * c.u_um;
+  if (s.misalignment_mm) {
+    const double most = most_cosine_um(*s.misalignment_mm, length_mm);
+    squares += most * most / 3.0;
+  }
+  return {std::sqrt(squares) / length_mm, s.eve_um.value_or(0.0)};
+}
+
+std::vector<StatedValue> stated_values(const UncertaintyStatement& s, bool of_diagonals,
+                                       bool of_volume) {
+  std::vector<StatedValue> list;
+  for (const Field& f : kFields) {
+    const bool wanted = f.member == &UncertaintyStatement::volume_um ? of_volume : of_diagonals;
+    if (wanted && s.*f.member) list.push_back({f.key, *(s.*f.member)});
+  }
+  return list;
 }
 
 std::vector<std::string> left_out(const UncertaintyStatement& s, bool repeated) {

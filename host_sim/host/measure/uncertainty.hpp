@@ -1,13 +1,17 @@
 #pragma once
-// Measurement uncertainty of figures taken from diagonals, in the way of ISO/TR 230-9: standard
-// uncertainties of independent contributions add as squares, and twice the root is stated (k = 2).
-// The formulas are derived here from the distributions named; they were not checked against the
-// printed report. Nothing has a default: what the user does not state is left out and named.
+// What instrument and surroundings add to figures taken from diagonals, in two ways. As ISO/TR
+// 230-9 has it: standard uncertainties of independent contributions add as squares, and twice the
+// root is stated (k = 2); the scatter of the machine is what is measured and no contribution. And
+// as errors common to all readings, for the intervals of the figures (host/measure/intervals). The
+// formulas are derived here from the distributions named; they were not checked against the printed
+// report. Nothing has a default: what the user does not state is left out and named.
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "host_sim/host/measure/intervals/run_draws.hpp"
 
 namespace volcomp::host {
 
@@ -42,7 +46,6 @@ struct Repetition {
   double length_mm = 0.0;  // from the first target to the last
   std::size_t runs = 0;    // of the direction with fewer
   bool both_directions = false;
-  double spread_um = 0.0;  // standard deviation of single readings, pooled; 0 for one run
 };
 
 struct Contribution {
@@ -64,6 +67,19 @@ enum class FigureKind : std::uint8_t {
 
 // k = 2; nothing without contributions.
 [[nodiscard]] std::optional<double> expanded_um(const std::vector<Contribution>& contributions);
+
+// What is common to the readings of a diagonal of this length, µm and µm/mm: everything that grows
+// with the length as one scale, the drift as it is. The cosine error lies between 0 and r²/2L and
+// is not taken off, so its root mean square counts, not its standard deviation as above.
+[[nodiscard]] StatedErrors stated_errors(const UncertaintyStatement& statement, double length_mm);
+
+// Keys and values of what is stated of diagonals, and of the volume.
+struct StatedValue {
+  std::string key;
+  double value = 0.0;
+};
+[[nodiscard]] std::vector<StatedValue> stated_values(const UncertaintyStatement& statement,
+                                                     bool of_diagonals, bool of_volume);
 
 // The contributions left out, each as a text with the name of its key.
 [[nodiscard]] std::vector<std::string> left_out(const UncertaintyStatement& statement,

@@ -40,9 +40,15 @@ json diagonals_group(const VerificationResult& r) {
 json figures_table(const VerificationResult& r) {
   json table = verification_figures(r);
   table["note"] =
-      "E: bidirectional systematic deviation, B: reversal, R: repeatability; E_d and B_d: the "
-      "largest of all diagonals of a kind (ISO 230-6, ISO 230-2). U: expanded uncertainty, "
-      "k = 2. Volume: lengths of the error vectors after aligning the workpiece frame.";
+      "E: bidirectional systematic deviation, B: reversal, M: range of the mean of both "
+      "directions, "
+      "A: accuracy, R: repeatability; E_d and B_d: the largest of all diagonals of a kind (ISO "
+      "230-6, ISO 230-2). As measured: the figure of the standard, which noise makes larger. "
+      "Corrected, interval and upper bound: of the figure without noise, 95 %; the bound of E_d "
+      "and "
+      "B_d holds for every diagonal of the kind. Volume: lengths of the error vectors after "
+      "aligning "
+      "the workpiece frame.";
   return table;
 }
 
@@ -92,12 +98,13 @@ json uncertainty_section(const VerificationResult& r) {
     rows.push_back({name + ": left out", nullptr});
   return {{"type", "table"},
           {"id", "uncertainty"},
-          {"title", "Uncertainty of E, of the diagonal where it is largest"},
+          {"title", "ISO/TR 230-9: instrument and surroundings, of E where they do most"},
           {"columns", {{{"title", "contribution"}}, column("U (k = 2)", "µm", 2)}},
           {"rows", rows},
           {"note",
-           "Contributions are independent; a difference smaller than the uncertainties of both "
-           "figures together is called not significant."}};
+           "Contributions are independent. The scatter of the machine is not among them; the "
+           "intervals hold it together with these. A difference is significant where the intervals "
+           "before and after do not touch."}};
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
-// A verification as text, as a table and as JSON.
+// A verification as verdict, text, table and JSON.
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -12,7 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-const char* code(Change change) {
+// "not significant", or with `spelled_out` as part of a sentence.
+const char* word(Change change, bool spelled_out = false) {
   switch (change) {
     case Change::better:
       return "better";
@@ -21,17 +24,101 @@ const char* code(Change change) {
     case Change::not_significant:
       break;
   }
-  return "not significant";
+  return spelled_out ? "no significant difference" : "not significant";
 }
 
 json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(); }
+
+// No interval says that nothing is there.
+std::string noise_or(double um) { return um > 0.0 ? fmt::format("{:.2f}", um) : "below the noise"; }
+
+std::string within_limit(const FigureComparison& f, double limit) {
+  const std::string bound = !f.after.interval ? ""
+                            : f.after.interval->upper95 > 0.0
+                                ? fmt::format(", upper bound {:.2f} µm", f.after.interval->upper95)
+                                : ", upper bound below the noise";
+  if (f.after.most_um() <= limit) return fmt::format("within {:g} µm{}", limit, bound);
+  if (f.after.um <= limit) return fmt::format("not within {:g} µm for certain{}", limit, bound);
+  return fmt::format("more than {:g} µm{}", limit, bound);
+}
+
+// --- cells of the table of figures
+
+json row_of(const FigureComparison& f, const Figure& figure, const char* when) {
+  json row{f.where, f.name, when, figure.um};
+  if (figure.interval) {
+    const FigureInterval& i = *figure.interval;
+    row.push_back(noise_or(i.corrected));
+    row.push_back(fmt::format("{:.2f} … {:.2f}", i.low, i.high));
+    row.push_back(noise_or(i.upper95));
+  } else {
+    for (int i = 0; i < 3; ++i)
+      row.push_back("-");
+  }
+  return row;
+}
+
+std::string difference_of(const FigureComparison& f) {
+  return fmt::format("{}{}", word(f.change), f.by_statistics() ? "" : ", without statistics");
+}
+
+json figure_json(const Figure& f) {
+  json j{{"um", f.um}};
+  const auto add = [&](const char* name, double FigureInterval::*member) {
+    j[name] = f.interval ? json(*f.interval.*member) : json();
+  };
+  add("corrected_um", &FigureInterval::corrected);
+  add("low_um", &FigureInterval::low);
+  add("high_um", &FigureInterval::high);
+  add("upper95_um", &FigureInterval::upper95);
+  return j;
+}
+
+json figures_json(const VerificationResult& r) {
+  json figures = json::array();
+  for (const FigureComparison& f : r.figures)
+    figures.push_back(
+        {{"where", f.where},
+         {"figure", f.name},
+         {"before", figure_json(f.before)},
+         {"after", figure_json(f.after)},
+         {"reduction_percent", f.before.um > 0.0 ? json(f.reduction_percent()) : json()},
+         {"change", word(f.change)},
+         {"by_statistics", f.by_statistics()},
+         {"decides", f.decides}});
+  return figures;
+}
+
+std::string figure_csv(const Figure& f) {
+  if (!f.interval) return ",,,,";
+  const FigureInterval& i = *f.interval;
+  return fmt::format(",{:.4f},{:.4f},{:.4f},{:.4f}", i.corrected, i.low, i.high, i.upper95);
+}
+
+// --- lines below it
+
+void add_intervals(const VerificationInput& input, const VerificationResult& r,
+                   std::vector<std::string>& lines) {
+  const bool any = std::any_of(r.figures.begin(), r.figures.end(), [](const FigureComparison& f) {
+    return f.before.interval || f.after.interval;
+  });
+  if (!any) return;
+  std::vector<std::string> stated;
+  for (const StatedValue& s : r.stated)
+    stated.push_back(fmt::format("{} {:g}", s.key, s.value));
+  lines.push_back(fmt::format("intervals: scatter of the runs{}{}; {} draws, seed {}",
+                              stated.empty() ? "" : " and ", fmt::join(stated, ", "), input.draws,
+                              input.seed));
+}
 
 void add_uncertainty(const VerificationResult& r, std::vector<std::string>& lines) {
   std::vector<std::string> parts;
   for (const Contribution& c : r.largest_contributions)
     parts.push_back(fmt::format("{} {:.2f} µm", c.name, 2.0 * c.u_um));
   if (!parts.empty())
-    lines.push_back(fmt::format("uncertainty (k = 2) of E, at most: {}", fmt::join(parts, ", ")));
+    lines.push_back(fmt::format(
+        "ISO/TR 230-9, instrument and surroundings only: U (k = 2) of E is {:.2f} µm at most: {}",
+        *expanded_um(r.largest_contributions), fmt::join(parts, ", ")));
   if (!r.left_out.empty())
     lines.push_back(fmt::format("left out of the uncertainty: {}", fmt::join(r.left_out, "; ")));
 }
@@ -49,13 +136,6 @@ void add_predictions(const VerificationResult& r, std::vector<std::string>& line
   }
 }
 
-json uncertainty_column(const char* title, const char* name) {
-  json made = column(title, "µm", 2, name);
-  made["prefix"] = "± ";
-  made["missing"] = "± ?";
-  return made;
-}
-
 json curves_json(const DiagonalCurves& c) {
   json j{{"name", c.name},
          {"distance_mm", c.distance_mm},
@@ -71,28 +151,52 @@ json curves_json(const DiagonalCurves& c) {
 
 }  // namespace
 
+void judge(const VerificationInput& input, VerificationResult& r) {
+  r.ok = true;
+  std::vector<std::string> parts;
+  for (const FigureComparison& f : r.figures) {
+    if (f.name == "E" && f.change == Change::worse && !input.limit_um) {
+      r.ok = false;
+      parts.push_back(fmt::format("{} is significantly worse", f.where));
+    }
+    if (!f.decides) continue;
+    const bool good =
+        input.limit_um ? f.after.most_um() <= *input.limit_um : f.change == Change::better;
+    r.ok = r.ok && good;
+    const bool statistics = input.limit_um ? f.after.interval.has_value() : f.by_statistics();
+    parts.push_back(fmt::format(
+        "{} {} {:.2f} µm before, {:.2f} µm after ({}{})", f.where, f.name, f.before.um, f.after.um,
+        input.limit_um ? within_limit(f, *input.limit_um) : word(f.change, true),
+        statistics ? "" : ", without statistics"));
+  }
+  r.verdict = fmt::format("{}", fmt::join(parts, ", "));
+}
+
 json verification_figures(const VerificationResult& r) {
   json rows = json::array();
-  for (const FigureComparison& f : r.figures)
-    rows.push_back({f.where, f.name, f.before.um, number_or_null(f.before.U_um), f.after.um,
-                    number_or_null(f.after.U_um),
-                    f.before.um > 0.0 ? json(f.reduction_percent()) : json(), code(f.change),
-                    f.decides});
+  for (const FigureComparison& f : r.figures) {
+    json before = row_of(f, f.before, "before");
+    before.push_back("");
+    before.push_back("");
+    json after = row_of(f, f.after, "after");
+    after.push_back(f.before.um > 0.0 ? json(f.reduction_percent()) : json());
+    after.push_back(difference_of(f));
+    rows.push_back(std::move(before));
+    rows.push_back(std::move(after));
+  }
   json table = table_section(
       "Figures",
-      {plain_column("where", "where"), plain_column("figure", "figure"),
-       column("before", "µm", 2, "before/um"), uncertainty_column("U before", "before/U_um"),
-       column("after", "µm", 2, "after/um"), uncertainty_column("U after", "after/U_um"),
-       column("reduction", "%", 2, "reduction_percent"), plain_column("difference", "change"),
-       hidden_column("decides")},
+      {plain_column("where"), plain_column("figure"), plain_column("when"),
+       column("as measured", "µm", 2), column("corrected", "µm", 2), column("95 %", "µm", 2),
+       column("upper bound", "µm", 2), column("reduction", "%", 2), plain_column("difference")},
       rows);
   table["id"] = "figures";
-  table["name"] = "figures";
   return table;
 }
 
 std::string verification_text(const VerificationInput& input, const VerificationResult& r) {
   std::vector<std::string> remarks;
+  add_intervals(input, r, remarks);
   add_uncertainty(r, remarks);
   add_predictions(r, remarks);
   remarks.insert(remarks.end(), r.remarks.begin(), r.remarks.end());
@@ -107,14 +211,15 @@ std::string verification_text(const VerificationInput& input, const Verification
 }
 
 std::string verification_csv(const VerificationResult& r) {
-  std::string text =
-      "where,figure,before [um],U before [um],after [um],U after [um],reduction [%],change\n";
-  const auto U = [](const Figure& f) { return f.U_um ? fmt::format("{:.4f}", *f.U_um) : ""; };
+  std::string text = "where,figure,before [um],after [um],reduction [%],change";
+  for (const char* when : {"before", "after"})
+    text += fmt::format(",{0} corrected [um],{0} low [um],{0} high [um],{0} upper95 [um]", when);
+  text += '\n';
   for (const FigureComparison& f : r.figures) {
-    text += fmt::format("{},{},{:.4f},{},{:.4f},{},{},{}\n", f.where, f.name, f.before.um,
-                        U(f.before), f.after.um, U(f.after),
+    text += fmt::format("{},{},{:.4f},{:.4f},{},{}", f.where, f.name, f.before.um, f.after.um,
                         f.before.um > 0.0 ? fmt::format("{:.3f}", f.reduction_percent()) : "",
-                        code(f.change));
+                        word(f.change));
+    text += figure_csv(f.before) + figure_csv(f.after) + '\n';
   }
   return text;
 }
@@ -123,20 +228,19 @@ json verification_json(const VerificationInput& input, const VerificationResult&
   json contributions = json::array();
   for (const Contribution& c : r.largest_contributions)
     contributions.push_back({{"name", c.name}, {"U_um", 2.0 * c.u_um}});
+  json stated = json::array();
+  for (const StatedValue& value : r.stated)
+    stated.push_back({{"name", value.key}, {"value", value.value}});
   json diagonals = json::array();
   for (const DiagonalCurves& c : r.curves)
     diagonals.push_back(curves_json(c));
-  return {{"version", kVersion},
-          {"before", input.before.name},
-          {"after", input.after.name},
-          {"ok", r.ok},
-          {"verdict", r.verdict},
-          {"limit_um", number_or_null(input.limit_um)},
-          {"figures", figures_of_table(verification_figures(r))},
-          {"diagonals", diagonals},
-          {"uncertainty_of_E", contributions},
-          {"left_out", r.left_out},
-          {"remarks", r.remarks}};
+  return {{"version", kVersion},        {"before", input.before.name},
+          {"after", input.after.name},  {"ok", r.ok},
+          {"verdict", r.verdict},       {"limit_um", number_or_null(input.limit_um)},
+          {"figures", figures_json(r)}, {"draws", input.draws},
+          {"seed", input.seed},         {"stated", stated},
+          {"diagonals", diagonals},     {"uncertainty_of_E", contributions},
+          {"left_out", r.left_out},     {"remarks", r.remarks}};
 }
 
 }  // namespace volcomp::host

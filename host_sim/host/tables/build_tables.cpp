@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/metrology/circles/circle_squareness.hpp"
 #include "comp/metrology/tables/squareness.hpp"
 #include "comp/tables/image.hpp"
 #include "comp/tick/instances.hpp"
@@ -143,10 +144,17 @@ void close_loop(const MachineFile& machine, BuiltTables& out) {
       q[axis[k]] = p(static_cast<Eigen::Index>(k));
     return out.model.first_order(q, kUnknownTravels, Beyond::lever_as_given);
   };
-  const std::vector<double> x = s.line(0);
-  const std::vector<double> y = s.line(1);
-  const std::vector<double> z = s.line(2);
-  out.apparent = apparent_squareness(error_at, {s.at, x, y, z});
+  XyfzSquareness on_lines;
+  if (s.has_lines()) {
+    const std::vector<double> x = s.line(0);
+    const std::vector<double> y = s.line(1);
+    const std::vector<double> z = s.line(2);
+    on_lines = apparent_squareness(error_at, {s.at, x, y, z});
+  }
+  out.apparent = on_lines;
+  if (!s.circle_radius) return;
+  require(squareness_on_circles(error_at, {s.at, *s.circle_radius}, out.apparent), machine.path);
+  if (s.has_lines()) out.circles_less_lines = close_squareness(out.apparent, on_lines);
 }
 
 bool has_three_slides(const MachineFile& machine) {

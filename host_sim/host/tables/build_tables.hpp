@@ -54,7 +54,9 @@ struct BuiltTables {
   std::vector<std::unique_ptr<ErrorTable>> refined;  // internal convention, what is quantised
   std::vector<std::optional<TurnGap>> gaps;          // by NC axis, of full turns
   VolumetricModel model;
-  XyfzSquareness apparent;    // what the tables show at the place of the ball bar
+  XyfzSquareness apparent;  // what the tables show where it was measured, in the same way
+  // By circles less along lines, where the file states both: what one would take for the other.
+  std::optional<XyfzSquareness> circles_less_lines;
   XyfzSquareness parameters;  // what goes into the model
   MachineTables tables;
   double model_bound_nm = 0.0;        // first-order run-time model against the exact chain, 0 if

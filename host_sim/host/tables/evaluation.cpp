@@ -31,7 +31,7 @@ OrientingCompensator::Settings unlimited() {
   settings.source = PositionSource::actual;
   settings.ramp_ticks = 1;
   for (AxisLimits& axis : settings.axis)
-    axis = {4'194'303, 1'000'000'000, 1'000'000'000, 0, 0};
+    axis = {{4'194'303, 1'000'000'000, 1'000'000'000, 0}, 0, 0};
   return settings;
 }
 

@@ -62,13 +62,9 @@ Campaign measure_any_machine(const TrueMachine& truth, const host::MachineFile& 
     locate_axis(truth, classes, a, campaign.machine, random);
   }
   if (!file.squareness) return campaign;
-  const host::SquarenessFile& place = *file.squareness;
-  const std::vector<double> x = place.line(0);
-  const std::vector<double> y = place.line(1);
-  const std::vector<double> z = place.line(2);
-  campaign.machine.squareness->measured = measure_squareness(
-      truth, truth.chain.tool_point(), {place.at, x, y, z}, classes.ball_bar_rad, random,
-      {file.axis_index('X'), file.axis_index('Y'), file.axis_index('Z')});
+  campaign.machine.squareness->measured =
+      measure_squareness(truth, *file.squareness, classes, random,
+                         {file.axis_index('X'), file.axis_index('Y'), file.axis_index('Z')});
   return campaign;
 }
 

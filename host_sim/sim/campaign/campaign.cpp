@@ -86,12 +86,8 @@ Campaign measure_machine(const TrueMachine& truth, const host::MachineFile& file
     campaign.runs.push_back(
         measure_axis(truth, file.axes[a], a, file.axes[a].sensed, classes, runs, random));
   }
-  const host::SquarenessFile& place = *file.squareness;
-  const std::vector<double> x = place.line(0);
-  const std::vector<double> y = place.line(1);
-  const std::vector<double> z = place.line(2);
-  campaign.machine.squareness->measured = measure_squareness(
-      truth, truth.chain.tool_point(), {place.at, x, y, z}, classes.ball_bar_rad, random);
+  campaign.machine.squareness->measured =
+      measure_squareness(truth, *file.squareness, classes, random);
   return campaign;
 }
 

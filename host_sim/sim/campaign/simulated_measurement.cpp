@@ -66,13 +66,9 @@ void have_squareness(const host::MachineFile& file, TrueMachine& machine) {
   const host::SquarenessFile& s = *file.squareness;
   const std::array<std::size_t, 3> xyz{file.axis_index('X'), file.axis_index('Y'),
                                        file.axis_index('Z')};
-  const std::vector<double> x = s.line(0);
-  const std::vector<double> y = s.line(1);
-  const std::vector<double> z = s.line(2);
-  Random unused(0);
   // Unit gain, so one step is exact.
-  const XyfzSquareness own =
-      measure_squareness(machine, machine.chain.tool_point(), {s.at, x, y, z}, 0.0, unused, xyz);
+  Random unused(0);
+  const XyfzSquareness own = measure_squareness(machine, s, no_noise(), unused, xyz);
   const DirectionErrors directions = xyfz_directions(close_squareness(s.measured, own));
   for (std::size_t k = 0; k < 3; ++k)
     machine.directions[xyz[k]] = directions[k];

@@ -5,15 +5,14 @@
 namespace volcomp::sim {
 
 void AxisGroup::watch(MachineWatch& watch, std::string letters, const host::AxisKinds& kinds) {
-  watch_ = &watch;
   letters_ = std::move(letters);
   kinds_ = kinds;
   snapshot_ = {};
-  snapshot_.machine = watch.enter();
+  observer_ = watch.enter();
 }
 
 void AxisGroup::show() {
-  if (watch_ == nullptr) return;
+  if (!observer_) return;
   MachineSnapshot& s = snapshot_;
   ++s.cycle;
   s.period_s = period_s();
@@ -26,7 +25,7 @@ void AxisGroup::show() {
     s.axis[a] = {letters_.at(a), kinds_.rotary[a], targets[a],   offsets[a],
                  pose[a],        latched[a].count, std::nullopt, std::nullopt};
   add_states(s);
-  watch_->cycle(s);
+  observer_->cycle(s);
 }
 
 }  // namespace volcomp::sim

@@ -2,6 +2,7 @@
 // The axes of a machine under compensation, moved one control period at a time. The implementation
 // decides what carries the targets to the drives: a servo interrupt or a bus.
 
+#include <memory>
 #include <string>
 
 #include "host_sim/host/machine/axis_kinds.hpp"
@@ -55,7 +56,7 @@ class AxisGroup {
   virtual void add_states(MachineSnapshot& /*snapshot*/) const {}
 
  private:
-  MachineWatch* watch_ = nullptr;
+  std::unique_ptr<MachineObserver> observer_;  // null: nothing looks on
   std::string letters_;
   host::AxisKinds kinds_;
   MachineSnapshot snapshot_;

@@ -76,7 +76,8 @@ BusAxes::BusAxes(const host::BusSettings& settings, const std::vector<std::uint8
       controller_(settings, image),
       node_(std::make_unique<node::Node>(settings.node, nullptr)) {
   build(settings);
-  node_port_ = &bus_.attach(node_->device(), "node");
+  node_port_ = &bus_.attach_resting(node_->device(), "node",
+                                    [node = node_.get()] { return node->rests_until_us(); });
   node_->power_on(0);
 }
 
@@ -91,7 +92,7 @@ void BusAxes::build(const host::BusSettings& settings) {
   if (settings.axes.empty() || settings.axes.size() > host::kMostAxes)
     throw host::UserError(fmt::format("the simulated bus takes 1 to {} axes, the machine has {}",
                                       host::kMostAxes, settings.axes.size()));
-  bus_.attach(controller_, "controller");
+  bus_.attach_resting(controller_, "controller", [this] { return controller_.rests_until_us(); });
   for (const host::BusAxis& axis : settings.axes) {
     Cia402Drive::Settings s;
     s.node_id = axis.drive;
@@ -105,14 +106,21 @@ void BusAxes::build(const host::BusSettings& settings) {
   }
 }
 
+void BusAxes::serve_drive(std::size_t a, std::uint64_t now_us) {
+  Cia402Drive& drive = *drive_[a];
+  Rest& rest = drive_rest_[a];
+  if (rest.over(now_us, bus_.called()))
+    rest.serve(drive, *drive_port_[a], now_us, [&drive] { return drive.rests_until_us(); });
+}
+
 void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& name) {
   Cia402Drive& drive = *drive_.emplace_back(std::make_unique<Cia402Drive>(settings));
-  const auto serve = [this, &drive](SimulatedBus::Port& port, std::uint64_t now_us) {
-    if (probe_) {
-      serve_drives(now_us);
-    } else {
-      canopen::exchange(drive, port, now_us);
-    }
+  const std::size_t a = drive_.size() - 1;
+  drive_rest_.emplace_back();
+  const auto serve = [this, a](SimulatedBus::Port& port, std::uint64_t now_us) {
+    if (probe_) return serve_drives(now_us);
+    drive_rest_[a].receive(*drive_[a], port, now_us);
+    serve_drive(a, now_us);
   };
   drive_port_.push_back(&bus_.attach_served(name, serve));
   drive.power_on(0);

@@ -86,6 +86,7 @@ class BusAxes final : public AxisGroup {
   [[nodiscard]] bool node_answers();
   [[nodiscard]] std::uint64_t shortest_cycle_us() const;
   void await_node();
+  void serve_drive(std::size_t a, std::uint64_t now_us);
   void serve_drives(std::uint64_t now_us);
   void feel();
   [[nodiscard]] std::int64_t drive_units(std::size_t a, std::int64_t run_time_units) const;
@@ -95,6 +96,7 @@ class BusAxes final : public AxisGroup {
   BusController controller_;
   std::vector<std::unique_ptr<Cia402Drive>> drive_;
   std::vector<SimulatedBus::Port*> drive_port_;
+  std::vector<Rest> drive_rest_;
   SimulatedBus::Port* node_port_ = nullptr;
   std::unique_ptr<node::Node> node_;  // in this process
   CanGateway* gateway_ = nullptr;

@@ -8,6 +8,7 @@
 #include "comp/tick/tick_types.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
+#include "host_sim/host/bus/cia402_objects.hpp"
 
 namespace volcomp::sim {
 
@@ -171,6 +172,39 @@ void BusController::supervise(Station& s, std::uint64_t now_us) {
   } else if (s.phase == Station::Phase::absent) {
     reset_silent(s, now_us);
   }
+}
+
+std::uint64_t BusController::sends_at_us() const {
+  const auto idle = [](const Station& s) { return s.channel.idle(); };
+  const bool nothing = outgoing_.empty() && std::all_of(stations_.begin(), stations_.end(), idle);
+  return nothing ? UINT64_MAX : 0;
+}
+
+std::uint64_t BusController::rests_until_us() const {
+  std::uint64_t until_us = std::min(next_heartbeat_us_, sends_at_us());
+  for (const Station& s : stations_)
+    until_us = std::min(until_us, supervises_at_us(s));
+  return until_us;
+}
+
+// When supervise() has something to do, with nothing to read or write.
+std::uint64_t BusController::supervises_at_us(const Station& s) const {
+  const std::uint64_t retry_us = s.retry_us == 0 ? UINT64_MAX : s.retry_us;
+  switch (s.phase) {
+    case Station::Phase::configuring:
+      return 0;
+    case Station::Phase::failed:
+      return s.retry_us;
+    case Station::Phase::absent:
+      return retry_us;
+    case Station::Phase::running:
+      break;
+  }
+  const std::uint64_t timeout_us = 1000U * std::uint64_t{settings_.heartbeat_timeout_ms};
+  const std::uint64_t silent_us = s.last_heard_us + timeout_us + 1U;
+  if (is_drive(s)) return silent_us;
+  if (s.retry_us == 0 && !s.channel.failure().empty()) return 0;
+  return std::min(silent_us, retry_us);
 }
 
 // Resets a silent node: one that has booted unnoticed has not been configured to send heartbeats.

@@ -82,6 +82,10 @@ class BusController {
   void poll(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
   void taken(std::uint64_t now_us);
+  // As of canopen::DeviceBase, for SimulatedBus::attach_resting().
+  static bool heeds(const hal::CanFrame& /*frame*/) { return true; }
+  [[nodiscard]] std::uint64_t sends_at_us() const;
+  [[nodiscard]] std::uint64_t rests_until_us() const;
 
   // --- once per cycle
   // Targets in drive units: sent as 607Ah after a SYNC, taken by the drives at the next.
@@ -131,6 +135,7 @@ class BusController {
   void take_process_data(const hal::CanFrame& frame);
   void take_drive_pdo(std::size_t a, const hal::CanFrame& frame);
   void supervise(Station& s, std::uint64_t now_us);
+  [[nodiscard]] std::uint64_t supervises_at_us(const Station& s) const;
   void reset_silent(Station& s, std::uint64_t now_us);
   void retry_tables(Station& s, std::uint64_t now_us);
   void send_latest(const hal::CanFrame& frame);

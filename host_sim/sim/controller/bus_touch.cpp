@@ -24,14 +24,11 @@ void BusAxes::serve_drives(std::uint64_t now_us) {
   if (served_ns_ == now_ns && std::none_of(drive_port_.begin(), drive_port_.end(), has_mail))
     return;
   served_ns_ = now_ns;
-  hal::CanFrame frame;
-  for (std::size_t a = 0; a < drive_.size(); ++a) {
-    while (drive_port_[a]->receive(frame))
-      drive_[a]->receive(frame, now_us);
-  }
+  for (std::size_t a = 0; a < drive_.size(); ++a)
+    drive_rest_[a].receive(*drive_[a], *drive_port_[a], now_us);
   feel();
   for (std::size_t a = 0; a < drive_.size(); ++a) {
-    if (drive_port_[a]->connected()) canopen::exchange(*drive_[a], *drive_port_[a], now_us);
+    if (drive_port_[a]->connected()) serve_drive(a, now_us);
   }
 }
 
@@ -45,7 +42,9 @@ void BusAxes::feel() {
   const std::int64_t period_ns = std::llround(period_us_ * 1000.0);
   for (const ProbeEdge& edge : probe_->travel(felt_, here, period_ns)) {
     for (std::size_t a = 0; a < drive_.size(); ++a) {
-      if (!line_broken_[a]) drive_[a]->probe_edge(edge.rising, edge.time_ns);
+      if (line_broken_[a]) continue;
+      drive_[a]->probe_edge(edge.rising, edge.time_ns);
+      drive_rest_[a].disturb();
     }
   }
   felt_ = here;

@@ -3,6 +3,7 @@
 // Read-only.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "host_sim/host/machine/axis_kinds.hpp"
@@ -36,12 +37,23 @@ struct BusState {
 };
 
 struct MachineSnapshot {
-  std::uint32_t machine = 0;  // number given by enter()
-  std::uint64_t cycle = 0;    // control periods of this machine so far, from 1
+  std::uint64_t cycle = 0;  // control periods of this machine so far, from 1
   double period_s = 0.0;
   std::size_t axes = 0;
   std::array<AxisSnapshot, host::kMostAxes> axis{};
   std::optional<BusState> bus;  // none: the integrated form
+};
+
+// Of one machine, by the thread that moves it.
+class MachineObserver {
+ public:
+  MachineObserver() = default;
+  MachineObserver(const MachineObserver&) = delete;
+  MachineObserver& operator=(const MachineObserver&) = delete;
+  virtual ~MachineObserver() = default;
+
+  // After every control period.
+  virtual void cycle(const MachineSnapshot& snapshot) = 0;
 };
 
 class MachineWatch {
@@ -51,10 +63,8 @@ class MachineWatch {
   MachineWatch& operator=(const MachineWatch&) = delete;
   virtual ~MachineWatch() = default;
 
-  // A machine comes into being; returns its number.
-  [[nodiscard]] virtual std::uint32_t enter() = 0;
-  // After every control period of it.
-  virtual void cycle(const MachineSnapshot& snapshot) = 0;
+  // A machine comes into being; it ends with its observer. By any thread.
+  [[nodiscard]] virtual std::unique_ptr<MachineObserver> enter() = 0;
 };
 
 }  // namespace volcomp::sim

@@ -38,9 +38,21 @@ void SimulatedBus::serve_concerned() {
   }
 }
 
+void SimulatedBus::first_round() {
+  called_ = true;
+  serve_all();
+  called_ = always_;
+}
+
 void SimulatedBus::run_until(std::uint64_t time_ns) {
+  bool first = true;
   while (bus_.now_ns() < time_ns) {
-    serve_all();
+    if (first) {
+      first_round();
+      first = false;
+    } else {
+      serve_all();
+    }
     const bool quiet = bus_.now_ns() - last_frame_ns_ >= kQuietAfter_ns;
     const std::uint64_t slice = quiet ? kQuietSlice_ns : kSlice_ns;
     const std::uint64_t slice_end = std::min(time_ns, bus_.now_ns() + slice);
@@ -52,7 +64,7 @@ void SimulatedBus::run_until(std::uint64_t time_ns) {
 }
 
 void SimulatedBus::run_until_quiet() {
-  serve_all();
+  first_round();
   while (bus_.step(bus_.now_ns() + 1)) {
     last_frame_ns_ = bus_.now_ns();
     serve_concerned();

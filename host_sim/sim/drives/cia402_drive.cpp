@@ -146,6 +146,12 @@ void Cia402Drive::poll(std::uint64_t now_us) {
   device_.poll(now_us);
 }
 
+std::uint64_t Cia402Drive::rests_until_us() const {
+  if (!powered_) return UINT64_MAX;
+  if (refusal_) return 0;
+  return std::min(device_.rests_until_us(), last_period_us_ + period_us_ + period_us_ / 2);
+}
+
 void Cia402Drive::reset_application() {
   const canopen::CommunicationObjects communication = objects_.communication;
   objects_ = default_objects(settings_, period_us_);

@@ -88,6 +88,10 @@ class Cia402Drive final {
   void poll(std::uint64_t now_us);
   [[nodiscard]] bool offer(hal::CanFrame& frame, std::uint64_t now_us);
   void taken(std::uint64_t now_us);
+  // As of canopen::DeviceBase, for SimulatedBus::attach_resting().
+  [[nodiscard]] bool heeds(const hal::CanFrame& frame) const { return device_.heeds(frame); }
+  [[nodiscard]] std::uint64_t sends_at_us() const { return refusal_ ? 0 : device_.sends_at_us(); }
+  [[nodiscard]] std::uint64_t rests_until_us() const;
 
   // Without power the axis stands at once (brake) and the drive sends nothing. Afterwards the
   // reading is where it was, but the position is not referenced and every object has its default,

@@ -1,5 +1,7 @@
 #include "host_sim/sim/instruments/ball_bar.hpp"
 
+#include "host_sim/sim/instruments/circular_ball_bar.hpp"
+
 namespace volcomp::sim {
 
 XyfzSquareness measure_squareness(const TrueMachine& machine, const Vec3& tool_point,
@@ -18,6 +20,22 @@ XyfzSquareness measure_squareness(const TrueMachine& machine, const Vec3& tool_p
   a.a_xz += random.normal(sigma_rad);
   a.a_yz += random.normal(sigma_rad);
   return a;
+}
+
+XyfzSquareness measure_squareness(const TrueMachine& machine, const host::SquarenessFile& place,
+                                  const NoiseClasses& classes, Random& random,
+                                  const std::array<std::size_t, 3>& xyz) {
+  if (!place.circle_radius) {
+    const std::vector<double> x = place.line(0);
+    const std::vector<double> y = place.line(1);
+    const std::vector<double> z = place.line(2);
+    return measure_squareness(machine, machine.chain.tool_point(), {place.at, x, y, z},
+                              classes.ball_bar_rad, random, xyz);
+  }
+  const BallBarClass bar = classes.ball_bar_rad > 0.0 ? BallBarClass{} : perfect_ball_bar();
+  BallBarDraw draw;
+  draw.seed = static_cast<std::uint64_t>(0x1p53 * random.uniform());
+  return squareness_by_circles(machine, {place.at, *place.circle_radius}, bar, draw, xyz);
 }
 
 }  // namespace volcomp::sim

@@ -18,7 +18,13 @@ Stance between(const Stance& from, const Stance& to, double part) {
 }  // namespace
 
 TouchProbe::TouchProbe(const TrueMachine& machine, const Artefact& artefact, Settings settings)
-    : machine_(machine), artefact_(artefact), settings_(std::move(settings)) {}
+    : machine_(machine), artefact_(artefact), settings_(std::move(settings)) {
+  draw_scatter();
+}
+
+void TouchProbe::draw_scatter() {
+  if (settings_.scatter_mm) scatter_ = settings_.scatter_mm(touch_);
+}
 
 Vec3 TouchProbe::ball_centre(const Stance& at) const {
   const Vec3 tool = machine_.chain.tool_point();
@@ -28,18 +34,24 @@ Vec3 TouchProbe::ball_centre(const Stance& at) const {
 
 double TouchProbe::margin_mm(const Stance& at) const {
   const Gap gap = artefact_.gap(ball_centre(at), settings_.radius_mm);
-  if (!settings_.lobing_mm) return gap.mm;
+  if (!settings_.lobing_mm) return gap.mm - scatter_;
   // Lobing changes over degrees: the errors of the machine do not matter for the direction.
   const MachineChain& chain = machine_.chain;
   const Mat3 work = chain.ideal(chain.work(), at.position).R;
   const Mat3 tool = chain.ideal(chain.tool(), at.position).R;
-  return gap.mm - settings_.lobing_mm(tool.transpose() * (work * gap.normal));
+  return gap.mm - scatter_ - settings_.lobing_mm(tool.transpose() * (work * gap.normal));
 }
 
 std::vector<ProbeEdge> TouchProbe::travel(const Stance& from, const Stance& to,
                                           std::int64_t period_ns) {
   if (!seen_) tripped_ = margin_mm(from) <= 0.0;
   seen_ = true;
+  // Not before the ball is clear: more scatter at once would trip the probe again on its way back.
+  constexpr double kClear_mm = 0.02;
+  if (left_ && margin_mm(from) > kClear_mm) {
+    draw_scatter();
+    left_ = false;
+  }
   const bool trips = margin_mm(to) <= 0.0;
   if (trips != tripped_) {
     const std::int64_t out_ns = crossing_ns(from, to, period_ns) + settings_.delay_ns;
@@ -47,6 +59,8 @@ std::vector<ProbeEdge> TouchProbe::travel(const Stance& from, const Stance& to,
       touched(out_ns);
     } else {
       coming_.push_back({false, out_ns});
+      ++touch_;
+      left_ = true;
     }
     tripped_ = trips;
   }

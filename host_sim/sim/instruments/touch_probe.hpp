@@ -34,6 +34,9 @@ class TouchProbe {
     // The contacts bounce: so long after the edge the signal rises once more, having fallen halfway
     // since it last rose. In order.
     std::vector<std::int64_t> bounces_ns;
+    // What each touch adds besides, by its number from 0: positive trips early, as excess material
+    // would; empty: nothing.
+    std::function<double(std::uint32_t touch)> scatter_mm = {};
   };
 
   // Machine and artefact must outlive the probe.
@@ -55,6 +58,7 @@ class TouchProbe {
                                          std::int64_t period_ns) const;
   void touched(std::int64_t time_ns);
   [[nodiscard]] std::vector<ProbeEdge> due(std::int64_t period_ns);
+  void draw_scatter();
 
   const TrueMachine& machine_;
   const Artefact& artefact_;
@@ -62,6 +66,9 @@ class TouchProbe {
   std::vector<ProbeEdge> coming_;  // out of the electronics, in order
   bool seen_ = false;              // tripped_ is valid
   bool tripped_ = false;
+  std::uint32_t touch_ = 0;  // the next or present one
+  double scatter_ = 0.0;     // mm, of it; of the last one until the ball is clear
+  bool left_ = false;        // the artefact, and not clear of it yet
 };
 
 }  // namespace volcomp::sim

@@ -66,33 +66,59 @@ json result_of(const json& document) {
 
 }  // namespace
 
-LiveFeed::LiveFeed(std::string command, std::string transport)
-    : command_(std::move(command)), transport_(std::move(transport)) {}
+// Counts for itself and takes the lock only where something is shown.
+class LiveFeed::Machine final : public MachineObserver {
+ public:
+  Machine(LiveFeed& feed, std::size_t its_number) : number(its_number), feed_(feed) {}
+  Machine(const Machine&) = delete;
+  Machine& operator=(const Machine&) = delete;
+  ~Machine() override { feed_.take(*this, nullptr); }
 
-std::uint32_t LiveFeed::enter() {
+  void cycle(const MachineSnapshot& snapshot) override {
+    const std::uint64_t before = ticks.latches();
+    ticks.cycle(snapshot);
+    if (++hidden_ < feed_.every_ && ticks.latches() == before) return;
+    hidden_ = 0;
+    feed_.take(*this, &snapshot);
+  }
+
+  const std::size_t number;  // from 1
+  MachineTicks ticks;
+  std::array<std::uint64_t, host::kMostAxes> latches{};  // as shown
+
+ private:
+  LiveFeed& feed_;
+  std::uint32_t hidden_ = 0;  // periods since one was shown
+};
+
+LiveFeed::LiveFeed(std::string command, std::string transport, std::uint32_t every)
+    : command_(std::move(command)), transport_(std::move(transport)), every_(every) {}
+
+std::unique_ptr<MachineObserver> LiveFeed::enter() {
   const std::lock_guard lock(mutex_);
-  latches_.emplace_back();
-  return ticks_.enter();
+  ticks_.enter();
+  return std::make_unique<Machine>(*this, ticks_.machines());
 }
 
-void LiveFeed::cycle(const MachineSnapshot& snapshot) {
+void LiveFeed::take(Machine& machine, const MachineSnapshot* now) {
   const std::lock_guard lock(mutex_);
-  ticks_.cycle(snapshot);
-  note_hits(snapshot);
-  measure_load(snapshot);
-  last_ = snapshot;
+  ticks_.take(machine.ticks);
+  if (now == nullptr) return;
+  note_hits(machine, *now);
+  measure_load(machine, *now);
+  last_ = *now;
+  last_machine_ = machine.number;
 }
 
-void LiveFeed::note_hits(const MachineSnapshot& now) {
-  auto& before = latches_.at(now.machine);
+void LiveFeed::note_hits(Machine& machine, const MachineSnapshot& now) {
   std::string letters;
   for (std::size_t a = 0; a < now.axes; ++a) {
     const AxisSnapshot& axis = now.axis[a];
-    if (axis.latches > before[a]) {
-      hit_count_ += axis.latches - before[a];
+    if (axis.latches > machine.latches[a]) {
+      hit_count_ += axis.latches - machine.latches[a];
       letters += (letters.empty() ? "" : " ") + std::string(1, axis.letter);
     }
-    before[a] = axis.latches;
+    machine.latches[a] = axis.latches;
   }
   if (letters.empty()) return;
   hits_.push_front({hit_count_, ticks_.machine_time_s(), letters, now});
@@ -100,10 +126,10 @@ void LiveFeed::note_hits(const MachineSnapshot& now) {
 }
 
 // Another machine has another bus, whose time begins again.
-void LiveFeed::measure_load(const MachineSnapshot& now) {
+void LiveFeed::measure_load(const Machine& machine, const MachineSnapshot& now) {
   if (!now.bus) return;
   const BusState& bus = *now.bus;
-  if (now.machine != last_.machine || bus.now_ns < window_.now_ns) window_ = bus;
+  if (machine.number != last_machine_ || bus.now_ns < window_.now_ns) window_ = bus;
   const std::uint64_t passed = bus.now_ns - window_.now_ns;
   if (passed < kLoadWindow_ns) return;
   load_now_ = static_cast<double>(bus.busy_ns - window_.busy_ns) / static_cast<double>(passed);

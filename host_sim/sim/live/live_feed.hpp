@@ -15,12 +15,13 @@ namespace volcomp::sim {
 
 class LiveFeed final : public MachineWatch {
  public:
-  // `command` as the user has typed it; `transport`: where the compensation is done.
-  LiveFeed(std::string command, std::string transport);
+  // `command` as the user has typed it; `transport`: where the compensation is done. The page shows
+  // every `every`-th control period of a machine, and each in which its touch probe latches.
+  LiveFeed(std::string command, std::string transport, std::uint32_t every = 1);
 
-  // By the thread of the run.
-  [[nodiscard]] std::uint32_t enter() override;
-  void cycle(const MachineSnapshot& snapshot) override;
+  // By the threads of the run. The feed must outlive the observers, whose counts are complete with
+  // their end.
+  [[nodiscard]] std::unique_ptr<MachineObserver> enter() override;
   void progress(double done, const std::string& what);
   // The run has come to its end with this report (host/report/document.hpp), or because of
   // something else. `offered`: the report can be had from the server.
@@ -30,7 +31,7 @@ class LiveFeed final : public MachineWatch {
   // By any thread: docs/report.md names the members.
   [[nodiscard]] nlohmann::json state() const;
 
-  // Only while no other thread writes.
+  // Only while no machine is observed.
   [[nodiscard]] const TickStatistics& ticks() const { return ticks_; }
 
  private:
@@ -42,20 +43,24 @@ class LiveFeed final : public MachineWatch {
     MachineSnapshot machine;   // in that period
   };
 
-  void note_hits(const MachineSnapshot& now);
-  void measure_load(const MachineSnapshot& now);
+  class Machine;
+
+  void take(Machine& machine, const MachineSnapshot* now);
+  void note_hits(Machine& machine, const MachineSnapshot& now);
+  void measure_load(const Machine& machine, const MachineSnapshot& now);
   [[nodiscard]] nlohmann::json axes() const;
   [[nodiscard]] nlohmann::json bus() const;
   [[nodiscard]] nlohmann::json hits() const;
 
   std::string command_;
   std::string transport_;
+  std::uint32_t every_;
 
   mutable std::mutex mutex_;  // of all below
   TickStatistics ticks_;
   MachineSnapshot last_;
-  std::vector<std::array<std::uint64_t, host::kMostAxes>> latches_;  // by machine
-  std::deque<Hit> hits_;                                             // the newest first
+  std::size_t last_machine_ = 0;  // its number, from 1
+  std::deque<Hit> hits_;          // the newest first
   std::uint64_t hit_count_ = 0;
   BusState window_;        // where the load of now is measured from
   double load_now_ = 0.0;  // share of the last tenth of a second of machine time

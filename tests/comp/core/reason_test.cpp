@@ -9,7 +9,7 @@
 namespace volcomp::test {
 namespace {
 
-constexpr int kReasons = static_cast<int>(Reason::no_way) + 1;
+constexpr int kReasons = static_cast<int>(Reason::run_count_differs) + 1;
 
 TEST(Reason, CodesAndSentencesAreDistinct) {
   std::set<std::string> codes;

@@ -103,6 +103,23 @@ TEST(Learning, ConvergesForEveryWeightBelowTwo) {
   }
 }
 
+// A node moves only where the taps on valid nodes have half the weight of all. Of five taps the
+// middle one has less: 0.4 alone does not, with a neighbour at 0.2 it does, by the weighted mean.
+TEST(Learning, MovesWhereHalfTheWeightOfTheTapsIsValid) {
+  LearningRules rules = open_rules(1.0);
+  rules.taps = {0.1, 0.2, 0.4, 0.2, 0.1};
+  rules.tap_count = 5;
+  std::vector<NodeSums> sums(kFewNodes);
+  sums[5].add(1.0);
+  sums[20].add(1.0);
+  sums[21].add(4.0);
+  OffsetLearner<kFewNodes> learner = started(rules);
+  EXPECT_EQ(learner.step(1.0, sums).action, GuardAction::keep);
+  EXPECT_EQ(learner.table()[5], 0.0);
+  EXPECT_NEAR(learner.table()[20], -(0.4 * 1.0 + 0.2 * 4.0) / 0.6, 1e-12);
+  EXPECT_NEAR(learner.table()[21], -(0.4 * 4.0 + 0.2 * 1.0) / 0.6, 1e-12);
+}
+
 TEST(Learning, UnsmoothedErrorFallsByOneMinusWeight) {
   Random random;
   const Plant plant(random);

@@ -7,6 +7,7 @@
 
 #include "comp/strokes/helix_instances.hpp"
 #include "tests/oracle/internal_gears.hpp"
+#include "tests/oracle/limited_offset.hpp"
 
 namespace volcomp::test {
 namespace {
@@ -36,7 +37,7 @@ class Offsets {
   }
 
   // A tick at the end of a stroke.
-  void turn_round() {
+  void turn_round() const {
     StrokeState end = state;
     end.in_face = false;
     end.stroke_end = true;
@@ -124,6 +125,40 @@ TEST(StrokeOffsets, AnotherFeedOrNoReferenceMeansNone) {
   o.state.homed = false;
   EXPECT_EQ(o.at(0.0), 0.0);
   EXPECT_EQ(o.unit->status(), kNotHomed);
+}
+
+// Neither the step nor its change: strokes that turn round, frames that are missing, tables that
+// go.
+TEST(StrokeOffsets, NeverJumpNorBendWithAnAcceleration) {
+  Offsets o;
+  const OffsetLimits limits{kMostRounded, 2'000, 2'000, 50};
+  StrokeOffsetSettings settings;
+  settings.rate = limits.rate;
+  settings.acceleration = limits.acceleration;
+  ASSERT_TRUE(o.unit->configure(settings).ok());
+  LimitedPromise promise(limits);
+  promise.started(0);
+  o.activate();
+  int limited = 0;
+  for (int k = 0; k < 4'000; ++k) {
+    o.state.stroke = k / 150 % 2 == 0 ? Direction::forward : Direction::backward;
+    o.state.fresh = k % 400 >= 30;
+    o.state.z_command = to_nm(k % 150 * 0.005);
+    if (k == 3'000) o.unit->deactivate();
+    ASSERT_STREQ(promise.broken_by(o.unit->tick(o.state)), nullptr) << k;
+    if ((o.unit->status() & kRateLimited) != 0) ++limited;
+  }
+  EXPECT_GT(limited, 100);
+  EXPECT_EQ(promise.offset(), 0) << "deactivated";
+}
+
+TEST(StrokeOffsets, AnAccelerationThatIsNoneIsRefused) {
+  Offsets o;
+  StrokeOffsetSettings settings;
+  settings.acceleration = -1;
+  const Status refused = o.unit->configure(settings);
+  EXPECT_EQ(refused.reason, Reason::bad_setting);
+  EXPECT_STREQ(refused.where.field, "acceleration");
 }
 
 // Up to 20 ticks without a frame the offset stays, then it goes to 0 at the slew limit.

@@ -83,7 +83,7 @@ class ScrubInSlices : public TableMemory {
 
   void SetUp() override {
     for (AxisLimits& axis : settings.axis)
-      axis = {4'123'457, 7'654'321, 654'321, 12'347, 1'234'567'891'011};
+      axis = {{4'123'457, 7'654'321, 654'321, 0}, 12'347, 1'234'567'891'011};
     ASSERT_TRUE(runner.start(tables, settings).ok());
     for (int n = 0; n < 300; ++n)
       runner.tick(kSomewhere);

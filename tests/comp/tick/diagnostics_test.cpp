@@ -103,9 +103,9 @@ TEST_F(Counters, InactiveSaysSo) {
 // Status bits are distinct and all of them counted.
 TEST(StatusBits, OnePerCondition) {
   unsigned all = 0;
-  for (const StatusBit s :
-       {kValid, kNotHomed, kStale, kDropped, kImplausible, kOutOfRange, kFarOutOfRange, kClamped,
-        kRateLimited, kDirectionUnknown, kRamping, kNoAuthority, kNoTables, kTableDamaged}) {
+  for (const StatusBit s : {kValid, kNotHomed, kStale, kDropped, kImplausible, kOutOfRange,
+                            kFarOutOfRange, kClamped, kRateLimited, kDirectionUnknown, kRamping,
+                            kNoAuthority, kNoTables, kTableDamaged, kAccelerationLimited}) {
     EXPECT_EQ(all & s, 0U);
     EXPECT_LT(bit(s), static_cast<std::size_t>(kStatusBits));
     all |= s;

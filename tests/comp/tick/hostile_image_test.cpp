@@ -137,15 +137,5 @@ TEST(HostileImage, AToolPointBeyondAnyToolIsRefused) {
   EXPECT_STREQ(status.where.field, "tool_point");
 }
 
-// IEEE 754: every comparison with NaN is false. It must not pass for that.
-TEST(HostileImage, NotANumberDoesNotPassTheLimiter) {
-  bool hit = false;
-  const Limiter<float> limiter{5.0F, 1.0F};
-  EXPECT_LE(std::abs(limiter.clamp(std::nanf(""), hit)), 5.0F);
-  EXPECT_TRUE(hit);
-  EXPECT_LE(std::abs(limiter.slew(std::nanf(""), 2.0F, hit) - 2.0F), 1.0F);
-  EXPECT_TRUE(hit);
-}
-
 }  // namespace
 }  // namespace volcomp::test

@@ -101,7 +101,7 @@ void expect_rest(Run& runner, const MachineDescription& machine, Random& random)
     typename std::decay_t<decltype(*runner.compensator)>::Settings settings;
     settings.ramp_ticks = 1;
     for (AxisLimits& l : settings.axis) {
-      l = {4'194'303, 1'000'000'000, 1'000'000'000, 0, 0};
+      l = {{4'194'303, 1'000'000'000, 1'000'000'000, 0}, 0, 0};
       l.rate = static_cast<std::int32_t>(random.chance(0.5) ? 1'000'000'000
                                                             : random.integer(200, 5'000));
       l.soft_rate = l.rate;

@@ -190,5 +190,20 @@ TEST(Rounding, HalfToEvenOverTheWholeRange) {
   EXPECT_EQ(round_half_even(-4'194'303.0F), -4'194'303);
 }
 
+// What a limit below 2^22 is compared with needs no test of its own for numbers beyond, infinities
+// and what is not a number.
+TEST(RoundHalfEven, AnythingElseLiesBeyondWhatIsRounded) {
+  std::size_t others = 0;
+  for (std::uint64_t pattern = 0; pattern <= UINT32_MAX; pattern += 997) {
+    const auto x = bit_cast<float>(static_cast<std::uint32_t>(pattern));
+    if (std::abs(x) < 4'194'303.5F) continue;
+    ++others;
+    ASSERT_GT(std::abs(std::int64_t{round_half_even(x)}), 4'194'303) << x;
+  }
+  EXPECT_GT(others, 1'000'000U);
+  for (const float x : {HUGE_VALF, -HUGE_VALF, std::nanf(""), -std::nanf(""), -12'582'912.0F})
+    EXPECT_GT(std::abs(std::int64_t{round_half_even(x)}), 4'194'303) << x;
+}
+
 }  // namespace
 }  // namespace volcomp::test

@@ -30,8 +30,9 @@ TEST(Settings, DefaultsAreAccepted) {
 TEST(Settings, LimitsAreInclusive) {
   LoadedRunner runner(kXyfzMachine);
   Settings s;
-  s.axis[0] = {1, 1, 1, 0, 0};
-  s.axis[1] = {4'194'303, 1'000'000'000, 1'000'000'000, 4'194'303,
+  s.axis[0] = {{1, 1, 1, 0}, 0, 0};
+  s.axis[1] = {{4'194'303, 1'000'000'000, 1'000'000'000, 16'777'216},
+               4'194'303,
                std::numeric_limits<std::int64_t>::max()};
   s.ramp_ticks = 1;
   s.stale_drop_ticks = 0;
@@ -54,9 +55,15 @@ TEST(Settings, EachFieldOfEachAxisIsChecked) {
                        l.rate = rate;
                        l.soft_rate = rate > 0 ? 1 : rate;
                      }),
-                     rate > 0 ? "rate" : "soft_rate", axis);
+                     "rate", axis);
     for (const std::int32_t soft : List{0, -1, kLeast, 10'001})
       expect_refused(with([=](AxisLimits& l) { l.soft_rate = soft; }), "soft_rate", axis);
+    for (const std::int32_t acceleration : List{-1, kLeast, 16'777'217})
+      expect_refused(with([=](AxisLimits& l) {
+                       l.rate = 1'000'000'000;
+                       l.acceleration = acceleration;
+                     }),
+                     "acceleration", axis);
     for (const std::int32_t hysteresis : List{-1, kLeast, 4'194'304})
       expect_refused(with([=](AxisLimits& l) { l.hysteresis = hysteresis; }), "hysteresis", axis);
     for (const std::int64_t step : {std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()})

@@ -64,8 +64,10 @@ struct Trouble {
 class Pair {
  public:
   Pair(std::int32_t slew, std::uint8_t late, const Trouble& trouble, Random& random)
-      : late_(late), trouble_(trouble), random_(random) {
-    gate_.configure(bounds_of(slew, late, true));
+      : Pair(bounds_of(slew, late, true), trouble, random) {}
+  Pair(const GateBounds& bounds, const Trouble& trouble, Random& random)
+      : late_(bounds.late), trouble_(trouble), random_(random) {
+    gate_.configure(bounds);
   }
 
   void cycle(std::int32_t wanted) {
@@ -102,6 +104,7 @@ class Pair {
   [[nodiscard]] std::int32_t value() const { return value_; }
   [[nodiscard]] std::int32_t held() const { return held_; }
   void hold(std::int32_t value) { held_ = value; }
+  [[nodiscard]] bool refused() const { return gate_.refused(); }
 
  private:
   void send(Wire& wire, std::int32_t value, std::int64_t earliest) {
@@ -178,7 +181,38 @@ TEST(OffsetGate, NoStepAboveTheSlewWhateverIsLostLateTwiceOrRestarted) {
   }
 }
 
-// Otherwise the test above would also pass for a gate that never sends.
+// With a bound on acceleration values go on while reports are missing, and a limiter leads back.
+TEST(OffsetGate, NoStepAboveTheSlewWhereAMissingReportBrakes) {
+  Random random(304);
+  SCOPED_TRACE(random.trace());
+  for (std::uint8_t late = 0; late <= OffsetGate::kMostLate; ++late) {
+    for (const Trouble& t :
+         {Trouble{0.1, 0.1, 0.3, 0.0}, Trouble{0.5, 0.3, 0.5, 0.01}, Trouble{0.0, 0.0, 1.0, 0.05},
+          Trouble{0.9, 0.5, 1.0, 0.02}, Trouble{0.1, 0.1, 0.3, 0.0, 0.01}}) {
+      GateBounds bounds = bounds_of(20'000, late, true);
+      bounds.rate = OffsetGate::unhindered(bounds.slew, late);
+      bounds.soft = bounds.rate / 3;
+      bounds.acceleration = bounds.rate / 7;
+      bounds.limit = 4'000'000;
+      OffsetLimiter<true> stream;
+      stream.change(OffsetBounds(OffsetLimits{bounds.limit, bounds.rate, 1, bounds.acceleration}));
+      stream.start(0);
+      Pair pair(bounds, t, random);
+      std::int32_t wanted = 0;
+      for (int i = 0; i < kCycles; ++i) {
+        wanted = next_wanted(wanted, bounds.slew, random);
+        wanted = std::max(-bounds.limit, std::min(bounds.limit, wanted));
+        stream.follow(wanted);
+        pair.cycle(stream.offset());
+      }
+      EXPECT_LE(pair.largest_step(), bounds.slew)
+          << "late " << int{late} << " lost " << t.lost << " restart " << t.restart;
+      EXPECT_FALSE(pair.refused());
+    }
+  }
+}
+
+// Otherwise the tests above would also pass for a gate that never sends.
 TEST(OffsetGate, ReachesWhatIsWantedInSpiteOfLosses) {
   Random random(302);
   SCOPED_TRACE(random.trace());

@@ -55,6 +55,7 @@ loadusr -w halstreamer $work/rows
 start
 loadusr -w halsampler -n $periods $work/got
 getp volcomp.image-crc
+getp volcomp.x.lag
 HAL
 }
 
@@ -81,6 +82,8 @@ same_as_c() {
     fail "$letters: never far beyond a table, or always"
   grep -qx "$(tail -c 4 "$vct" | od -An -tu4 | tr -d ' ')" "$work/halrun.txt" ||
     { cat "$work/halrun.txt"; fail "$letters: image-crc is not that of the file"; }
+  awk '/^[0-9.e-]+$/ { if ($1 > 0 && $1 < 0.2) lag = 1 } END { exit !lag }' "$work/halrun.txt" ||
+    { cat "$work/halrun.txt"; fail "$letters: no lag of X"; }
   printf '%s: offsets, status words and range of %s servo periods are the same\n' "$letters" "$periods"
 }
 
@@ -108,4 +111,7 @@ refused 'volcomp: image=FILE is missing' ''
 refused "volcomp: $work/none: the file cannot be opened." "image=$work/none"
 refused "volcomp: $work/short.vct: The image is shorter or longer than its header says." "image=$work/short.vct"
 refused 'volcomp: settings: axis X: limit: A setting is outside its range.' "image=$image" limit_um=5000
+refused 'volcomp: settings: axis X: acceleration: A setting is outside its range.' "image=$image" max_acceleration=fast
+refused 'volcomp: settings: axis Y: acceleration: The acceleration of an offset is less than one unit' \
+  "image=$image" max_acceleration=4000,0.5
 printf 'bad files and settings: refused\n'

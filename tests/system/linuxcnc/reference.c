@@ -29,10 +29,11 @@ static size_t load(const char* path) {
   return size;
 }
 
-// At 1 kHz 60 µm, 5 mm/s, 0.1 s, hysteresis 2 µm; 1 mrad, 50 mrad/s, 0.1 s, hysteresis 20 µrad.
+// At 1 kHz 60 µm, 5 mm/s, 0.1 s, hysteresis 2 µm; 1 mrad, 50 mrad/s, 0.1 s, hysteresis 20 µrad. The
+// component's own acceleration: 0.2 m/s², 2 rad/s².
 static struct volcomp_compensator* commission(const char* path, struct volcomp_machine* machine) {
-  static const struct volcomp_axis_limits linear = {60000, 5000, 600, 2000, 0};
-  static const struct volcomp_axis_limits rotary = {683565, 34178, 6836, 13671, 0};
+  static const struct volcomp_axis_limits linear = {60000, 5000, 600, 2000, 0, 200};
+  static const struct volcomp_axis_limits rotary = {683565, 34178, 6836, 13671, 0, 1367};
   struct volcomp_compensator* c = NULL;
   struct volcomp_settings s;
   if (volcomp_create(&memory, sizeof memory, &c).reason != VOLCOMP_OK) return NULL;

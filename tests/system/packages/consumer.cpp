@@ -28,7 +28,14 @@ bool commission(const std::vector<std::uint8_t>& image) {
   volcomp::TablesView tables;
   if (!check_image({image.data(), image.size()}, volcomp::kDefaultKnots, tables).ok()) return false;
   volcomp::XyfzCompensator::Settings settings;
-  settings.axis.fill({200'000, 1'000, 100, 2'000, 100'000});
+  for (volcomp::AxisLimits& axis : settings.axis) {
+    axis.limit = 200'000;
+    axis.rate = 1'000;
+    axis.soft_rate = 100;
+    axis.acceleration = 8;
+    axis.hysteresis = 2'000;
+    axis.max_step = 100'000;
+  }
   settings.ramp_ticks = 2'000;
   settings.stale_drop_ticks = 20;
   return compensator.configure(settings).ok() &&

@@ -6,7 +6,7 @@
 
 readonly volcomp=$build/host_sim/volcomp same_figures=tests/system/vcan/same_figures.py
 # The slower the cycle, the fewer there are; what is compared does not depend on it.
-inspection=("$volcomp" run l300g --cycle-hz 50)
+inspection=("$volcomp" run l300g --noise-free --cycle-hz 50)
 
 without_bus loopback.json "${inspection[@]}" --can loopback --json "$work/loopback.json"
 bus_begins

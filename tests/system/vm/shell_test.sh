@@ -10,6 +10,7 @@ fail() {
   exit 1
 }
 
+export VOLCOMP_VM_TIMEOUT=300  # so that the one that hangs says so
 /usr/bin/python3 tests/system/vm/terminal.py toolchain/with-vcan --vm bash
 
 # Every byte, and the end; nothing is read that the command does not ask for.

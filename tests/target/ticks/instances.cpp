@@ -5,5 +5,6 @@ namespace volcomp {
 template class Compensator<GenericMachine>;
 template class Compensator<GrinderMachine>;
 template class Compensator<FiveAxisMachine>;
+template class Compensator<EightAxisMachine>;
 
 }  // namespace volcomp

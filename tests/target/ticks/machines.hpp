@@ -10,9 +10,11 @@ namespace volcomp {
 using GenericMachine = CompiledMachine<bench::kGeneric, RuntimeModel::second_order>;
 using GrinderMachine = CompiledMachine<bench::kGrinder>;
 using FiveAxisMachine = CompiledMachine<bench::kFiveAxis>;
+using EightAxisMachine = LoadedMachine<kMaxAxes>;
 
 extern template class Compensator<GenericMachine>;
 extern template class Compensator<GrinderMachine>;
 extern template class Compensator<FiveAxisMachine>;
+extern template class Compensator<EightAxisMachine>;
 
 }  // namespace volcomp

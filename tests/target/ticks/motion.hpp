@@ -2,32 +2,16 @@
 // What the measured ticks are given: every axis travels up and down its table, crosses knots and
 // turns round, at the ends and anywhere else; on demand axes misbehave.
 
-#include <array>
 #include <cstdint>
 
 #include "comp/core/units.hpp"
 #include "comp/tables/direction.hpp"
 #include "comp/tables/machine_tables.hpp"
 #include "comp/tick/tick_types.hpp"
+#include "tests/target/ticks/draw.hpp"
 #include "tests/target/ticks/tally.hpp"
 
 namespace volcomp::target {
-
-// Marsaglia's xorshift32 (Journal of Statistical Software 8(14), 2003): the same in every run.
-class Draw {
- public:
-  // 0…limit − 1
-  std::uint32_t below(std::uint32_t limit) {
-    state_ ^= state_ << 13U;
-    state_ ^= state_ >> 17U;
-    state_ ^= state_ << 5U;
-    return static_cast<std::uint32_t>((static_cast<std::uint64_t>(state_) * limit) >> 32U);
-  }
-  bool once_in(std::uint32_t ticks) { return below(ticks) == 0; }
-
- private:
-  std::uint32_t state_ = 2'463'534'242U;
-};
 
 class AxisMotion {
  public:

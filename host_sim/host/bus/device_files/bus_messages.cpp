@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/core/bytes.hpp"
 #include "firmware/canopen/cob_id.hpp"
 #include "firmware/node/node_objects.hpp"
 #include "host_sim/host/bus/cia402_objects.hpp"
@@ -279,6 +280,22 @@ void check(const BusSettings& bus) {
   }
 }
 
+// The number on the wire; nothing when the frame is too short.
+std::optional<std::int64_t> raw_of(const BusSignal& s, const hal::CanFrame& frame) {
+  if (s.first_bit + s.bits > std::size_t{frame.size} * 8) return std::nullopt;
+  const std::uint64_t value = load_le(frame.data.data(), frame.size) >> s.first_bit;
+  const std::uint64_t mask = s.bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << s.bits) - 1;
+  const std::uint64_t cut = value & mask;
+  const bool negative = s.is_signed && (cut >> (s.bits - 1) & 1U) != 0;
+  return static_cast<std::int64_t>(negative ? cut | ~mask : cut);
+}
+
+const BusSignal* signal_of(const BusMessage& message, const char* name) {
+  const auto found = std::find_if(message.signals.begin(), message.signals.end(),
+                                  [name](const BusSignal& s) { return s.name == name; });
+  return found == message.signals.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::vector<std::string> bus_stations(const BusSettings& bus) {
@@ -308,6 +325,15 @@ std::vector<BusMessage> bus_messages(const BusSettings& bus) {
   std::sort(messages.begin(), messages.end(),
             [](const BusMessage& a, const BusMessage& b) { return a.id < b.id; });
   return messages;
+}
+
+std::optional<double> signal_value(const BusMessage& message, const char* name,
+                                   const hal::CanFrame& frame) {
+  const BusSignal* const signal = signal_of(message, name);
+  if (signal == nullptr) return std::nullopt;
+  const std::optional<std::int64_t> raw = raw_of(*signal, frame);
+  if (!raw) return std::nullopt;
+  return signal->factor * static_cast<double>(*raw);
 }
 
 }  // namespace volcomp::host

@@ -3,10 +3,12 @@
 // tables of node and drives, names and units from here.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "hal/can_port.hpp"
 #include "host_sim/host/bus/bus_settings.hpp"
 
 namespace volcomp::host {
@@ -40,5 +42,10 @@ struct BusMessage {
 // By identifier, the most urgent first. Throws UserError when the stations cannot share a bus: a
 // node id outside 1…127 or given twice, more axes than a node has, a letter given twice.
 [[nodiscard]] std::vector<BusMessage> bus_messages(const BusSettings& bus);
+
+// A signal of the message in its own unit; nothing where the message has no such signal or the
+// frame is too short for it.
+[[nodiscard]] std::optional<double> signal_value(const BusMessage& message, const char* name,
+                                                 const hal::CanFrame& frame);
 
 }  // namespace volcomp::host

@@ -6,12 +6,13 @@ import { heatmapOption } from './charts/heatmap.mjs';
 import { histogramOption } from './charts/histogram.mjs';
 import { iso230Option } from './charts/iso230_2.mjs';
 import { linesOption } from './charts/lines.mjs';
+import { polarOption } from './charts/polar.mjs';
 import { volumeOption } from './charts/volume.mjs';
 import { limitsOf, niceRange, yExtent } from './series.mjs';
 
 const BUILDERS = {
   lines: linesOption, bars: barsOption, heatmap: heatmapOption, histogram: histogramOption,
-  iso230_2: iso230Option, volume: volumeOption,
+  iso230_2: iso230Option, polar: polarOption, volume: volumeOption,
 };
 
 // view, all optional:

@@ -3,9 +3,9 @@
 
 import { positioningSeries } from './charts/iso230_2.mjs';
 
-export const CHART_TYPES = ['lines', 'bars', 'heatmap', 'histogram', 'iso230_2', 'volume'];
+export const CHART_TYPES = ['lines', 'bars', 'heatmap', 'histogram', 'iso230_2', 'polar', 'volume'];
 
-const CURVES = ['lines', 'iso230_2'];
+const CURVES = ['lines', 'iso230_2', 'polar'];
 
 // The same document with the series of those charts whose series follow from other members.
 export function prepared(document) {

@@ -204,6 +204,15 @@ TEST(Pchip, NeverOvershootsOnAnyData) {
   }
 }
 
+// F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300: between secants d₀, d₁ over
+// the widths h₀, h₁ the slope is (w₀ + w₁)/(w₀/d₀ + w₁/d₁) with w₀ = 2h₁ + h₀, w₁ = h₁ + 2h₀: the
+// nearer secant counts more. Widths 1 and 3, secants 1 and 1/3: 12/(7 + 15).
+TEST(Pchip, WeighsTheNearerSecantMore) {
+  EXPECT_DOUBLE_EQ(Curve(Interpolation::pchip, {0, 1, 4}, {0, 1, 2}).slopes[1], 6.0 / 11.0);
+  EXPECT_DOUBLE_EQ(Curve(Interpolation::pchip, {0, 3, 4}, {0, 1, 2}).slopes[1], 6.0 / 11.0);
+  EXPECT_DOUBLE_EQ(Curve(Interpolation::pchip, {0, 1, 2}, {0, 1, 4}).slopes[1], 1.5);
+}
+
 // Catmull-Rom overshoots a step: the reason why it is not the default.
 TEST(Pchip, IsNeededBecauseCatmullRomOvershoots) {
   const Curve curve(Interpolation::catmull_rom, {0, 1, 2, 3}, {0, 0, 1, 1});

@@ -80,11 +80,64 @@ TEST(CInterfaceRefuses, SettingsOutOfRangeByName) {
             "bad_setting soft_rate");
   EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].hysteresis = -1; }), "bad_setting hysteresis");
   EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].max_step = -1; }), "bad_setting max_step");
+  EXPECT_EQ(with([](volcomp_settings& x) { x.axis[1].acceleration = -1; }),
+            "bad_setting acceleration");
   EXPECT_EQ(with([](volcomp_settings& x) { x.ramp_ticks = 0; }), "bad_setting ramp_ticks");
   EXPECT_EQ(with([](volcomp_settings& x) { x.positions = 2; }), "bad_setting positions");
   volcomp_default_settings(&s);
   s.axis[3].limit = 0;
   EXPECT_EQ(volcomp_configure(c.get(), &s).index, 3);
+}
+
+// 0.2 m/s² are 200 nm per ms and ms; 2 rad/s² are 1367.1 parts of 2^-32 turn.
+TEST(CInterfaceSettings, AccelerationFromSeconds) {
+  volcomp_axis_limits l{};
+  EXPECT_EQ(volcomp_set_acceleration(&l, false, 0.2, 1e-3).reason, VOLCOMP_OK);
+  EXPECT_EQ(l.acceleration, 200);
+  EXPECT_EQ(volcomp_set_acceleration(&l, true, 2.0, 1e-3).reason, VOLCOMP_OK);
+  EXPECT_EQ(l.acceleration, 1367);
+  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, 0.2, 62.5e-6)),
+            "acceleration_too_small acceleration");
+  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, -0.1, 1e-3)), "bad_setting acceleration");
+  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, kNan, 1e-3)), "bad_setting acceleration");
+  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, 0.2, 0.0)), "bad_setting period");
+  EXPECT_EQ(text(volcomp_set_acceleration(nullptr, false, 0.2, 1e-3)), "null_pointer limits");
+  EXPECT_EQ(l.acceleration, 1367) << "as before";
+  EXPECT_EQ(volcomp_set_acceleration(&l, false, 0.0, 1e-3).reason, VOLCOMP_OK);
+  EXPECT_EQ(l.acceleration, 0);
+}
+
+TEST(CInterfaceSettings, NoOffsetChangesItsStepByMoreThanItsAcceleration) {
+  Random random(7);
+  CInstance c;
+  const MachineTables tables = random_l300g(3);
+  ASSERT_EQ(c.stage(encode(tables)).reason, VOLCOMP_OK);
+  volcomp_settings s;
+  volcomp_default_settings(&s);
+  EXPECT_EQ(s.axis[0].acceleration, 0);
+  constexpr std::int32_t kAcceleration = 50;
+  for (volcomp_axis_limits& l : s.axis)
+    l.acceleration = kAcceleration;
+  ASSERT_EQ(volcomp_configure(c.get(), &s).reason, VOLCOMP_OK);
+  ASSERT_EQ(volcomp_activate(c.get()).reason, VOLCOMP_OK);
+  std::array<std::int64_t, kMaxAxes> q = random_probing_pose(random);
+  std::int32_t before = 0;
+  std::int32_t step = 0;
+  std::int32_t limited = 0;
+  for (int n = 0; n < 5'000; ++n) {
+    if (n % 700 == 0) q = random_probing_pose(random);
+    const volcomp_output& out = c.tick(q);
+    const std::int32_t moved = out.offset[0] - before;
+    ASSERT_LE(std::abs(moved - step), kAcceleration) << n;
+    before = out.offset[0];
+    step = moved;
+    if ((out.status[0] & VOLCOMP_ACCELERATION_LIMITED) != 0) ++limited;
+  }
+  volcomp_diagnostics d;
+  volcomp_diagnose(c.get(), &d);
+  EXPECT_GT(limited, 0);
+  EXPECT_GT(d.began[0][14], 0);
+  EXPECT_GT(d.largest_lag[0], kAcceleration);
 }
 
 TEST(CInterfaceRefuses, ImagesAndKeepsTheTablesInUse) {

@@ -42,7 +42,7 @@ class CInstance {
     s.positions = VOLCOMP_ACTUAL;
     s.ramp_ticks = 1;
     for (volcomp_axis_limits& l : s.axis)
-      l = {4'194'303, 1'000'000'000, 1'000'000'000, 0, 0};
+      l = {4'194'303, 1'000'000'000, 1'000'000'000, 0, 0, 0};
     EXPECT_EQ(volcomp_configure(c_, &s).reason, VOLCOMP_OK);
   }
   void start(const MachineTables& tables, const double* tool_mm = nullptr) {

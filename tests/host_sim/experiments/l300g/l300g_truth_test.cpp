@@ -1,5 +1,7 @@
 // The simulated L300G: its errors, and what identification finds of them.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "comp/core/units.hpp"
@@ -98,6 +100,29 @@ TEST(L300gIdentification, TargetsAreWellConditioned) {
   const sim::Identification found = sim::identify_axes(machine_with("none"), file());
   EXPECT_LT(found.found.condition, 30.0);
   EXPECT_LT(found.found.spread.head<3>().maxCoeff(), host::kTracker_mm);
+}
+
+// Six targets, two at ± 150 mm on every axis of the body, each coordinate read with σ: translations
+// have σ/√6, and four targets with a lever make σ/(2 · 150 mm) of an angle. Of the first axis,
+// which inherits nothing.
+TEST(L300gIdentification, ScattersAsItsTargetsDo) {
+  constexpr double kSigma = 1e-3;
+  constexpr std::uint32_t kDraws = 100;
+  const sim::TrueMachine machine = machine_with("none");
+  ErrorMotion squares = ErrorMotion::Zero();
+  double count = 0.0;
+  for (std::uint32_t draw = 0; draw < kDraws; ++draw) {
+    const sim::Identification found = sim::identify_axes(machine, file(), {kSigma, 5, draw});
+    for (const ErrorMotion& e : found.found.axis[0].motion) {
+      squares += e.cwiseAbs2();
+      count += 1.0;
+    }
+  }
+  const ErrorMotion spread = (squares / count).cwiseSqrt();
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    EXPECT_NEAR(spread(c), kSigma / std::sqrt(6.0), 0.1 * kSigma / std::sqrt(6.0)) << c;
+    EXPECT_NEAR(spread(c + 3), kSigma / 300.0, 0.1 * kSigma / 300.0) << c;
+  }
 }
 
 }  // namespace

@@ -10,12 +10,14 @@
 
 #include <array>
 #include <csignal>
+#include <thread>
 
 #include <gmock/gmock.h>
 
 #include "host_sim/host/bus/table_transfer.hpp"
 #include "host_sim/host/io/file_draft.hpp"
 #include "host_sim/host/io/interruption.hpp"
+#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/temporary_folder.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/whole_file.hpp"
@@ -241,8 +243,11 @@ TEST_P(SignalTest, LeavesNoDraft) {
 
 INSTANTIATE_TEST_SUITE_P(Signals, SignalTest, testing::Values(SIGINT, SIGTERM, SIGHUP));
 
-// Sent the moment a draft appears: a signal between its creation and its registration comes later.
-TEST_F(WholeFileTest, ASignalAtTheCreationOfADraftLeavesNone) {
+// Sent the moment a draft appears: a signal between its creation and its registration comes later,
+// also where another thread than the one that creates it receives the signal.
+class DraftsOfThreads : public WholeFileTest, public testing::WithParamInterface<bool> {};
+
+TEST_P(DraftsOfThreads, ASignalAtTheCreationOfADraftLeavesNone) {
   constexpr int kTimes = 50;
   const int changes = ::inotify_init1(IN_CLOEXEC);
   ASSERT_GE(changes, 0);
@@ -251,8 +256,17 @@ TEST_F(WholeFileTest, ASignalAtTheCreationOfADraftLeavesNone) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
-      for (;;)
-        const FileDraft draft(path("file"));
+      const auto create = [this](std::size_t) {
+        for (;;)
+          const FileDraft draft(path("file"));
+      };
+      const bool by_another_thread = GetParam();
+      if (!by_another_thread) create(0);
+      in_parallel(2, 2, [&create, caller = std::this_thread::get_id()](std::size_t part) {
+        if (std::this_thread::get_id() != caller) create(part);
+        for (;;)
+          static_cast<void>(::pause());
+      });
     }
     std::array<char, 4096> event{};
     EXPECT_GT(::read(changes, event.data(), event.size()), 0);
@@ -267,6 +281,8 @@ TEST_F(WholeFileTest, ASignalAtTheCreationOfADraftLeavesNone) {
   }
   ::close(changes);
 }
+
+INSTANTIATE_TEST_SUITE_P(, DraftsOfThreads, testing::Bool());
 
 // The second signal ends a program that was to end in order and is stuck.
 TEST_F(WholeFileTest, ASecondSignalLeavesNoDraft) {

@@ -126,5 +126,24 @@ TEST_F(Probe, TouchesWithTheMachineAsItReallyIs) {
   EXPECT_NEAR(probe.margin_mm(at(62.0)), 62.0 + 0.00372 - 61.4935, 1e-12);
 }
 
+// Positive scatter is excess material: the probe trips that much earlier. Every touch has its own.
+TEST_F(Probe, ScattersFromTouchToTouch) {
+  const std::vector<double> scatter{0.0, 0.010, -0.020};
+  TouchProbe::Settings settings;
+  settings.radius_mm = kTip;
+  settings.scatter_mm = [&](std::uint32_t number) { return scatter.at(number); };
+  TouchProbe probe(truth, wall, settings);
+  std::vector<double> tripped_mm;  // how far the ball had to go
+  constexpr int kThere = 12;
+  for (int k = 0; k < 2; ++k) {
+    const auto edges = touch(probe, 62.0, kThere, kThere);
+    ASSERT_EQ(edges.size(), 2U);
+    tripped_mm.push_back(kSpeed_mm_s * 1e-9 *
+                         static_cast<double>(edges[0].time_ns - settings.delay_ns));
+  }
+  EXPECT_NEAR(tripped_mm[0], 62.0 - 61.4935, 1e-6);
+  EXPECT_NEAR(tripped_mm[1], 62.0 - 61.4935 - 0.010, 1e-6);
+}
+
 }  // namespace
 }  // namespace volcomp::sim

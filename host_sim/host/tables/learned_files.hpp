@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/experiments/internal_helical/grinder_control.hpp"
+#include "comp/metrology/gears/internal_gear.hpp"
+#include "host_sim/host/tables/learned_tables.hpp"
 
-namespace volcomp::internal_helical {
+namespace volcomp::host {
 
-struct ControllerFile {
+struct LearnedFile {
   std::string name;
   std::string text;
   std::string meaning;
@@ -18,7 +19,7 @@ struct ControllerFile {
 // T1 as cross compensation Z → C, one table per direction (Siemens); or, where a controller only
 // corrects an axis by itself, as offset of Z that does the same to the flank, p times that of C
 // (LinuxCNC, ISG). T2 as table of C around a turn (Siemens). Throws UserError.
-[[nodiscard]] std::vector<ControllerFile> controller_files(const InternalGear& gear,
-                                                           const LearnedTables& tables);
+[[nodiscard]] std::vector<LearnedFile> learned_files(const InternalGear& gear,
+                                                     const LearnedTables& tables);
 
-}  // namespace volcomp::internal_helical
+}  // namespace volcomp::host

@@ -1,4 +1,4 @@
-#include "host_sim/experiments/internal_helical/controller_files.hpp"
+#include "host_sim/host/tables/learned_files.hpp"
 
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/formats/isg_ssfk.hpp"
@@ -6,11 +6,11 @@
 #include "host_sim/host/tables/formats/siemens_cec.hpp"
 #include "host_sim/host/tables/formats/siemens_enc_comp.hpp"
 
-namespace volcomp::internal_helical {
+namespace volcomp::host {
 namespace {
 
-ControllerFile cross_compensation(const LearnedTables& tables, std::size_t direction) {
-  host::CecTable cec;
+LearnedFile cross_compensation(const LearnedTables& tables, std::size_t direction) {
+  CecTable cec;
   cec.number = static_cast<int>(direction);
   cec.input = "Z1";
   cec.output = "C1";
@@ -20,25 +20,25 @@ ControllerFile cross_compensation(const LearnedTables& tables, std::size_t direc
   cec.direction = direction == 0 ? 1 : -1;
   cec.rotary = true;
   const char* name = direction == 0 ? "siemens_cec_z_to_c_up.ini" : "siemens_cec_z_to_c_down.ini";
-  ControllerFile file{name, "", direction == 0 ? "T1, Z upwards" : "T1, Z downwards"};
-  host::require(host::write_cec(cec, file.text), file.name);
+  LearnedFile file{name, "", direction == 0 ? "T1, Z upwards" : "T1, Z downwards"};
+  require(write_cec(cec, file.text), file.name);
   return file;
 }
 
 // C stands at −k pitches while slot k is ground, so the entries come in reverse order. During a
 // stroke C also turns by the helix, past the entries of neighbouring slots: the wave once per turn
 // is kept, what is different from slot to slot is smeared.
-ControllerFile slots_around_c(const LearnedTables& tables) {
+LearnedFile slots_around_c(const LearnedTables& tables) {
   const std::size_t teeth = tables.slot.size();
-  host::EncCompTable table;
+  EncCompTable table;
   table.axis = "C1";
   for (std::size_t k = 0; k <= teeth; ++k)
     table.offset.push_back(tables.slot[(teeth - k) % teeth]);
   table.step = 360.0 / static_cast<double>(teeth);
   table.modulo = true;
   table.rotary = true;
-  ControllerFile file{"siemens_enc_comp_c.ini", "", "T2 around C, smeared over two slots"};
-  host::require(host::write_enc_comp(table, file.text), file.name);
+  LearnedFile file{"siemens_enc_comp_c.ini", "", "T2 around C, smeared over two slots"};
+  require(write_enc_comp(table, file.text), file.name);
   return file;
 }
 
@@ -60,17 +60,14 @@ OffsetsOfZ offsets_of_z(const InternalGear& gear, const LearnedTables& tables) {
 
 }  // namespace
 
-std::vector<ControllerFile> controller_files(const InternalGear& gear,
-                                             const LearnedTables& tables) {
+std::vector<LearnedFile> learned_files(const InternalGear& gear, const LearnedTables& tables) {
   const OffsetsOfZ z = offsets_of_z(gear, tables);
-  ControllerFile linuxcnc{"linuxcnc_z.comp", "", "T1 as offsets of Z, COMP_FILE_TYPE 1"};
-  host::require(host::write_linuxcnc({1, z.nominal, z.offset[0], z.offset[1]}, linuxcnc.text),
-                linuxcnc.name);
-  ControllerFile isg{"isg_ssfk_z.lis", "", "T1 as offsets of Z"};
-  host::require(host::write_ssfk({2, "Z", z.nominal, z.offset[0], z.offset[1], false}, isg.text),
-                isg.name);
+  LearnedFile linuxcnc{"linuxcnc_z.comp", "", "T1 as offsets of Z, COMP_FILE_TYPE 1"};
+  require(write_linuxcnc({1, z.nominal, z.offset[0], z.offset[1]}, linuxcnc.text), linuxcnc.name);
+  LearnedFile isg{"isg_ssfk_z.lis", "", "T1 as offsets of Z"};
+  require(write_ssfk({2, "Z", z.nominal, z.offset[0], z.offset[1], false}, isg.text), isg.name);
   return {cross_compensation(tables, 0), cross_compensation(tables, 1), slots_around_c(tables),
           linuxcnc, isg};
 }
 
-}  // namespace volcomp::internal_helical
+}  // namespace volcomp::host

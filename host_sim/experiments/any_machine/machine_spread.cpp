@@ -1,0 +1,145 @@
+#include "host_sim/experiments/any_machine/machine_spread.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host_sim/experiments/any_machine/figures.hpp"
+#include "host_sim/host/io/parallel.hpp"
+#include "host_sim/host/io/version.hpp"
+#include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/report/charts.hpp"
+#include "host_sim/host/report/provenance.hpp"
+#include "host_sim/host/report/range_of_draws.hpp"
+#include "host_sim/host/report/shared_progress.hpp"
+#include "host_sim/host/report/text_of.hpp"
+
+namespace volcomp::any_machine {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kWantedMachines = 15.0 / 16.0;
+
+host::RangeOfDraws range_over(const MachineSpread& spread, std::size_t figure,
+                              double host::BeforeAfter::*value) {
+  std::vector<double> values;
+  for (const JudgedMachine& m : spread.drawn)
+    values.push_back(m.figures.at(figure).*value);
+  return host::range_of_draws(values);
+}
+
+// Every machine has the same figures.
+json spread_table(const MachineSpread& spread) {
+  json rows = json::array();
+  for (std::size_t f = 0; f < spread.drawn.front().figures.size(); ++f) {
+    const host::RangeOfDraws before = range_over(spread, f, &host::BeforeAfter::before);
+    const host::RangeOfDraws after = range_over(spread, f, &host::BeforeAfter::after);
+    rows.push_back({spread.drawn.front().figures[f].figure, before.median, before.least,
+                    before.most, after.median, after.least, after.most});
+  }
+  json made = host::table_section(
+      fmt::format("{} machines, largest deviations before and after", spread.drawn.size()),
+      {host::plain_column("figure", "figure"),
+       host::column("before: median", "µm", 2, "before_median_um"),
+       host::column("least", "µm", 2, "before_least_um"),
+       host::column("most", "µm", 2, "before_most_um"),
+       host::column("after: median", "µm", 2, "after_median_um"),
+       host::column("least", "µm", 2, "after_least_um"),
+       host::column("most", "µm", 2, "after_most_um")},
+      rows);
+  made["name"] = "machines";
+  return host::in_summary(host::with_id(
+      "machines", std::move(made),
+      fmt::format("Each with errors, places and noise of its own, measured with {}.",
+                  spread.options.noise ? "realistic instruments" : "perfect instruments")));
+}
+
+json what_is_left(const MachineSpread& spread) {
+  json series = json::array();
+  for (std::size_t f = 0; f < spread.drawn.front().figures.size(); ++f) {
+    std::vector<double> values;
+    for (const JudgedMachine& m : spread.drawn)
+      values.push_back(m.figures[f].after);
+    series.push_back({{"name", spread.drawn.front().figures[f].figure}, {"values", values}});
+  }
+  return host::with_id("left", {{"type", "histogram"},
+                                {"title", "What compensation leaves"},
+                                {"x", host::axis_label("largest deviation", "µm")},
+                                {"series", series}});
+}
+
+}  // namespace
+
+std::size_t MachineSpread::good() const {
+  return static_cast<std::size_t>(
+      std::count_if(drawn.begin(), drawn.end(), [](const JudgedMachine& m) { return m.good; }));
+}
+
+MachineSpread run_machine_spread(const MachineOptions& options, std::size_t count,
+                                 std::size_t threads, const host::Progress& progress) {
+  MachineSpread spread;
+  spread.options = options;
+  spread.machine = host::read_machine_file(options.machine);
+  spread.inputs = {host::hashed_file("machine file", options.machine)};
+  spread.drawn.resize(count);
+  host::SharedProgress shared(progress, count);
+  host::in_parallel(count, threads, [&](std::size_t i) {
+    MachineOptions one = options;
+    one.seed = options.seed + i;
+    const std::string what = fmt::format("machine {} of {}", i + 1, count);
+    const MachineResult result =
+        run_machine(one, [&](double done, const std::string&) { shared.show(i, done, what); });
+    spread.drawn[i] = {judged_figures(result), machine_verdict(result).ok};
+  });
+  progress(1.0, "done");
+  return spread;
+}
+
+host::Verdict machine_spread_verdict(const MachineSpread& spread) {
+  const auto count = static_cast<double>(spread.drawn.size());
+  const bool ok = static_cast<double>(spread.good()) >= kWantedMachines * count;
+  return {ok, fmt::format("{} of {} machines are good (15 of 16 wanted): each figure {}.",
+                          spread.good(), spread.drawn.size(),
+                          spread.options.noise ? "at most half of what it was, or 5 µm"
+                                               : "at most a tenth of what it was, or 1 µm")};
+}
+
+json machine_spread_document(const MachineSpread& spread, const host::RunContext& run) {
+  host::ReportParts parts;
+  parts.title = fmt::format("{}: {} machines before and after compensation", spread.machine.name,
+                            spread.drawn.size());
+  parts.subtitle = "Simulated machines with errors drawn at random";
+  parts.verdict = machine_spread_verdict(spread);
+  parts.before_after = spread_table(spread);
+  parts.plots = json::array({what_is_left(spread)});
+  host::Origins origins;
+  origins.data = "simulated: no machine was measured";
+  origins.settings = {
+      {"chain", host::chain_text(spread.machine.chain)},
+      {"seeds", fmt::format("{} to {} (errors of the machine, places, noise)", spread.options.seed,
+                            spread.options.seed + spread.drawn.size() - 1)}};
+  origins.inputs = spread.inputs;
+  origins.instruments = {spread.options.noise ? "realistic" : "perfect"};
+  origins.chosen = {"errors of the machines: drawn at random"};
+  parts.provenance = host::provenance(run, origins);
+  return host::report_document(std::move(parts));
+}
+
+std::string machine_spread_summary(const MachineSpread& spread) {
+  return host::terminal_text(machine_spread_document(spread, {}));
+}
+
+json machine_spread_figures(const MachineSpread& spread) {
+  return {{"machine", spread.machine.name},
+          {"chain", host::chain_text(spread.machine.chain)},
+          {"seed", spread.options.seed},
+          {"noise", spread.options.noise},
+          {"machines", spread.drawn.size()},
+          {"good", spread.good()},
+          {"figures", host::figures_of_table(spread_table(spread))},
+          {"ok", machine_spread_verdict(spread).ok},
+          {"version", host::kVersion}};
+}
+
+}  // namespace volcomp::any_machine

@@ -1,0 +1,51 @@
+#pragma once
+// The same gear measured many times with a probe that scatters: how far the figures do.
+
+#include "host_sim/experiments/l300g/scenario.hpp"
+#include "host_sim/host/report/document.hpp"
+#include "host_sim/host/report/parts_of_run.hpp"
+
+namespace volcomp::l300g {
+
+// One measurement after compensation, by kSides; µm.
+struct MeasuredOnce {
+  std::array<double, 2> profile{};  // F_α
+  std::array<double, 2> lead{};     // F_β
+  std::array<double, 2> pitch{};    // F_p
+  bool before_worse = false;        // a profile or lead had a worse grade uncompensated
+  bool own_grades = false;          // profile and lead have the grades of the gear
+};
+
+struct SpreadResult {
+  L300gOptions options;
+  nlohmann::json settings;  // all of them, and hashes of the inputs, for programs
+  std::vector<host::HashedInput> inputs;
+  GearInspection truth;
+  std::vector<MeasuredOnce> measurement;  // draws 0, 1, …, or those of a shard
+
+  [[nodiscard]] double share_of_own_grades() const;
+};
+
+// So many runs of everything, mandrel included, each with random numbers of its own, or those of
+// `shard` among them, on up to `threads` threads. The same result for any number of these. Throws
+// UserError.
+struct SpreadPlan {
+  std::size_t count = 1;
+  host::Shard shard{};
+  std::size_t threads = 1;
+};
+[[nodiscard]] SpreadResult run_spread(const L300gOptions& options, const SpreadPlan& plan,
+                                      const host::Progress& progress);
+
+// In parts, and of all of them together again.
+[[nodiscard]] host::PartialRun part_of_spread(const SpreadResult& result, const SpreadPlan& plan);
+[[nodiscard]] SpreadResult collect_spread(const host::PartialRun& all);
+
+// Good: profile and lead of both flanks have the grades of the gear in 95 of 100 measurements.
+[[nodiscard]] host::Verdict spread_verdict(const SpreadResult& result);
+[[nodiscard]] std::string spread_summary(const SpreadResult& result);
+[[nodiscard]] nlohmann::json spread_document(const SpreadResult& result,
+                                             const host::RunContext& run);
+[[nodiscard]] nlohmann::json spread_figures(const SpreadResult& result);
+
+}  // namespace volcomp::l300g
