@@ -25,7 +25,8 @@
 #   loop        the firmware in QEMU in the loop with the simulated machine; beside the next step
 #   cppcheck    cppcheck over comp, hal and firmware
 #   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 10) seconds
-#   bench       the benchmarks are built; our ticks on this computer beside what others compute (tests/bench/host_bench.py)
+#   bench       the benchmarks are built; our ticks on this computer beside what others compute (tests/bench/host_bench.py);
+#               how often intervals hold the truth, in few campaigns (tests/bench/interval_coverage.cpp)
 #
 # VOLCOMP_JOBS limits the processes (default: the number of processors). The last line says how many
 # tests passed and failed over all configurations; a failed check counts as one failed test.
@@ -173,8 +174,9 @@ step_fuzz() {
 
 step_bench() {
   need valgrind python3
-  build_preset host --target volcomp_bench volcomp_host_bench
+  build_preset host --target volcomp_bench volcomp_host_bench volcomp_interval_coverage
   python3 tests/bench/host_bench.py build/host/tests/bench/volcomp_host_bench
+  build/host/tests/bench/volcomp_interval_coverage --campaigns 40 --draws 400
 }
 
 # tests_of FOLDER: the folders of tests that lie as it does, or, where it has none, as the nearest folder above it.

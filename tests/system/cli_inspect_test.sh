@@ -107,11 +107,81 @@ for t in traces:
         near(f["f_pt"], 3 * 2 * math.sin(math.pi / 31), 1e-2)
 worst = max(f["iso1328_1995"]["grade"] for t in traces for s, f in t["figures"].items() if s in ("F_a", "F_b", "f_pt", "F_p"))
 assert gear["grade"]["iso1328_1995"] == {"covered": True, "grade": worst}, gear["grade"]
-assert not gear["warnings"] and gear["filtered"] is False
+assert not gear["warnings"] and gear["filtered"] is False and gear["run_out"] is None
+teeth = {(t["flank"], t["figure"]): t for t in gear["teeth"]}
+assert len(gear["teeth"]) == len(teeth) == 6 and all(t["trace"] == "profile" and t["teeth"] == 2 for t in gear["teeth"]), gear["teeth"]
+for (flank, figure), t in teeth.items():
+    both = [u["figures"][figure]["iso1328_1995"]["um"] for u in traces if u["trace"] == "profile" and u["flank"] == flank]
+    assert abs(t["iso1328_1995"]["mean_um"] - sum(both) / 2) < 1e-9, (t, both)
+    assert t["iso1328_1995"]["worst_um"] == max(both, key=abs), (t, both)
 rows = list(csv.DictReader(open("gear.csv")))
 assert len(rows) == 4 * 3 + 2 * 3 + 2 * 2 and rows[0]["figure"] == "F_a" and rows[-1]["tooth"] == "all", rows
 PYTHON
 done
+
+# --- the filter of 2013: a wave as long as the cut-off, a thirtieth of the range, keeps half its height, a slope stays;
+# places that were touched twice count as their mean
+/usr/bin/python3 - "$volcomp" <<'PYTHON' || { echo 'FAILED: filter'; failed=1; }
+import json, math, subprocess, sys
+begin, end = 62 * math.sin(math.radians(20)) - 4 / math.sin(math.radians(20)), math.sqrt(66 ** 2 - (62 * math.cos(math.radians(20))) ** 2)
+length = 0.95 * (end - begin)
+# A trace that begins and ends 1 mm beyond the range, where a filter has no data on one side.
+def places(count):
+    return [begin - 1 + (length + 2) * i / (count - 1) for i in range(count)]
+def inspect(count, um, *options):
+    with open("wave.csv", "w") as file:
+        file.write("trace,flank,tooth,at [mm],deviation [um]\n")
+        for at in reversed(places(count)):
+            for deviation in um(at - begin):
+                file.write(f"profile,left,1,{at!r},{deviation!r}\n")
+    ran = subprocess.run([sys.argv[1], "inspect", "wave.csv", "--gear", "gear.toml", "--json", "-", *options],
+                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return json.loads(ran.stdout) if ran.returncode == 0 else ran.stderr
+def figure(gear, symbol):
+    return gear["traces"][0]["figures"][symbol]["iso1328_2013"]["um"]
+wave = lambda x: [3 * math.sin(2 * math.pi * 30 * x / length) + 4 * x / length]
+for options, height in ((), 6), (("--filter",), 3):
+    gear = inspect(1501, wave, *options)
+    # The mean line takes part in the wave: 30 waves of amplitude 1 tilt it by 6/(30 π).
+    assert abs(figure(gear, "f_fa") / height - 1) < 0.04, (options, figure(gear, "f_fa"))
+    assert abs(figure(gear, "f_Ha") - 4 + height / 2 * 6 / (30 * math.pi)) < 0.03 and gear["filtered"] is bool(options) and not gear["warnings"], (options, gear)
+twice = inspect(301, lambda x: [1 + 2 * x / length, -1 + 2 * x / length], "--filter")
+assert figure(twice, "f_fa") < 1e-9 and abs(figure(twice, "f_Ha") - 2) < 1e-3, twice
+few = inspect(101, wave, "--filter")
+assert few["warnings"] == [f"wave.csv: profile of tooth 1, left flank: {sum(begin <= at <= begin + length for at in places(101))} places in "
+                           "the evaluation range, the edition of 2013 asks for 150"], few
+far = inspect(41, wave, "--filter")
+assert "wave.csv: profile of tooth 1, left flank: filter: " in far and "[gap]" in far, far
+PYTHON
+
+# --- run-out: a gear that stands 10 µm beside its axis, seen by a ball that touches where the pitch is measured
+points points.csv
+/usr/bin/python3 - >ball.txt <<'PYTHON'
+import math
+z, m, alpha = 31, 4.0, math.radians(20)
+inv = lambda a: math.tan(a) - a
+low, high = 0.0, 10.0
+for _ in range(100):
+    d = (low + high) / 2
+    centre = math.atan((m * z / 2 * math.sin(alpha) + d / 2) / (m * z / 2 * math.cos(alpha)))  # roll of the contact and half the ball
+    low, high = (d, high) if inv(centre) > inv(alpha) + d / (z * m * math.cos(alpha)) - math.pi / (2 * z) else (low, d)
+print(d)
+lines = open("points.csv").read().splitlines()
+with open("beside.csv", "w") as file:
+    file.write(lines[1] + "\n")
+    r, rb = m * z / 2, m * z / 2 * math.cos(alpha)
+    for name, side in (("left", 1), ("right", -1)):
+        for tooth in range(1, z + 1):
+            phi = 2 * math.pi * (tooth - 1) / z + side * math.pi / (2 * z)
+            file.write(f"pitch,{name},{tooth},15,{r * math.cos(phi) + 0.010!r},{r * math.sin(phi)!r}\n")
+PYTHON
+expect 0 'F_r 19.9' "$volcomp" inspect beside.csv --gear gear.toml --ball-mm "$(cat ball.txt)" --json gear.json
+/usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: run-out'; failed=1; }
+import json, math
+out = json.load(open("gear.json"))["run_out"]
+# Spaces stand half a pitch from the teeth: one of 31 exactly opposite to the offset.
+assert abs(out["F_r_um"] - 10 * (1 + math.cos(math.pi / 31))) < 0.01 and abs(out["eccentricity_um"] - 10) < 0.01, out
+PYTHON
 
 # --- a part of a trace is graded, and said
 points points.csv
@@ -157,6 +227,11 @@ damage '9s/,[^,]*$//'
 bad 'bad.csv:9: 5 cells instead of 6'
 grep -v '^pitch,left,7,' whole.csv >bad.csv
 bad 'pitch of the left flanks'
+refused 'bad.csv: pitch of the left flanks' "$volcomp" inspect bad.csv --gear gear.toml --ball-mm 7
+grep -v '^pitch,left' whole.csv >bad.csv
+refused 'bad.csv: run-out needs the pitch of both sides' "$volcomp" inspect bad.csv --gear gear.toml --ball-mm 7
+refused 'whole.csv: a ball of 2 mm: ' "$volcomp" inspect whole.csv --gear gear.toml --ball-mm 2
+expect 2 'ball-mm: -7 is not a number from 0.01' "$volcomp" inspect whole.csv --gear gear.toml --ball-mm -7
 (cat whole.csv && tail -n 1 whole.csv) >bad.csv
 bad 'the pitch of tooth 31 is there twice'
 (head -n 2 points.csv && grep '^profile,left,1,' points.csv | head -n 2) >bad.csv

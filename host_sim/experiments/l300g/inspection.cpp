@@ -3,18 +3,9 @@
 #include <utility>
 
 #include "comp/core/units.hpp"
-#include "comp/metrology/gears/trace_filter.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::l300g {
-
-void filter_as_2013(host::FlankTrace& trace, const EvaluationRange& range) {
-  std::vector<double> smooth(trace.at.size());
-  host::require(filter_trace(trace.at, trace.deviation, trace_cutoff(range.high - range.low),
-                             FilterOrder::line, smooth),
-                "filter");
-  trace.deviation = std::move(smooth);
-}
 
 GearInspection true_gear(const InvoluteGear& gear) {
   GearInspection truth;
@@ -91,7 +82,8 @@ host::FlankTrace GearInspector::profile(FlankSide side) {
     trace.at.push_back(d.roll_length);
     trace.deviation.push_back(kUmPerMm * d.mm);
   }
-  if (rules_.filter) filter_as_2013(trace, host::profile_range(setup_.gear, 0.92));
+  if (rules_.filter)
+    host::filter_as_2013(trace, host::profile_range(setup_.gear, host::kRollUsed1995), "profile");
   host::grade_profile(setup_.gear, "profile", trace);
   return trace;
 }
@@ -103,7 +95,7 @@ host::FlankTrace GearInspector::lead(FlankSide side) {
     trace.at.push_back(point.x());
     trace.deviation.push_back(kUmPerMm * deviation(wanted.flank, point).mm);
   }
-  if (rules_.filter) filter_as_2013(trace, host::lead_range(setup_.gear));
+  if (rules_.filter) host::filter_as_2013(trace, host::lead_range(setup_.gear), "lead");
   host::grade_lead(setup_.gear, "lead", trace);
   return trace;
 }

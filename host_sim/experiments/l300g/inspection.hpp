@@ -21,9 +21,6 @@ struct GearInspection {
   std::string program;  // that does the same (inspection_program.hpp); empty where nothing moved
 };
 
-// Low-pass of ISO 1328-1:2013 over the whole trace, cut-off from `range` (trace_filter.hpp).
-void filter_as_2013(host::FlankTrace& trace, const EvaluationRange& range);
-
 // What a perfect machine would find.
 [[nodiscard]] GearInspection true_gear(const InvoluteGear& gear);
 

@@ -46,13 +46,13 @@ GearInspection gear_on_centre(const InvoluteGear& gear, const CentreErrors& erro
   GearInspection found = true_gear(gear);
   CentreReadings readings(errors, seed, draw);
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    const EvaluationRange profile = host::profile_range(gear, 0.92);
+    const EvaluationRange profile = host::profile_range(gear, host::kRollUsed1995);
     readings.add_to(found.profile[side], profile);
-    filter_as_2013(found.profile[side], profile);
+    host::filter_as_2013(found.profile[side], profile, "profile on the centre");
     host::grade_profile(gear, "profile on the centre", found.profile[side]);
     const EvaluationRange lead = host::lead_range(gear);
     readings.add_to(found.lead[side], lead);
-    filter_as_2013(found.lead[side], lead);
+    host::filter_as_2013(found.lead[side], lead, "lead on the centre");
     host::grade_lead(gear, "lead on the centre", found.lead[side]);
     readings.add_to(found.pitch[side]);
     host::grade_pitch(gear, "pitch on the centre", found.pitch[side]);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,26 +14,8 @@
 namespace volcomp::host {
 namespace {
 
-constexpr double kUsed1995 = 0.92;
-constexpr double kUsed2013 = 0.95;
-constexpr double kLeadEnd = 0.05;  // of the width, but not more than a module
-// A touch that was meant for the end of the range belongs to it, though encoders count nanometres.
-constexpr double kEnd_mm = 1e-5;
-constexpr double kCoverage = 0.95;  // of the evaluation range; less is reported
-
-TraceDeviations evaluated(const FlankTrace& trace, const EvaluationRange& range,
-                          const std::string& name) {
-  TraceDeviations figures;
-  require(evaluate_trace(trace.at, trace.deviation, {range.low - kEnd_mm, range.high + kEnd_mm},
-                         figures),
-          name);
-  return figures;
-}
-
-std::optional<int> worse_of(const std::optional<int>& a, const std::optional<int>& b) {
-  if (!a || !b) return std::nullopt;
-  return std::max(*a, *b);
-}
+constexpr double kCoverage = 0.95;           // of the evaluation range; less is reported
+constexpr std::ptrdiff_t kPoints2013 = 150;  // of a filtered trace; quoted from memory
 
 GearFigure figure_of(const InvoluteGear& gear, GearDeviation deviation, double old_um,
                      double new_um) {
@@ -58,9 +41,40 @@ std::string trace_name(const std::string& file, const InspectedTrace& trace) {
                      side);
 }
 
+// `figure` of one tooth more.
+void add_tooth(const GearFigure& figure, ToothSummary& summary) {
+  ++summary.teeth;
+  for (std::size_t s = 0; s < kGearStandards.size(); ++s) {
+    const double um = figure.um.at(s);
+    double& mean = summary.mean_um.at(s);
+    mean += (um - mean) / static_cast<double>(summary.teeth);
+    double& worst = summary.worst_um.at(s);
+    if (std::abs(um) > std::abs(worst)) worst = um;
+  }
+}
+
+std::vector<ToothSummary> summaries_of(const std::vector<InspectedTrace>& traces) {
+  std::map<std::tuple<GearTraceKind, std::size_t, GearDeviation>, ToothSummary> sorted;
+  for (const InspectedTrace& trace : traces)
+    for (const GearFigure& figure : trace.figures) {
+      ToothSummary& summary = sorted[{trace.kind, trace.side, figure.deviation}];
+      summary.kind = trace.kind;
+      summary.side = trace.side;
+      summary.deviation = figure.deviation;
+      add_tooth(figure, summary);
+    }
+  std::vector<ToothSummary> several;
+  for (const auto& [key, summary] : sorted)
+    if (summary.teeth > 1) several.push_back(summary);
+  return several;
+}
+
 class GearFile {
  public:
-  GearFile(const InvoluteGear& gear, const GearPointsFile& file) : gear_(gear), file_(file) {}
+  GearFile(const InvoluteGear& gear, const GearPointsFile& file, const InspectSettings& settings)
+      : gear_(gear), file_(file) {
+    result_.settings = settings;
+  }
 
   InspectedGear inspect() {
     for (const GearPoint& point : file_.points)
@@ -73,6 +87,8 @@ class GearFile {
                                                          : profile_or_lead(trace, points);
       result_.traces.push_back(std::move(trace));
     }
+    result_.teeth = summaries_of(result_.traces);
+    if (result_.settings.ball_mm > 0.0) result_.run_out = run_out();
     grade_all();
     return result_;
   }
@@ -127,16 +143,31 @@ class GearFile {
     FlankTrace trace;
     for (const GearPoint* point : points)
       add_point(*point, trace);
+    const EvaluationRange range = about.kind == GearTraceKind::profile
+                                      ? profile_range(gear_, kRollUsed2013)
+                                      : lead_range(gear_);
+    if (result_.settings.filter) filter(name, range, trace);
     if (about.kind == GearTraceKind::profile) {
       grade_profile(gear_, name, trace);
-      warn_of_gaps(name, trace, profile_range(gear_, kUsed2013), "roll length");
+      warn_of_gaps(name, trace, range, "roll length");
       return trace_figures_of(gear_, trace, GearDeviation::profile, GearDeviation::profile_form,
                               GearDeviation::profile_slope);
     }
     grade_lead(gear_, name, trace);
-    warn_of_gaps(name, trace, trace.range, "x");
+    warn_of_gaps(name, trace, range, "x");
     return trace_figures_of(gear_, trace, GearDeviation::lead, GearDeviation::lead_form,
                             GearDeviation::lead_slope);
+  }
+
+  void filter(const std::string& name, const EvaluationRange& range, FlankTrace& trace) {
+    filter_as_2013(trace, range, name);
+    const auto inside = std::count_if(trace.at.begin(), trace.at.end(), [&](double at) {
+      return at >= range.low - kTraceEnd_mm && at <= range.high + kTraceEnd_mm;
+    });
+    if (inside >= kPoints2013) return;
+    result_.warnings.push_back(
+        fmt::format("{}: {} places in the evaluation range, the edition of 2013 asks for {}", name,
+                    inside, kPoints2013));
   }
 
   void warn_of_gaps(const std::string& name, const FlankTrace& trace, const EvaluationRange& range,
@@ -149,7 +180,7 @@ class GearFile {
         *low, *high, along, range.low, range.high));
   }
 
-  std::vector<GearFigure> pitch(const InspectedTrace& about, const Points& points) const {
+  std::vector<GearFigure> pitch(const InspectedTrace& about, const Points& points) {
     std::vector<double> position(static_cast<std::size_t>(gear_.teeth), std::nan(""));
     for (const GearPoint* point : points) {
       double& tooth = position[static_cast<std::size_t>(point->tooth)];
@@ -159,9 +190,37 @@ class GearFile {
     }
     PitchRound round{position, {}, {}, {}};
     grade_pitch(gear_, trace_name(file_.name, about), round);
+    positions_.at(about.side) = round.position;
     return {
         figure_of(gear_, GearDeviation::single_pitch, round.figures.single, round.figures.single),
         figure_of(gear_, GearDeviation::total_pitch, round.figures.total, round.figures.total)};
+  }
+
+  // Space k lies between the left flank of tooth k and the right flank of the tooth after it.
+  [[nodiscard]] InspectedRunOut run_out() const {
+    if (positions_[0].empty() || positions_[1].empty())
+      throw UserError(fmt::format("{}: run-out needs the pitch of both sides", file_.name));
+    std::vector<double> left = positions_[0];
+    std::vector<double> right = positions_[1];
+    std::rotate(right.begin(), right.begin() + 1, right.end());
+    // From the reference circle to the line of action.
+    for (std::vector<double>* side : {&left, &right})
+      for (double& um : *side)
+        um *= gear_.r_b / gear_.r;
+    const BallInSpace ball{gear_.teeth,       gear_.module, gear_.pressure_angle,
+                           gear_.helix_angle, 0.0,          result_.settings.ball_mm};
+    InspectedRunOut out;
+    out.ball_mm = ball.diameter;
+    BallSeat seat;
+    const std::string name = fmt::format("{}: a ball of {:g} mm", file_.name, ball.diameter);
+    require(ball_seat(ball, seat), name);
+    out.radius_mm = seat.radius;
+    std::vector<double> radial(left.size());
+    require(volcomp::run_out(ball, left, right, radial, out.um), name);
+    for (std::size_t s = 0; s < kGearStandards.size(); ++s)
+      out.grade.at(s) =
+          grade_of(kGearStandards.at(s), size_of(gear_), GearDeviation::runout, out.um.total);
+    return out;
   }
 
   static bool decides(GearDeviation deviation) {
@@ -174,7 +233,7 @@ class GearFile {
       std::optional<int> worst = first_grade(kGearStandards.at(s));
       for (const InspectedTrace& trace : result_.traces)
         for (const GearFigure& figure : trace.figures)
-          if (decides(figure.deviation)) worst = worse_of(worst, figure.grade.at(s));
+          if (decides(figure.deviation)) worst = worse_grade(worst, figure.grade.at(s));
       if (result_.covered.at(s)) result_.grade.at(s) = worst;
     }
   }
@@ -182,55 +241,15 @@ class GearFile {
   const InvoluteGear& gear_;
   const GearPointsFile& file_;
   std::map<Key, Points> sorted_;
+  std::array<std::vector<double>, 2> positions_;  // of the pitch, by kFlankSides, µm
   InspectedGear result_;
 };
 
 }  // namespace
 
-EvaluationRange profile_range(const InvoluteGear& gear, double used) {
-  return {gear.roll_begin, gear.roll_begin + used * (gear.roll_end - gear.roll_begin)};
-}
-
-EvaluationRange lead_range(const InvoluteGear& gear) {
-  const double end = std::min(kLeadEnd * gear.width, gear.module);
-  return {end, gear.width - end};
-}
-
-GearSize size_of(const InvoluteGear& gear) { return {2.0 * gear.r, gear.module, gear.width}; }
-
-void grade_profile(const InvoluteGear& gear, const std::string& name, FlankTrace& trace) {
-  trace.range = profile_range(gear, kUsed1995);
-  trace.figures = evaluated(trace, trace.range, name);
-  trace.figures_2013 = evaluated(trace, profile_range(gear, kUsed2013), name);
-  trace.grade_1995 = grade_of(GearStandard::iso1328_1995, size_of(gear), GearDeviation::profile,
-                              trace.figures.total);
-  trace.grade_2013 = grade_of(GearStandard::iso1328_2013, size_of(gear), GearDeviation::profile,
-                              trace.figures_2013.total);
-}
-
-void grade_lead(const InvoluteGear& gear, const std::string& name, FlankTrace& trace) {
-  trace.range = lead_range(gear);
-  trace.figures = trace.figures_2013 = evaluated(trace, trace.range, name);
-  const auto grade = [&](GearStandard standard) {
-    return grade_of(standard, size_of(gear), GearDeviation::lead, trace.figures.total);
-  };
-  trace.grade_1995 = grade(GearStandard::iso1328_1995);
-  trace.grade_2013 = grade(GearStandard::iso1328_2013);
-}
-
-void grade_pitch(const InvoluteGear& gear, const std::string& name, PitchRound& round) {
-  require(evaluate_pitch(round.position, round.figures), name);
-  const auto grade = [&](GearStandard standard) {
-    return worse_of(
-        grade_of(standard, size_of(gear), GearDeviation::single_pitch, round.figures.single),
-        grade_of(standard, size_of(gear), GearDeviation::total_pitch, round.figures.total));
-  };
-  round.grade_1995 = grade(GearStandard::iso1328_1995);
-  round.grade_2013 = grade(GearStandard::iso1328_2013);
-}
-
-InspectedGear inspect_gear(const InvoluteGear& gear, const GearPointsFile& file) {
-  return GearFile(gear, file).inspect();
+InspectedGear inspect_gear(const InvoluteGear& gear, const GearPointsFile& file,
+                           const InspectSettings& settings) {
+  return GearFile(gear, file, settings).inspect();
 }
 
 }  // namespace volcomp::host

@@ -64,6 +64,56 @@ json trace_json(const InspectedGear& g, const InspectedTrace& trace) {
   return out;
 }
 
+json tooth_rows(const InspectedGear& g) {
+  json rows = json::array();
+  for (const ToothSummary& t : g.teeth)
+    rows.push_back({name_of(t.kind), kFlankNames.at(t.side), t.teeth, symbol_of(t.deviation),
+                    t.mean_um[0], t.worst_um[0], t.mean_um[1], t.worst_um[1]});
+  return rows;
+}
+
+json tooth_section(const InspectedGear& g) {
+  return table_section("Several teeth (a grade is about the worst)",
+                       {plain_column("trace"), plain_column("flank"), plain_column("teeth"),
+                        plain_column(""), column("1995 mean", "µm", 2), column("worst", "µm", 2),
+                        column("2013 mean", "µm", 2), column("worst", "µm", 2)},
+                       tooth_rows(g));
+}
+
+std::string run_out_line(const InspectedGear& g) {
+  const InspectedRunOut& r = *g.run_out;
+  return fmt::format(
+      "F_r {:.2f} µm with a ball of {:g} mm, centre {:.3f} mm from the axis: grade {} "
+      "(1995), {} (2013); eccentricity {:.2f} µm",
+      r.um.total, r.ball_mm, r.radius_mm, shown_grade(g, r.grade[0], 0),
+      shown_grade(g, r.grade[1], 1), r.um.eccentricity);
+}
+
+json run_out_json(const InspectedGear& g) {
+  if (!g.run_out) return {};
+  json out{{"ball_mm", g.run_out->ball_mm},
+           {"radius_mm", g.run_out->radius_mm},
+           {"F_r_um", g.run_out->um.total},
+           {"eccentricity_um", g.run_out->um.eccentricity}};
+  for (std::size_t s = 0; s < kEditions.size(); ++s)
+    out["grade"][kEditionKeys.at(s)] = grade_json(g, g.run_out->grade.at(s), s);
+  return out;
+}
+
+json teeth_json(const InspectedGear& g) {
+  json out = json::array();
+  for (const ToothSummary& t : g.teeth) {
+    json of{{"trace", name_of(t.kind)},
+            {"flank", kFlankNames.at(t.side)},
+            {"teeth", t.teeth},
+            {"figure", symbol_of(t.deviation)}};
+    for (std::size_t s = 0; s < kEditions.size(); ++s)
+      of[kEditionKeys.at(s)] = {{"mean_um", t.mean_um.at(s)}, {"worst_um", t.worst_um.at(s)}};
+    out.push_back(std::move(of));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string inspection_text(const InvoluteGear& gear, const InspectedGear& inspected) {
@@ -81,15 +131,22 @@ std::string inspection_text(const InvoluteGear& gear, const InspectedGear& inspe
                                 inspected.covered.at(s)
                                     ? shown_grade(inspected, inspected.grade.at(s), s)
                                     : "has no grades for a gear of this size"));
-  lines.emplace_back(
-      "The grade is the worst of F_a, F_b, f_pt and F_p as far as they were measured. No filter "
-      "was applied; the formulas were not checked against the printed standards.");
-  return text_of_sections(
-      {text_section("", {fmt::format("{} teeth, module {:g} mm, pressure angle {:g} deg, helix "
-                                     "angle {:g} deg, width {:g} mm",
-                                     gear.teeth, gear.module, kDegreesPerRad * gear.pressure_angle,
-                                     kDegreesPerRad * gear.helix_angle, gear.width)}),
-       figures, text_section("", lines)});
+  if (inspected.run_out) lines.push_back(run_out_line(inspected));
+  lines.push_back(fmt::format(
+      "The grade is the worst of F_a, F_b, f_pt and F_p as far as they were measured. {}; the "
+      "formulas were not checked against the printed standards.",
+      inspected.settings.filter ? "The filter of the edition of 2013 was applied for both"
+                                : "No filter was applied"));
+  json sections = json::array();
+  sections.push_back(
+      text_section("", {fmt::format("{} teeth, module {:g} mm, pressure angle {:g} deg, helix "
+                                    "angle {:g} deg, width {:g} mm",
+                                    gear.teeth, gear.module, kDegreesPerRad * gear.pressure_angle,
+                                    kDegreesPerRad * gear.helix_angle, gear.width)}));
+  sections.push_back(figures);
+  if (!inspected.teeth.empty()) sections.push_back(tooth_section(inspected));
+  sections.push_back(text_section("", lines));
+  return text_of_sections(sections);
 }
 
 std::string inspection_csv(const InspectedGear& inspected) {
@@ -121,7 +178,9 @@ json inspection_json(const InvoluteGear& gear, const InspectedGear& inspected) {
             {"width_mm", gear.width}}},
           {"grade", grades},
           {"traces", traces},
-          {"filtered", false},
+          {"teeth", teeth_json(inspected)},
+          {"run_out", run_out_json(inspected)},
+          {"filtered", inspected.settings.filter},
           {"warnings", inspected.warnings}};
 }
 

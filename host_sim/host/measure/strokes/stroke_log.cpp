@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -30,13 +29,6 @@ const GrindingFile& grinding_of(const MachineFile& machine) {
   if (!machine.grinding)
     throw UserError(machine.path + ": has no [gear] and [stroke], which learning is about");
   return *machine.grinding;
-}
-
-StrokeLog read_stroke_log(const std::filesystem::path& path, const MachineFile& machine) {
-  InputFile file(path);
-  std::istream& stream = file.stream();
-  return (stream >> std::ws).peek() == '(' ? read_stroke_frames(stream, file.name(), machine)
-                                           : read_stroke_table(stream, file.name());
 }
 
 }  // namespace volcomp::host

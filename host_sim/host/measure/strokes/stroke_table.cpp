@@ -22,9 +22,9 @@ enum Column : std::size_t {
   kCCommand,
   kCActual,
   kSlot,
-  kColumns
+  kStrokeColumns
 };
-constexpr std::array<const char*, kColumns> kColumnNames{
+constexpr std::array<const char*, kStrokeColumns> kColumnNames{
     "t", "X command", "X actual", "Z command", "Z actual", "C command", "C actual", "slot"};
 constexpr double kFarthest_mm = 1e5;
 constexpr double kFarthest_rad = 1e6;
@@ -33,8 +33,8 @@ constexpr double kMostSlots = 65535.0;
 
 struct StrokeHeader {
   std::vector<std::size_t> column;  // of each cell
-  std::array<double, kColumns> factor{};
-  std::array<bool, kColumns> seen{};
+  std::array<double, kStrokeColumns> factor{};
+  std::array<bool, kStrokeColumns> seen{};
 };
 
 bool is_angle(std::size_t column) { return column == kCCommand || column == kCActual; }
@@ -107,7 +107,7 @@ StrokeSample read_sample(const CsvLines& lines, const StrokeHeader& header, std:
   const std::vector<std::string_view> cells = cells_of(line);
   if (cells.size() != header.column.size())
     lines.fail(fmt::format("{} cells instead of {}", cells.size(), header.column.size()));
-  std::array<double, kColumns> value{};
+  std::array<double, kStrokeColumns> value{};
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::size_t column = header.column[i];
     const std::string what = fmt::format("{}: ", kColumnNames.at(column));
