@@ -40,6 +40,8 @@ void add_completion_command(CLI::App& app, int& code);
 void add_man_command(CLI::App& app, int& code);
 void add_monitor_command(CLI::App& app, int& code);
 void add_simulate_command(CLI::App& app, int& code);
+void add_identify_command(CLI::App& app, int& code);
+void add_plan_command(CLI::App& app, int& code);
 void add_uncertainty_command(CLI::App& app, int argc, char** argv, int& code);
 void add_verify_command(CLI::App& app, int argc, char** argv, int& code);
 

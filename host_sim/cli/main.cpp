@@ -116,6 +116,8 @@ std::vector<Command> all_own_commands(int argc, char** argv, int& code) {
           {"inspect", with(add_inspect_command)},
           {"check-lever", with(add_check_lever_command)},
           {"evaluate-ballbar", with_line(add_evaluate_ballbar_command)},
+          {"plan", with(add_plan_command)},
+          {"identify", with(add_identify_command)},
           {"learn", with_line(add_learn_command)},
           {"uncertainty", with_line(add_uncertainty_command)},
           {"verify", with_line(add_verify_command)},

@@ -98,7 +98,8 @@ json where_to_json(const Where& where) {
   return j;
 }
 
-void check_refusal(const json& c, const Status& status, std::vector<Failure>& failures) {
+void check_refusal(const json& c, const Refused& refused, std::vector<Failure>& failures) {
+  const Status& status = refused.status;
   const std::string id = c["id"];
   const std::string reason = code(status.reason);
   if (!c.contains("reason")) {
@@ -111,6 +112,7 @@ void check_refusal(const json& c, const Status& status, std::vector<Failure>& fa
   }
   if (!c.contains("out_where")) return;
   json where = where_to_json(status.where);
+  where.update(refused.more);
   if (status.reason == Reason::unknown_plane) where["plane"] = where["field"];
   for (const auto& [key, value] : c["out_where"].items()) {
     const json got = where.contains(key) ? where[key] : json(nullptr);
@@ -133,7 +135,7 @@ std::vector<Failure> run_case(const json& c, const Handlers& handlers) {
     const json tolerances = c.contains("tol") ? c["tol"] : json::object();
     Comparison(tolerances, id, failures).walk(c.at("out"), out, "");
   } catch (const Refused& refused) {
-    check_refusal(c, refused.status, failures);
+    check_refusal(c, refused, failures);
   } catch (const std::exception& e) {
     failures.push_back({id, std::string("cannot be run: ") + e.what()});
   }

@@ -18,8 +18,10 @@ using nlohmann::json;
 
 // Thrown by a handler when the library refused the input.
 struct Refused : std::runtime_error {
-  explicit Refused(const Status& s) : std::runtime_error(code(s.reason)), status(s) {}
+  explicit Refused(const Status& s, json where = json::object())
+      : std::runtime_error(code(s.reason)), status(s), more(std::move(where)) {}
   Status status;
+  json more;  // of the place, what a status cannot name
 };
 
 inline void require(const Status& status) {

@@ -6,6 +6,8 @@
 
 namespace volcomp::cases {
 
+void add_id_geometry(Handlers& handlers);
+void add_id_solution(Handlers& handlers);
 void add_measured_gears(Handlers& handlers);
 void add_measured_intervals(Handlers& handlers);
 void add_measured_refusals(Handlers& handlers);

@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
       return 2;
     }
     volcomp::cases::Handlers handlers;
+    volcomp::cases::add_id_geometry(handlers);
+    volcomp::cases::add_id_solution(handlers);
     volcomp::cases::add_measured_gears(handlers);
     volcomp::cases::add_measured_intervals(handlers);
     volcomp::cases::add_measured_refusals(handlers);

@@ -91,6 +91,13 @@ std::optional<TurnGap> close_turn(const RunsFile& runs, const AxisFile& axis, co
   return gap;
 }
 
+// How often each segment is divided: as the machine file asks, as far as the table has room.
+std::size_t refinement(const MachineFile& machine, const BuildOptions& options, std::size_t knots) {
+  const std::size_t most = (options.knots - 1) / (knots - 1);
+  const std::size_t wanted = options.refine == 0 ? machine.refine : options.refine;
+  return std::max<std::size_t>(1, std::min(wanted, most));
+}
+
 void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
                 const BuildOptions& options, BuiltTables& out) {
   const AxisFile& axis = machine.axes[a];
@@ -115,9 +122,7 @@ void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
   note_warnings(runs, axis, *out.built[a], out.warnings);
   if (!machine.squareness) note_slopes(runs, axis, *out.built[a], out.warnings);
 
-  const std::size_t most = (options.knots - 1) / (out.built[a]->table.knots - 1);
-  const std::size_t wanted = options.refine == 0 ? machine.refine : options.refine;
-  const std::size_t factor = std::max<std::size_t>(1, std::min(wanted, most));
+  const std::size_t factor = refinement(machine, options, out.built[a]->table.knots);
   require(refine(out.built[a]->table, machine.interpolation, factor, *out.refined[a]), runs.name);
   if (axis.full_turn() && !is_full_turn(*out.refined[a], joint)) {
     out.warnings.push_back(
@@ -221,7 +226,38 @@ void require_usable(const BuiltTables& c, const std::string& path) {
   require(compensator->stage(c.tables, c.chain.tool_point(), 0), path);
 }
 
+// What the tables of a machine hold besides its errors.
+void describe_machine(const MachineFile& machine, BuiltTables& out) {
+  out.tables.machine = out.chain.description();
+  out.tables.directions = out.model.directions;
+  out.tables.provenance.machine_id = machine.id;
+  out.tables.provenance.temperature_C = static_cast<float>(machine.thermal.reference_C);
+  out.tables.expansion = out.model.expansion = machine.thermal.expansion;
+  require_usable(out, machine.path);
+}
+
 }  // namespace
+
+std::unique_ptr<BuiltTables> tables_of_errors(const MachineFile& machine,
+                                              const std::vector<ErrorTable>& errors) {
+  require_authority(machine);
+  const BuildOptions options;
+  auto out = std::make_unique<BuiltTables>();
+  out->chain = out->model.chain = machine.chain;
+  out->model.tool_point = out->chain.tool_point();
+  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    const std::string place = fmt::format("{}: axis {}", machine.path, machine.axes[a].letter);
+    out->refined.push_back(std::make_unique<ErrorTable>());
+    require(refine(errors[a], machine.interpolation, refinement(machine, options, errors[a].knots),
+                   *out->refined[a]),
+            place);
+    out->model.table[a] = out->refined[a].get();
+    require(quantise(*out->refined[a], out->chain.axis(a), options.knots, out->tables.axis[a]),
+            place);
+  }
+  describe_machine(machine, *out);
+  return out;
+}
 
 std::unique_ptr<BuiltTables> build_tables(const MachineFile& machine,
                                           const std::vector<RunsFile>& runs,
@@ -245,12 +281,7 @@ std::unique_ptr<BuiltTables> build_tables(const MachineFile& machine,
                     machine.path));
   }
   apply_squareness(machine, options, *out);
-  out->tables.machine = out->chain.description();
-  out->tables.directions = out->model.directions;
-  out->tables.provenance.machine_id = machine.id;
-  out->tables.provenance.temperature_C = static_cast<float>(machine.thermal.reference_C);
-  out->tables.expansion = out->model.expansion = machine.thermal.expansion;
-  require_usable(*out, machine.path);
+  describe_machine(machine, *out);
   if (options.bound) out->model_bound_nm = model_bound_nm(out->model);
   return out;
 }

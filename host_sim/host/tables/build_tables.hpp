@@ -69,6 +69,12 @@ struct BuiltTables {
                                                         const std::vector<RunsFile>& runs,
                                                         const BuildOptions& options);
 
+// From errors that are known at the targets of the machine file, one table an axis: internal
+// convention, both directions, place of rotary axes and slopes of straightness in them. Squareness
+// of the machine file does not count. Throws UserError.
+[[nodiscard]] std::unique_ptr<BuiltTables> tables_of_errors(const MachineFile& machine,
+                                                            const std::vector<ErrorTable>& errors);
+
 [[nodiscard]] std::vector<std::uint8_t> make_image(const MachineTables& tables);
 
 }  // namespace volcomp::host

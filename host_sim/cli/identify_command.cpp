@@ -1,0 +1,107 @@
+// volcomp identify, volcomp plan
+
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/exit_codes.hpp"
+#include "host_sim/cli/output.hpp"
+#include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/identify/identified_report.hpp"
+
+namespace volcomp::cli {
+namespace {
+
+using namespace host::identify;
+
+struct IdentifyArguments {
+  std::string plan;
+  std::string image_file;
+  std::string json_file;
+  std::string csv_file;
+  IdentifySettings settings;
+  bool no_leave_out = false;
+};
+
+std::vector<std::string> inputs_of(const MeasurementPlan& plan) {
+  std::vector<std::string> inputs{plan.path};
+  for (const auto& file : plan.files)
+    inputs.push_back(file.string());
+  return inputs;
+}
+
+int identify_machine(const IdentifyArguments& a) {
+  const MeasurementPlan plan = read_plan(a.plan);
+  Results results({a.image_file, a.json_file, a.csv_file}, inputs_of(plan));
+  if (!plan.has_readings())
+    throw host::UserError(fmt::format(
+        "{}: not every set-up has readings; volcomp plan says what it will see", plan.path));
+  IdentifySettings settings = a.settings;
+  settings.leave_out = !a.no_leave_out;
+  const Identified found = [&] {
+    ProgressBar bar;
+    return identify(plan, settings,
+                    [&](double done, const std::string& what) { bar.show(done, what); });
+  }();
+  const std::vector<std::uint8_t> image = host::make_image(found.tables->tables);
+  results.add(a.image_file, {reinterpret_cast<const char*>(image.data()), image.size()});
+  results.add(a.json_file, json_text(identified_json(plan, found)));
+  results.add(a.csv_file, functions_csv(plan, found.functions));
+  results.write();
+  fmt::print(results.text(), "{}", identified_text(plan, found));
+  return number(found.consistency.good() ? ExitCode::done : ExitCode::negative);
+}
+
+struct PlanArguments {
+  std::string plan;
+  std::string json_file;
+};
+
+int foresee_plan(const PlanArguments& a) {
+  const MeasurementPlan plan = read_plan(a.plan);
+  Results results({a.json_file}, inputs_of(plan));
+  const Foreseen foreseen = [&] {
+    ProgressBar bar;
+    return foresee(plan, [&](double done, const std::string& what) { bar.show(done, what); });
+  }();
+  results.add(a.json_file, json_text(foreseen_json(plan, foreseen)));
+  results.write();
+  fmt::print(results.text(), "{}", foreseen_text(plan, foreseen));
+  return number(foreseen.solvable ? ExitCode::done : ExitCode::negative);
+}
+
+}  // namespace
+
+void add_identify_command(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "identify",
+      "Errors of a machine from what a shop can measure: tracers, ball bars, diagonals, touched "
+      "spheres, R-tests and runs, all together, with their uncertainty");
+  auto a = std::make_shared<IdentifyArguments>();
+  command->add_option("PLAN", a->plan, "Measurement plan (TOML) with the files of its readings")
+      ->required();
+  command->add_option("-o,--out", a->image_file, "Write a table image to this file");
+  command->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
+  command->add_option("--csv", a->csv_file,
+                      "Write the error functions to this file (-: standard output)");
+  command->add_flag("--robust", a->settings.robust,
+                    "Readings far off count less (Huber); they are named, never dropped");
+  command->add_flag("--no-leave-out", a->no_leave_out,
+                    "Do not hold every set-up against the others: faster");
+  command->callback([a, &code] { code = identify_machine(*a); });
+}
+
+void add_plan_command(CLI::App& app, int& code) {
+  CLI::App* command = app.add_subcommand(
+      "plan",
+      "What a measurement plan will see before anything is measured: what stays unseen, the "
+      "uncertainty of every error, and which set-up adds most");
+  auto a = std::make_shared<PlanArguments>();
+  command->add_option("PLAN", a->plan, "Measurement plan (TOML)")->required();
+  command->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
+  command->callback([a, &code] { code = foresee_plan(*a); });
+}
+
+}  // namespace volcomp::cli

@@ -1,0 +1,41 @@
+#include "host_sim/host/measure/identify/plan_values.hpp"
+
+#include <fmt/format.h>
+
+namespace volcomp::host::identify {
+
+double positive(const TomlSection& s, const std::string& key) {
+  const double value = s.number(key);
+  if (!(value > 0.0)) s.complain(key, fmt::format("'{}' must be larger than 0", key));
+  return value;
+}
+
+Vec3 vector_of(const TomlSection& s, const std::string& key) {
+  const auto v = s.numbers<3>(key);
+  return {v[0], v[1], v[2]};
+}
+
+Vec3 unit_of(const TomlSection& s, const std::string& key) {
+  const Vec3 v = vector_of(s, key);
+  if (!(v.norm() > 0.0)) s.complain(key, fmt::format("'{}' must not be 0", key));
+  return v.normalized();
+}
+
+Prior prior_of(const TomlSection& s, const std::string& key, double unit) {
+  const toml::value& v = s.need(key);
+  if (v.is_string() && v.as_string().str == "free") return kFree;
+  return unit * positive(s, key);
+}
+
+std::vector<std::string> words_of(const TomlSection& s, const std::string& key,
+                                  const toml::value& list) {
+  std::vector<std::string> out;
+  if (!list.is_array()) s.complain(key, fmt::format("'{}' must be a list of names", key));
+  for (const toml::value& v : list.as_array()) {
+    if (!v.is_string()) s.complain(key, fmt::format("'{}' must be a list of names", key));
+    out.push_back(v.as_string().str);
+  }
+  return out;
+}
+
+}  // namespace volcomp::host::identify

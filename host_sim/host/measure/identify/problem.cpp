@@ -1,0 +1,65 @@
+#include "host_sim/host/measure/identify/problem.hpp"
+
+#include <cmath>
+
+namespace volcomp::host::identify {
+
+std::size_t SetUp::components() const {
+  switch (kind) {
+    case ObservationKind::centre:
+    case ObservationKind::rtest:
+      return 3;
+    case ObservationKind::runs:
+      return channels.size();
+    default:
+      return 1;
+  }
+}
+
+std::optional<std::size_t> Problem::reference() const {
+  for (std::size_t s = 0; s < styli.size(); ++s)
+    if (!styli[s].place) return s;
+  return std::nullopt;
+}
+
+std::optional<std::size_t> Problem::stylus_of(const SetUp& s, std::size_t i) const {
+  return s.stylus.empty() ? reference() : s.stylus[i];
+}
+
+std::array<Vec3, 2> across(const Vec3& n) {
+  Eigen::Index least = 0;
+  for (Eigen::Index k = 1; k < 3; ++k)
+    if (std::abs(n(k)) < std::abs(n(least))) least = k;
+  const Vec3 first = Vec3::Unit(least).cross(n).normalized();
+  return {first, n.cross(first)};
+}
+
+std::vector<std::size_t> sloped_channels(const Problem& problem, const SetUp& s) {
+  std::vector<std::size_t> sloped;
+  if (!s.slopes || !problem.is_slide(s.axis)) return sloped;
+  const std::size_t own = index(problem.machine.chain.axis(s.axis).axis);
+  for (std::size_t k = 0; k < s.channels.size(); ++k)
+    if (s.channels[k] < 3 && s.channels[k] != own) sloped.push_back(k);
+  return sloped;
+}
+
+std::size_t local_count(const Problem& problem, const SetUp& s) {
+  switch (s.kind) {
+    case ObservationKind::tracer:
+      return 4;
+    case ObservationKind::bar:
+    case ObservationKind::step:
+    case ObservationKind::rtest:
+      return 3;
+    case ObservationKind::diagonal:
+      return 1;
+    case ObservationKind::centre:
+    case ObservationKind::touch:
+      return 6;
+    case ObservationKind::runs:
+      break;
+  }
+  return s.channels.size() + sloped_channels(problem, s).size();
+}
+
+}  // namespace volcomp::host::identify

@@ -1,0 +1,140 @@
+#!/usr/bin/env bash
+# volcomp identify and plan as a user meets them: cases of an independent implementation as files, what is wrong in a
+# measurement is found and named, and what cannot be used is refused with its place.
+# shellcheck source=tests/system/cli_common.sh
+. "$(dirname "$0")/cli_common.sh"
+volcomp=$1
+source_dir=$2
+cases=$source_dir/tests/data/cases/identification.json
+here=$source_dir/tests/system
+cd "$work" || exit 1
+
+# files CASE: the plan of a case, in a folder of its own.
+files() {
+  mkdir -p "$1"
+  /usr/bin/python3 "$here/identification_files.py" "$cases" "$1" "$1" || { echo "FAILED: files of $1"; failed=1; }
+}
+
+# --- values, uncertainties, chi-square and outliers through files, of every kind but centres and runs
+for case in id_solve_01 id_solve_02 id_solve_06 id_solve_07 id_solve_09 id_solve_10 id_solve_11 id_solve_noisy_00 id_solve_noisy_04 \
+  id_solve_noisy_05 id_solve_noisy_07 id_solve_noisy_08 id_solve_robust_00 id_solve_robust_01; do
+  files "$case"
+  options=(--no-leave-out)
+  [[ $case != *robust* ]] || options+=(--robust)
+  (cd "$case" && "$volcomp" identify plan.toml "${options[@]}" --json identified.json -o tables.vct >text.txt 2>&1)
+  code=$?
+  # Chi-square of these is beyond its limit: outliers, and a prior that the truth does not follow.
+  [ "$code" -le 1 ] || { echo "FAILED: $case ended with $code: $(cat "$case/text.txt")"; failed=1; }
+  /usr/bin/python3 "$here/identification_check.py" "$case/identified.json" "$case/wanted.json" ||
+    { echo "FAILED: $case"; failed=1; }
+done
+expect 0 'axis' "$volcomp" dump id_solve_01/tables.vct
+
+# --- a set-up that has moved after half of its readings is named: by 20 µm, which is refused, and by 3 µm
+files id_solve_noisy_00
+cd id_solve_noisy_00 || exit 1
+moved() {
+  /usr/bin/python3 - "$1" <<'PYTHON'
+import sys
+lines = open("setup_1.csv").read().splitlines()
+half = len(lines) // 2
+moved = [",".join(l.split(",")[:-1] + [repr(float(l.split(",")[-1]) + float(sys.argv[1]))]) for l in lines[half:]]
+open("moved.csv", "w").write("\n".join(lines[:half] + moved) + "\n")
+PYTHON
+}
+sed 's/setup_1.csv/moved.csv/' plan.toml >moved.toml
+moved 0.020
+expect 2 '[contradictory] The others do not predict "T1".' "$volcomp" identify moved.toml
+moved 0.003
+expect 1 'the others do not predict it' "$volcomp" identify moved.toml --json moved.json
+/usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: which set-up has moved'; failed=1; }
+import json
+found = json.load(open("moved.json"))
+# Chi-square of the rest, over its degrees of freedom, without each set-up.
+rest = {s["name"]: (found["chi2"] - s["leave_out"]) / (found["dof"] - s["leave_out_dof"]) for s in found["setups"]}
+assert min(rest, key=rest.get) == "T1" and rest["T1"] < 1.3 and min(v for k, v in rest.items() if k != "T1") > 3, rest
+PYTHON
+
+# --- refusals
+refused() {
+  expect 2 "$@" --json never.json
+  one_line "${@:2}" --json never.json
+  [ ! -e never.json ] || { echo "FAILED: never.json was written"; failed=1; rm never.json; }
+}
+changed() { sed "$1" plan.toml >bad.toml; }
+bad() { refused "$1" "$volcomp" identify bad.toml; }
+table() { sed "$1" setup_0.csv >bad.csv; sed 's/setup_0.csv/bad.csv/' plan.toml >bad.toml; }
+changed '/^positions/d'
+bad "'positions'"
+changed 's/^compensation.*/compensation = "1234ABCD"/'
+bad 'measure with compensation switched off'
+changed '/^temperature_C/d'
+bad "'temperature_C'"
+changed 's/^file = "machine.toml"/file = "none.toml"/'
+bad 'none.toml: cannot be opened'
+changed 's/X = 2/W = 2/'
+bad 'no axis W'
+changed 's/X = 2/X = 0/'
+bad "'X'"
+changed 's/kind = "tracer"/kind = "laser"/'
+bad "'kind'"
+changed '0,/u_um = .*/s//u_um = 0/'
+bad "'u_um' must be larger than 0"
+changed 's/"T1"/"T0"/'
+bad 'set-up "T0": A name occurs twice. [duplicate_id]'
+changed '/^reference = true/d'
+bad '[reference_stylus]'
+changed 's/^gauge = .*/gauge = [["Y", "EX"], ["Y", "EZ"]]/'
+sed -i 's/^u_mm = .*//' bad.toml
+bad '[not_observable] Not seen: '
+# With what is known of the styli it can be solved, and is hardly known.
+changed 's/^gauge = .*/gauge = [["Y", "EX"], ["Y", "EZ"]]/'
+expect 0 'warning: 1 combinations of these are held by nothing but what is known of the styli' "$volcomp" identify bad.toml
+changed 's/^gauge = .*/gauge = [["Y", "EX"], ["Y", "EZ"], ["X", "EZ"], ["X", "EX"]]/'
+bad '[gauge_excess]'
+table '1s/length \[mm\]/length [um]/'
+bad '[unit_suspected]'
+table '1s/tip/top/'
+bad 'bad.csv:1: '
+table '1s/length \[mm\]/length [rad]/'
+bad 'bad.csv:1: column "length [rad]" has a unit of the wrong kind'
+table '1s/,direction Z,length/,direction Z,direction Z/'
+bad 'bad.csv:1: '
+table '5s/,S[0-3],/,S9,/'
+bad 'bad.csv:5: the plan has no stylus "S9" [unknown_reference]'
+table '5s/,[+-],/,up,/'
+bad 'bad.csv:5: direction'
+table '5s/[^,]*$/nan/'
+bad 'bad.csv:5: length: "nan" must be finite'
+table '5s/,[^,]*$//'
+bad 'bad.csv:5: 7 cells instead of 8'
+table '5,999d'
+bad 'set-up "T0": A set-up has no more readings than unknowns of its own. [too_few_observations]'
+table '3s/^[^,]*/5000/'
+bad '[position_out_of_range]'
+noise 2000 >bad.csv
+bad 'bad.csv'
+expect 2 'cannot take the place of an input' "$volcomp" identify plan.toml --json setup_0.csv
+
+# --- plans, without a reading: what is unseen is named as the cases have it
+cut -d, -f1-7 setup_0.csv >positions.csv
+sed 's/setup_[0-3].csv/positions.csv/' plan.toml >positions.toml
+refused 'not every set-up has readings' "$volcomp" identify positions.toml
+cd ..
+for case in id_rank_00 id_rank_01 id_rank_05 id_rank_06 id_rank_14 id_rank_21; do
+  files "$case"
+  (cd "$case" && "$volcomp" plan plan.toml --json foreseen.json >text.txt 2>&1)
+  code=$?
+  /usr/bin/python3 - "$case" "$code" <<'PYTHON' || { echo "FAILED: $case: $(head -n 5 "$case/text.txt")"; failed=1; }
+import json, sys
+case, code = sys.argv[1], int(sys.argv[2])
+found, wanted = json.load(open(f"{case}/foreseen.json")), json.load(open(f"{case}/wanted.json"))["out"]
+assert found["unseen"] == wanted["unseen"] and found["together"] == wanted["together"], (found["together"], wanted["together"])
+assert found["nullity_functions"] == wanted["nullity_functions"]
+assert code == (0 if found["solvable"] else 1)
+text = open(f"{case}/text.txt").read()
+for group in wanted["together"]:
+    assert ", ".join(group) in text, group
+PYTHON
+done
+exit "$failed"
