@@ -27,7 +27,7 @@ Refusal placed(Refusal r, std::size_t index) {
 // The first set-up that is refused.
 Refusal first_of(const Problem& problem, const std::function<Refusal(const SetUp&)>& check) {
   for (const SetUp& s : problem.setups)
-    if (const Refusal r = check(s); !r.ok()) return r;
+    if (Refusal r = check(s); !r.ok()) return r;
   return {};
 }
 
@@ -305,7 +305,7 @@ Refusal check_problem(const Problem& problem) {
       [&] { return check_motion(problem); },
       [&] { return check_rank(problem); }};
   for (const auto& check : checks)
-    if (const Refusal r = check(); !r.ok()) return r;
+    if (Refusal r = check(); !r.ok()) return r;
   return {};
 }
 

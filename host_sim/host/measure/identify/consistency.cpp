@@ -7,7 +7,8 @@
 namespace volcomp::host::identify {
 namespace {
 
-void leave_out(const Problem& problem, const Solution& all, std::size_t setup, SetUpCheck& check) {
+void hold_against_rest(const Problem& problem, const Solution& all, std::size_t setup,
+                       SetUpCheck& check) {
   if (problem.setups.size() < 2) return;
   Problem rest = problem;
   rest.setups.erase(rest.setups.begin() + static_cast<std::ptrdiff_t>(setup));
@@ -27,7 +28,8 @@ double chi2_limit_99(double dof) {
   return dof * std::pow(1.0 - part + kNormal99 * std::sqrt(part), 3.0);
 }
 
-Consistency check_consistency(const Equations& equations, const Solution& solution, bool each) {
+Consistency check_consistency(const Equations& equations, const Solution& solution,
+                              bool leave_out) {
   Consistency out;
   out.chi2 = solution.chi2;
   out.dof = solution.dof;
@@ -40,8 +42,8 @@ Consistency check_consistency(const Equations& equations, const Solution& soluti
                              check.redundancy += 1.0 - solution.triangle.reduced(row).squaredNorm();
                              check.chi2 += residual * residual;
                            });
-  for (std::size_t k = 0; each && k < out.setups.size(); ++k)
-    leave_out(equations.problem(), solution, k, out.setups[k]);
+  for (std::size_t k = 0; leave_out && k < out.setups.size(); ++k)
+    hold_against_rest(equations.problem(), solution, k, out.setups[k]);
   return out;
 }
 

@@ -50,7 +50,7 @@ BasisPieces FunctionBasis::pieces(std::size_t segment, double u) const {
 }
 
 BasisPieces FunctionBasis::at(double q) const {
-  const double n = static_cast<double>(segments_);
+  const auto n = static_cast<double>(segments_);
   double u = (q - lo_) / (hi_ - lo_) * n;
   if (periodic_) u -= n * std::floor(u / n);
   const double segment = std::clamp(std::floor(u), 0.0, n - 1.0);
@@ -60,7 +60,7 @@ BasisPieces FunctionBasis::at(double q) const {
 // Of a cubic exactly: the difference of the values at the ends and twice that in the middle, over a
 // quarter.
 BasisPieces FunctionBasis::curvature(std::size_t segment) const {
-  const double u = static_cast<double>(segment);
+  const auto u = static_cast<double>(segment);
   const BasisPieces begin = pieces(segment, u);
   const BasisPieces middle = pieces(segment, u + 0.5);
   const BasisPieces end = pieces(segment, u + 1.0);

@@ -90,7 +90,7 @@ std::vector<Pose> places_of(const Machine& machine) {
   std::vector<Pose> places{Pose{}};
   for (std::size_t a = 0; a < axes; ++a) {
     const Travel& travel = machine.travel.at(a);
-    const double parts = static_cast<double>(travel.periodic ? steps : steps - 1);
+    const auto parts = static_cast<double>(travel.periodic ? steps : steps - 1);
     std::vector<Pose> more;
     for (const Pose& place : places)
       for (std::size_t k = 0; k < steps; ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ namespace {
 
 class PlanReader {
  public:
-  explicit PlanReader(const std::filesystem::path& path) : path_(path) {}
+  explicit PlanReader(std::filesystem::path path) : path_(std::move(path)) {}
 
   MeasurementPlan read() {
     plan_.path = shown_name(path_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,8 +28,8 @@ std::size_t index_of(const std::vector<Named>& list, const std::string& name, co
 
 class SetUpReader {
  public:
-  SetUpReader(MeasurementPlan& plan, const std::filesystem::path& folder, const TomlSection& s)
-      : plan_(plan), problem_(plan.problem), folder_(folder), s_(s) {}
+  SetUpReader(MeasurementPlan& plan, std::filesystem::path folder, const TomlSection& s)
+      : plan_(plan), problem_(plan.problem), folder_(std::move(folder)), s_(s) {}
 
   void read() {
     setup_.name = s_.text("name");
@@ -120,7 +121,7 @@ class SetUpReader {
     const std::array<const char*, 3> names{"YZ", "ZX", "XY"};
     const auto* const found = std::find(names.begin(), names.end(), plane.as_string().str);
     if (found == names.end())
-      s_.complain("plane", "'plane' must be \"XY\", \"YZ\", \"ZX\" or the normal [x, y, z]");
+      s_.complain("plane", R"('plane' must be "XY", "YZ", "ZX" or the normal [x, y, z])");
     setup_.normal = Vec3::Unit(found - names.begin());
   }
 

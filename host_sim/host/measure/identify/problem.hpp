@@ -30,7 +30,9 @@ struct Machine {
   std::array<Travel, kMaxAxes> travel;
 
   [[nodiscard]] std::string name_of(std::size_t axis) const {
-    return std::string(1, chain.axis(axis).letter);
+    std::string name;
+    name = chain.axis(axis).letter;
+    return name;
   }
 };
 

@@ -28,7 +28,7 @@ ValueRows value_rows(const Unknowns& unknowns) {
     const double unit =
         (quantity.angular() ? kUnit_rad : kUnit_mm) * std::sqrt(static_cast<double>(places.size()));
     for (const double place : places) {
-      list.push_back(unknowns.value_row(quantity, place) / unit);
+      list.emplace_back(unknowns.value_row(quantity, place) / unit);
       rows.quantity.push_back(g);
     }
   }
@@ -64,7 +64,7 @@ MatrixXd unseen_directions(const MatrixXd& Z) {
   std::vector<Index> kept;
   for (Index j = 0; j < Z.cols(); ++j)
     if (Z.col(j).norm() >= kNuisanceOnly) kept.push_back(j);
-  if (kept.empty()) return MatrixXd(Z.rows(), 0);
+  if (kept.empty()) return MatrixXd::Zero(Z.rows(), 0);
   MatrixXd normed(Z.rows(), static_cast<Index>(kept.size()));
   for (std::size_t j = 0; j < kept.size(); ++j)
     normed.col(static_cast<Index>(j)) = Z.col(kept[j]).normalized();

@@ -12,7 +12,7 @@ namespace {
 
 // Proper rotation and way that bring `from` nearest to `to` (Kabsch, Umeyama).
 Placement rigid_placement(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  const double n = static_cast<double>(from.size());
+  const auto n = static_cast<double>(from.size());
   Vec3 a = Vec3::Zero();
   Vec3 b = Vec3::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) {

@@ -1,5 +1,6 @@
 #include "host_sim/host/measure/identify/unknowns.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "comp/machine/frame.hpp"
@@ -8,9 +9,7 @@ namespace volcomp::host::identify {
 namespace {
 
 bool contains(const Channels& channels, std::size_t channel) {
-  for (const std::size_t c : channels)
-    if (c == channel) return true;
-  return false;
+  return std::find(channels.begin(), channels.end(), channel) != channels.end();
 }
 
 // Ideal rotation of a rotary axis; acts on both halves.
@@ -37,7 +36,6 @@ Unknowns::Unknowns(const Problem& problem, bool gauge) : problem_(problem) {
   count_functions();
   eliminate(gauge);
   count_single_values();
-  of_machine_ = size_;
   count_shared();
   count_setups();
 }
@@ -176,6 +174,7 @@ void Unknowns::count_single_values() {
   for (std::size_t a = 0; a < axes; ++a)
     for (const std::size_t c : model.constant.at(a))
       add_single(QuantityKind::constant, a, c);
+  of_machine_ = size_;
 }
 
 void Unknowns::count_shared() {
