@@ -83,29 +83,34 @@ void require_good(const MeasurementPlan& plan, const Refusal& refusal) {
   if (!refusal.ok()) throw UserError(fmt::format("{}: {}", plan.path, described(refusal)));
 }
 
-// Places over the whole travel: five of each axis, three where there are more than three axes.
-std::vector<Pose> places_of(const Machine& machine) {
-  const std::size_t axes = machine.chain.axis_count();
-  const std::size_t steps = axes <= 3 ? 5 : 3;
-  std::vector<Pose> places{Pose{}};
-  for (std::size_t a = 0; a < axes; ++a) {
-    const Travel& travel = machine.travel.at(a);
-    const auto parts = static_cast<double>(travel.periodic ? steps : steps - 1);
-    std::vector<Pose> more;
-    for (const Pose& place : places)
-      for (std::size_t k = 0; k < steps; ++k) {
-        more.push_back(place);
-        more.back().at(a) = travel.lo + (travel.hi - travel.lo) * static_cast<double>(k) / parts;
-      }
-    places = std::move(more);
+// The van der Corput sequence: evenly over 0…1 for any number of terms.
+double evenly(std::size_t n, std::size_t base) {
+  double place = 0.0;
+  double digit = 1.0;
+  for (; n > 0; n /= base) {
+    digit /= static_cast<double>(base);
+    place += digit * static_cast<double>(n % base);
   }
+  return place;
+}
+
+// Places spread evenly over the whole travel (J. H. Halton, Numer. Math. 2, 1960).
+std::vector<Pose> places_of(const Machine& machine, std::size_t count) {
+  constexpr std::array<std::size_t, kMaxAxes> kPrimes{2, 3, 5, 7, 11, 13, 17, 19};
+  std::vector<Pose> places(count);
+  for (std::size_t n = 0; n < count; ++n)
+    for (std::size_t a = 0; a < machine.chain.axis_count(); ++a) {
+      const Travel& travel = machine.travel.at(a);
+      places[n].at(a) = travel.lo + (travel.hi - travel.lo) * evenly(n + 1, kPrimes.at(a));
+    }
   return places;
 }
 
 FoundVolume volume_of(const Equations& equations, const Triangle& triangle) {
+  constexpr std::size_t kPlaces = 1000;
   const Machine& machine = equations.problem().machine;
-  VolumeUncertainty u =
-      volume_uncertainty(equations, triangle, places_of(machine), machine.chain.tool_point());
+  VolumeUncertainty u = volume_uncertainty(equations, triangle, places_of(machine, kPlaces),
+                                           machine.chain.tool_point());
   FoundVolume out;
   out.rms = u.rms_rigid();
   std::sort(u.rigid.begin(), u.rigid.end());
@@ -321,9 +326,10 @@ Foreseen foresee(const MeasurementPlan& plan, const Progress& progress) {
     out.volume = volume_of(equations, triangle);
   }
   progress(0.4, "which set-up adds most");
+  constexpr std::size_t kPlaces = 100;  // for every candidate
   const PlanChoice choice =
-      choose_setups(consistent, places_of(problem.machine), problem.machine.chain.tool_point(),
-                    problem.setups.size());
+      choose_setups(consistent, places_of(problem.machine, kPlaces),
+                    problem.machine.chain.tool_point(), problem.setups.size());
   out.order = choice.chosen;
   out.rms_u = choice.rms_u;
   progress(1.0, "done");

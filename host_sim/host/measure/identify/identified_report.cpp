@@ -203,6 +203,11 @@ std::vector<std::string> closing_lines(const MeasurementPlan& plan, const Identi
                                 text(found.squareness->a_yz)));
   }
   lines.push_back(volume_line(found.volume));
+  if (const auto& curvature = plan.problem.model.curvature)
+    lines.push_back(
+        fmt::format("Stated beforehand: within a segment a slope changes by about {:g} um or {:g} "
+                    "urad a segment",
+                    kUmPerMm * curvature->mm, kUradPerRad * curvature->rad));
   lines.emplace_back(
       "Not in these uncertainties: what the splines cannot follow, reversal that is not an "
       "unknown, "
