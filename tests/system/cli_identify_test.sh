@@ -149,7 +149,8 @@ assert (found["unknowns"], found["rows"]) == (292, 1705), (found["unknowns"], fo
 u = found["u_volume"]
 assert abs(u["rms_um"] - 0.73) < 0.03 and abs(u["p95_um"] - 1.42) < 0.1, u
 rms = [step["rms_u_um"] for step in found["order"]]
-assert len(rms) == 12 and rms == sorted(rms, reverse=True) and rms[-1] < 0.05 * rms[0], rms
+# Every set-up adds; all of them with a weak prior tell no less than without one, at other places.
+assert len(rms) == 12 and rms == sorted(rms, reverse=True) and rms[-1] < 1.1 * u["rms_um"], rms
 assert len(found["unreached"]) > 20, found["unreached"]
 PYTHON
 exit "$failed"
