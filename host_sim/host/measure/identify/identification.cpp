@@ -9,7 +9,6 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/identify/check.hpp"
 #include "host_sim/host/measure/identify/touch_centre.hpp"
-#include "host_sim/host/measure/identify/volume.hpp"
 
 namespace volcomp::host::identify {
 namespace {
@@ -83,116 +82,6 @@ void require_good(const MeasurementPlan& plan, const Refusal& refusal) {
   if (!refusal.ok()) throw UserError(fmt::format("{}: {}", plan.path, described(refusal)));
 }
 
-// The van der Corput sequence: evenly over 0…1 for any number of terms.
-double evenly(std::size_t n, std::size_t base) {
-  double place = 0.0;
-  double digit = 1.0;
-  for (; n > 0; n /= base) {
-    digit /= static_cast<double>(base);
-    place += digit * static_cast<double>(n % base);
-  }
-  return place;
-}
-
-// Places spread evenly over the whole travel (J. H. Halton, Numer. Math. 2, 1960).
-std::vector<Pose> places_of(const Machine& machine, std::size_t count) {
-  constexpr std::array<std::size_t, kMaxAxes> kPrimes{2, 3, 5, 7, 11, 13, 17, 19};
-  std::vector<Pose> places(count);
-  for (std::size_t n = 0; n < count; ++n)
-    for (std::size_t a = 0; a < machine.chain.axis_count(); ++a) {
-      const Travel& travel = machine.travel.at(a);
-      places[n].at(a) = travel.lo + (travel.hi - travel.lo) * evenly(n + 1, kPrimes.at(a));
-    }
-  return places;
-}
-
-FoundVolume volume_of(const Equations& equations, const Triangle& triangle) {
-  constexpr std::size_t kPlaces = 1000;
-  const Machine& machine = equations.problem().machine;
-  VolumeUncertainty u = volume_uncertainty(equations, triangle, places_of(machine, kPlaces),
-                                           machine.chain.tool_point());
-  FoundVolume out;
-  out.rms = u.rms_rigid();
-  std::sort(u.rigid.begin(), u.rigid.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(u.rigid.size())));
-  out.p95 = u.rigid[rank - 1];
-  out.max = u.rigid.back();
-  return out;
-}
-
-// Values of rows at an estimate, 0 for a plan, with their uncertainties.
-class Values {
- public:
-  Values(const Equations& equations, const Triangle& triangle, const VectorXd* x)
-      : unknowns_(equations.unknowns()), triangle_(triangle), x_(x) {}
-
-  [[nodiscard]] Measured of(const VectorXd& row) const {
-    return {x_ != nullptr ? row.dot(*x_) : 0.0, triangle_.uncertainty(row)};
-  }
-
-  [[nodiscard]] std::vector<FoundFunction> functions(const MachineFile& machine) const {
-    std::vector<FoundFunction> out;
-    for (const Quantity& quantity : unknowns_.quantities()) {
-      if (quantity.kind != QuantityKind::function) continue;
-      FoundFunction f{quantity, machine.axes[quantity.axis].all_targets(), {}};
-      for (const double at : f.at)
-        f.value.push_back(of(unknowns_.value_row(quantity, at)));
-      out.push_back(std::move(f));
-    }
-    return out;
-  }
-
-  [[nodiscard]] std::vector<FoundValue> singles() const {
-    std::vector<FoundValue> out;
-    for (const Quantity& quantity : unknowns_.quantities())
-      if (quantity.kind != QuantityKind::function)
-        out.push_back({quantity, of(unknowns_.value_row(quantity, 0.0))});
-    return out;
-  }
-
- private:
-  const Unknowns& unknowns_;
-  const Triangle& triangle_;
-  const VectorXd* x_;
-};
-
-// Slope of a straightness over the travel, relative value; none where it is not an unknown.
-std::optional<VectorXd> slope_row(const Unknowns& unknowns, const MachineFile& machine, char axis,
-                                  std::size_t channel) {
-  for (const Quantity& quantity : unknowns.quantities()) {
-    const AxisFile& file = machine.axes[quantity.axis];
-    if (quantity.kind != QuantityKind::function || quantity.channel != channel ||
-        file.letter != axis || file.rotary)
-      continue;
-    const Travel& travel = unknowns.problem().machine.travel.at(quantity.axis);
-    const FunctionBasis basis(travel.lo, travel.hi, travel.periodic, 1);
-    const std::vector<double> places = basis.samples();
-    const std::vector<double> weights = basis.slope_weights();
-    const double side = branch_sign(machine.chain.axis(quantity.axis).branch);
-    VectorXd row = VectorXd::Zero(unknowns.size());
-    for (std::size_t k = 0; k < places.size(); ++k)
-      row += side * weights[k] * unknowns.value_row(quantity, places[k]);
-    return row;
-  }
-  return std::nullopt;
-}
-
-// In the datum of Y: SquareDatum, row by row.
-std::optional<FoundSquareness> squareness_of(const Unknowns& unknowns, const MachineFile& machine,
-                                             const Values& values) {
-  const auto slope = [&](char axis, std::size_t channel) {
-    return slope_row(unknowns, machine, axis, channel);
-  };
-  const auto X_y = slope('X', 1);
-  const auto X_z = slope('X', 2);
-  const auto Y_x = slope('Y', 0);
-  const auto Y_z = slope('Y', 2);
-  const auto Z_x = slope('Z', 0);
-  const auto Z_y = slope('Z', 1);
-  if (!X_y || !X_z || !Y_x || !Y_z || !Z_x || !Z_y) return std::nullopt;
-  return FoundSquareness{values.of(*X_y + *Y_x), values.of(*Z_x + *X_z), values.of(-*Z_y - *Y_z)};
-}
-
 std::vector<Visited> visited_of(const Problem& problem) {
   std::vector<Visited> out;
   for (std::size_t a = 0; a < problem.machine.chain.axis_count(); ++a) {
@@ -257,13 +146,6 @@ std::unique_ptr<BuiltTables> tables_of(const MeasurementPlan& plan, const Unknow
 
 }  // namespace
 
-double FoundFunction::largest_u() const {
-  double largest = 0.0;
-  for (const Measured& v : value)
-    largest = std::max(largest, v.u);
-  return largest;
-}
-
 Identified identify(const MeasurementPlan& plan, const IdentifySettings& settings,
                     const Progress& progress) {
   constexpr int kMostRounds = 10;
@@ -293,7 +175,7 @@ Identified identify(const MeasurementPlan& plan, const IdentifySettings& setting
   const Values values(equations, solution.triangle, &solution.estimate.x);
   out.functions = values.functions(plan.machine);
   out.values = values.singles();
-  out.squareness = squareness_of(unknowns, plan.machine, values);
+  out.squareness = values.squareness(plan.machine);
   out.volume = volume_of(equations, solution.triangle);
   out.consistency = check_consistency(equations, solution, settings.leave_out);
   out.outliers = solution.outliers;
@@ -302,36 +184,6 @@ Identified identify(const MeasurementPlan& plan, const IdentifySettings& setting
   out.unknowns = unknowns.size();
   out.rows = solution.triangle.rows();
   out.tables = tables_of(plan, unknowns, solution.estimate.x);
-  progress(1.0, "done");
-  return out;
-}
-
-Foreseen foresee(const MeasurementPlan& plan, const Progress& progress) {
-  progress(0.0, "what the plan can see");
-  Problem problem = plan.problem;
-  for (SetUp& s : problem.setups)
-    s.y.clear();
-  Foreseen out;
-  out.rank = rank_of(problem);
-  const Problem consistent = Equations::made_consistent(problem);
-  const Equations equations(consistent, true);
-  const Triangle triangle = triangle_at(equations, equations.start(), {});
-  out.unknowns = equations.unknowns().size();
-  out.rows = triangle.rows();
-  out.solvable = least_singular(consistent) > kSingularShare;
-  if (out.solvable) {
-    const Values values(equations, triangle, nullptr);
-    out.functions = values.functions(plan.machine);
-    out.values = values.singles();
-    out.volume = volume_of(equations, triangle);
-  }
-  progress(0.4, "which set-up adds most");
-  constexpr std::size_t kPlaces = 100;  // for every candidate
-  const PlanChoice choice =
-      choose_setups(consistent, places_of(problem.machine, kPlaces),
-                    problem.machine.chain.tool_point(), problem.setups.size());
-  out.order = choice.chosen;
-  out.rms_u = choice.rms_u;
   progress(1.0, "done");
   return out;
 }

@@ -7,48 +7,13 @@
 #include <vector>
 
 #include "host_sim/host/measure/identify/consistency.hpp"
+#include "host_sim/host/measure/identify/found_values.hpp"
 #include "host_sim/host/measure/identify/plan_file.hpp"
 #include "host_sim/host/measure/identify/rank.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
 namespace volcomp::host::identify {
-
-// With its standard uncertainty.
-struct Measured {
-  double value = 0.0;
-  double u = 0.0;
-};
-
-// An error function at the targets of the machine file, body and moving side, mean of the two
-// directions.
-struct FoundFunction {
-  Quantity quantity;
-  std::vector<double> at;
-  std::vector<Measured> value;
-
-  [[nodiscard]] double largest_u() const;
-};
-
-struct FoundValue {
-  Quantity quantity;
-  Measured value;
-};
-
-// Of X, Y and Z, Y being the datum.
-struct FoundSquareness {
-  Measured a_xy;
-  Measured a_xz;
-  Measured a_yz;
-};
-
-// Standard uncertainty of the error of the functional point over the travels, beside the best rigid
-// motion, mm.
-struct FoundVolume {
-  double rms = 0.0;
-  double p95 = 0.0;
-  double max = 0.0;
-};
 
 // Where an axis with functions was measured.
 struct Visited {
@@ -82,19 +47,5 @@ struct IdentifySettings {
 // Throws UserError with the reason and its place; `plan` must have readings.
 [[nodiscard]] Identified identify(const MeasurementPlan& plan, const IdentifySettings& settings,
                                   const Progress& progress);
-
-// What a plan will see.
-struct Foreseen {
-  PlanRank rank;
-  bool solvable = false;                 // with gauge and what is known beforehand
-  std::vector<FoundFunction> functions;  // uncertainties, values 0
-  std::vector<FoundValue> values;
-  FoundVolume volume;
-  std::vector<std::size_t> order;  // of set-ups: each adds most to those before
-  std::vector<double> rms_u;       // mm, after each, with a weak prior
-  Index unknowns = 0;
-  Index rows = 0;
-};
-[[nodiscard]] Foreseen foresee(const MeasurementPlan& plan, const Progress& progress);
 
 }  // namespace volcomp::host::identify

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host_sim/host/measure/identify/foresight.hpp"
 #include "host_sim/host/measure/identify/identification.hpp"
 
 namespace volcomp::host::identify {

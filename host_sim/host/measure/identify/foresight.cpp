@@ -1,0 +1,37 @@
+#include "host_sim/host/measure/identify/foresight.hpp"
+
+#include "host_sim/host/measure/identify/volume.hpp"
+
+namespace volcomp::host::identify {
+
+Foreseen foresee(const MeasurementPlan& plan, const Progress& progress) {
+  progress(0.0, "what the plan can see");
+  Problem problem = plan.problem;
+  for (SetUp& s : problem.setups)
+    s.y.clear();
+  Foreseen out;
+  out.rank = rank_of(problem);
+  const Problem consistent = Equations::made_consistent(problem);
+  const Equations equations(consistent, true);
+  const Triangle triangle = triangle_at(equations, equations.start(), {});
+  out.unknowns = equations.unknowns().size();
+  out.rows = triangle.rows();
+  out.solvable = least_singular(consistent) > kSingularShare;
+  if (out.solvable) {
+    const Values values(equations, triangle, nullptr);
+    out.functions = values.functions(plan.machine);
+    out.values = values.singles();
+    out.volume = volume_of(equations, triangle);
+  }
+  progress(0.4, "which set-up adds most");
+  constexpr std::size_t kPlaces = 100;  // for every candidate
+  const PlanChoice choice =
+      choose_setups(consistent, places_of(problem.machine, kPlaces),
+                    problem.machine.chain.tool_point(), problem.setups.size());
+  out.order = choice.chosen;
+  out.rms_u = choice.rms_u;
+  progress(1.0, "done");
+  return out;
+}
+
+}  // namespace volcomp::host::identify
