@@ -9,6 +9,8 @@
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/measure/identify/foreseen_report.hpp"
+#include "host_sim/host/measure/identify/found_report.hpp"
 #include "host_sim/host/measure/identify/identified_report.hpp"
 
 namespace volcomp::cli {
@@ -56,17 +58,19 @@ int identify_machine(const IdentifyArguments& a) {
 
 struct PlanArguments {
   std::string plan;
+  std::string points_file;
   std::string json_file;
 };
 
 int foresee_plan(const PlanArguments& a) {
   const MeasurementPlan plan = read_plan(a.plan);
-  Results results({a.json_file}, inputs_of(plan));
+  Results results({a.json_file, a.points_file}, inputs_of(plan));
   const Foreseen foreseen = [&] {
     ProgressBar bar;
     return foresee(plan, [&](double done, const std::string& what) { bar.show(done, what); });
   }();
   results.add(a.json_file, json_text(foreseen_json(plan, foreseen)));
+  results.add(a.points_file, points_csv(plan));
   results.write();
   fmt::print(results.text(), "{}", foreseen_text(plan, foreseen));
   return number(foreseen.solvable ? ExitCode::done : ExitCode::negative);
@@ -100,6 +104,9 @@ void add_plan_command(CLI::App& app, int& code) {
       "uncertainty of every error, and which set-up adds most");
   auto a = std::make_shared<PlanArguments>();
   command->add_option("PLAN", a->plan, "Measurement plan (TOML)")->required();
+  command->add_option("--points", a->points_file,
+                      "Write where the machine will stand for every observation to this file (-: "
+                      "standard output)");
   command->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
   command->callback([a, &code] { code = foresee_plan(*a); });
 }

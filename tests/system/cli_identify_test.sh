@@ -141,7 +141,7 @@ done
 # 1500 places at random: 0.73 µm rms, 1.42 µm at 95 % of them.
 "$volcomp" machine example xyfz >xyfz.toml
 grep -v '^file = "touches' "$source_dir/tests/data/plan_plate.toml" | sed 's/^calibrated = true/&\nradius_mm = 10/' >plate.toml
-expect 0 'Set-ups, each adding most to those before' "$volcomp" plan plate.toml --json plate.json
+expect 0 'Set-ups, each adding most to those before' "$volcomp" plan plate.toml --json plate.json --points points.csv
 /usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: ball plate'; failed=1; }
 import json
 found = json.load(open("plate.json"))
@@ -152,5 +152,10 @@ rms = [step["rms_u_um"] for step in found["order"]]
 # Every set-up adds; all of them with a weak prior tell no less than without one, at other places.
 assert len(rms) == 12 and rms == sorted(rms, reverse=True) and rms[-1] < 1.1 * u["rms_um"], rms
 assert len(found["unreached"]) > 20, found["unreached"]
+import csv
+points = list(csv.DictReader(open("points.csv")))
+assert len(points) == sum(step["observations"] for step in found["order"]), len(points)
+# Room for ball and tip on either side.
+assert all(-487 <= float(p["X [mm]"]) <= -13 and -287 <= float(p["Y [mm]"]) <= -13 and -387 <= float(p["Z [mm]"]) <= -13 for p in points)
 PYTHON
 exit "$failed"

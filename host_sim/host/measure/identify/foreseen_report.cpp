@@ -1,0 +1,110 @@
+#include "host_sim/host/measure/identify/foreseen_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "comp/core/units.hpp"
+#include "host_sim/host/measure/identify/found_report.hpp"
+#include "host_sim/host/report/charts.hpp"
+#include "host_sim/host/report/report_parts.hpp"
+#include "host_sim/host/report/text_of.hpp"
+
+namespace volcomp::host::identify {
+namespace {
+
+using nlohmann::json;
+
+// Five touches a sphere, each of 5 s: approach, touch, retract.
+constexpr std::size_t kTouchesOfSphere = 5;
+constexpr double kTouch_s = 5.0;
+
+std::size_t planned_spheres(const MeasurementPlan& plan) {
+  std::size_t count = 0;
+  for (const SetUp& s : plan.problem.setups)
+    if (s.kind == ObservationKind::centre) count += s.q.size();
+  return count;
+}
+
+}  // namespace
+
+std::string points_csv(const MeasurementPlan& plan) {
+  std::string text = "setup,kind,sphere,tip";
+  for (const AxisFile& axis : plan.machine.axes)
+    text += fmt::format(",{} [{}]", axis.letter, axis.rotary ? "deg" : "mm");
+  text += '\n';
+  for (const SetUp& s : plan.problem.setups) {
+    for (std::size_t i = 0; i < s.q.size(); ++i) {
+      const auto stylus = plan.problem.stylus_of(s, i);
+      text += fmt::format("{},{},{},{}", s.name, kKindNames.at(static_cast<std::size_t>(s.kind)),
+                          s.sphere.empty() ? "" : std::to_string(s.sphere[i]),
+                          stylus ? plan.problem.styli[*stylus].name : "");
+      for (std::size_t a = 0; a < plan.machine.axes.size(); ++a)
+        text +=
+            fmt::format(",{:.6f}", (plan.machine.axes[a].rotary ? kDegPerRad : 1.0) * s.q[i].at(a));
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+std::string foreseen_text(const MeasurementPlan& plan, const Foreseen& foreseen) {
+  json sections = json::array();
+  std::vector<std::string> seen;
+  for (const auto& group : foreseen.rank.together)
+    seen.push_back(group.size() > 1 ? fmt::format("Seen only together: {}", fmt::join(group, ", "))
+                                    : fmt::format("Not seen: {}", group.front()));
+  const std::size_t gauge = plan.problem.model.gauge.size();
+  seen.push_back(fmt::format("{} combinations of errors are not seen, {} are held by the gauge{}",
+                             foreseen.rank.nullity_functions, gauge,
+                             foreseen.solvable
+                                 ? ": with it and what is known beforehand everything is determined"
+                                 : ": the plan is not enough"));
+  sections.push_back(text_section("What the plan sees", seen));
+  if (foreseen.solvable) {
+    sections.push_back(function_section(foreseen.functions, false));
+    if (!foreseen.values.empty()) sections.push_back(value_section(foreseen.values, false));
+  }
+  json rows = json::array();
+  for (std::size_t n = 0; n < foreseen.order.size(); ++n) {
+    const SetUp& s = plan.problem.setups[foreseen.order[n]];
+    rows.push_back(json::array({n + 1, s.name, kKindNames.at(static_cast<std::size_t>(s.kind)),
+                                s.q.size(), kUmPerMm * foreseen.rms_u[n]}));
+  }
+  sections.push_back(table_section("Set-ups, each adding most to those before",
+                                   {plain_column(""), plain_column("set-up"), plain_column("kind"),
+                                    plain_column("observations"), column("u left, rms", "µm", 2)},
+                                   rows));
+  std::vector<std::string> lines;
+  for (const std::string& sphere : plan.unreached)
+    lines.push_back("out of reach, left out: " + sphere);
+  lines.push_back(fmt::format("{} rows, {} unknowns", foreseen.rows, foreseen.unknowns));
+  if (const std::size_t spheres = planned_spheres(plan); spheres > 0)
+    lines.push_back(fmt::format(
+        "{} spheres: {} touches of {:g} s, {:.1f} hours", spheres, kTouchesOfSphere * spheres,
+        kTouch_s, kTouch_s * static_cast<double>(kTouchesOfSphere * spheres) / 3600.0));
+  if (foreseen.solvable) lines.push_back(volume_line(foreseen.volume));
+  sections.push_back(text_section("", lines));
+  return text_of_sections(sections);
+}
+
+json foreseen_json(const MeasurementPlan& plan, const Foreseen& foreseen) {
+  json out = plan_json(plan);
+  out["unknowns"] = foreseen.unknowns;
+  out["rows"] = foreseen.rows;
+  out["solvable"] = foreseen.solvable;
+  out["nullity_functions"] = foreseen.rank.nullity_functions;
+  out["unseen"] = foreseen.rank.unseen;
+  out["together"] = foreseen.rank.together;
+  out["functions"] = functions_json(plan, foreseen.functions);
+  out["values"] = values_json(foreseen.values);
+  out["u_volume"] = foreseen.solvable ? volume_json(foreseen.volume) : json();
+  out["order"] = json::array();
+  for (std::size_t n = 0; n < foreseen.order.size(); ++n)
+    out["order"].push_back({{"setup", plan.problem.setups[foreseen.order[n]].name},
+                            {"observations", plan.problem.setups[foreseen.order[n]].q.size()},
+                            {"rms_u_um", kUmPerMm * foreseen.rms_u[n]}});
+  out["unreached"] = plan.unreached;
+  return out;
+}
+
+}  // namespace volcomp::host::identify

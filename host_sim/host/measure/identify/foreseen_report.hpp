@@ -1,0 +1,18 @@
+#pragma once
+// What a plan will see, as text for people and as JSON, and its points for a controller.
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "host_sim/host/measure/identify/foresight.hpp"
+
+namespace volcomp::host::identify {
+
+[[nodiscard]] std::string foreseen_text(const MeasurementPlan& plan, const Foreseen& foreseen);
+// Where the machine will stand for each observation, for the program of a controller:
+// setup,kind,sphere,tip,X [mm],… ; of a sphere the place of the tip in its centre.
+[[nodiscard]] std::string points_csv(const MeasurementPlan& plan);
+[[nodiscard]] nlohmann::json foreseen_json(const MeasurementPlan& plan, const Foreseen& foreseen);
+
+}  // namespace volcomp::host::identify
