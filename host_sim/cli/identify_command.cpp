@@ -9,9 +9,9 @@
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/measure/identify/foreseen_report.hpp"
 #include "host_sim/host/measure/identify/found_report.hpp"
 #include "host_sim/host/measure/identify/identified_report.hpp"
+#include "host_sim/host/measure/identify/plan_report.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -62,18 +62,18 @@ struct PlanArguments {
   std::string json_file;
 };
 
-int foresee_plan(const PlanArguments& a) {
+int predict(const PlanArguments& a) {
   const MeasurementPlan plan = read_plan(a.plan);
   Results results({a.json_file, a.points_file}, inputs_of(plan));
-  const Foreseen foreseen = [&] {
+  const PlanPrediction predicted = [&] {
     ProgressBar bar;
-    return foresee(plan, [&](double done, const std::string& what) { bar.show(done, what); });
+    return predict_plan(plan, [&](double done, const std::string& what) { bar.show(done, what); });
   }();
-  results.add(a.json_file, json_text(foreseen_json(plan, foreseen)));
+  results.add(a.json_file, json_text(plan_prediction_json(plan, predicted)));
   results.add(a.points_file, points_csv(plan));
   results.write();
-  fmt::print(results.text(), "{}", foreseen_text(plan, foreseen));
-  return number(foreseen.solvable ? ExitCode::done : ExitCode::negative);
+  fmt::print(results.text(), "{}", plan_prediction_text(plan, predicted));
+  return number(predicted.solvable ? ExitCode::done : ExitCode::negative);
 }
 
 }  // namespace
@@ -108,7 +108,7 @@ void add_plan_command(CLI::App& app, int& code) {
                       "Write where the machine will stand for every observation to this file (-: "
                       "standard output)");
   command->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
-  command->callback([a, &code] { code = foresee_plan(*a); });
+  command->callback([a, &code] { code = predict(*a); });
 }
 
 }  // namespace volcomp::cli

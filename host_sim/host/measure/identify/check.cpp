@@ -155,8 +155,7 @@ Refusal check_travel(const Problem& problem, const SetUp& s) {
 }
 
 Vec3 ideal_point(const Problem& problem, const SetUp& s, std::size_t i) {
-  const auto stylus = problem.stylus_of(s, i);
-  const Vec3 tip = stylus ? problem.styli[*stylus].offset : problem.machine.chain.tool_point();
+  const Vec3 tip = problem.tip_of(s, i);
   const ChainGeometry g = ideal_geometry(problem.machine.chain, s.q[i]);
   return s.in_bed ? g.tool.apply(tip) : g.in_work(tip);
 }
@@ -245,20 +244,8 @@ Refusal check_line(const Problem& problem, const SetUp& s) {
 Refusal check_motion(const Problem& problem) {
   for (std::size_t a = 0; a < problem.machine.chain.axis_count(); ++a) {
     if (problem.model.functions.at(a).segments == 0) continue;
-    double lo = HUGE_VAL;
-    double hi = -HUGE_VAL;
-    for (const SetUp& s : problem.setups) {
-      if (s.kind == ObservationKind::runs && s.axis != a) continue;
-      double least = HUGE_VAL;
-      double most = -HUGE_VAL;
-      for (const Pose& q : s.q) {
-        least = std::min(least, q.at(a));
-        most = std::max(most, q.at(a));
-      }
-      lo = std::min(lo, least);
-      hi = std::max(hi, most);
-    }
-    if (hi > lo) continue;
+    const auto range = problem.range_of(a);
+    if (range && range->hi > range->lo) continue;
     Refusal r;
     r.reason = Reason::axis_never_moved;
     r.axis = problem.machine.name_of(a);

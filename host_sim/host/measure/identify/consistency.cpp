@@ -14,7 +14,7 @@ void hold_against_rest(const Problem& problem, const Solution& all, std::size_t 
   rest.setups.erase(rest.setups.begin() + static_cast<std::ptrdiff_t>(setup));
   if (!(least_singular(rest) > kSingularShare)) return;
   const Equations equations(rest, true);
-  const Solution without = solve(equations, false);
+  const Solution without = solve(equations, all.robust);
   if (!without.converged) return;
   check.left_out = all.chi2 - without.chi2;
   check.left_out_dof = all.dof - without.dof;

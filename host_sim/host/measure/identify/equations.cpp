@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <Eigen/QR>
-
 namespace volcomp::host::identify {
 namespace {
 

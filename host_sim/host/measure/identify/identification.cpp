@@ -86,15 +86,7 @@ std::vector<Visited> visited_of(const Problem& problem) {
   std::vector<Visited> out;
   for (std::size_t a = 0; a < problem.machine.chain.axis_count(); ++a) {
     if (problem.model.functions.at(a).segments == 0) continue;
-    Visited v{a, HUGE_VAL, -HUGE_VAL};
-    for (const SetUp& s : problem.setups) {
-      if (s.kind == ObservationKind::runs && s.axis != a) continue;
-      for (const Pose& q : s.q) {
-        v.lo = std::min(v.lo, q.at(a));
-        v.hi = std::max(v.hi, q.at(a));
-      }
-    }
-    out.push_back(v);
+    if (const auto range = problem.range_of(a)) out.push_back({a, range->lo, range->hi});
   }
   return out;
 }

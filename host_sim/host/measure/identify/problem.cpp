@@ -1,5 +1,6 @@
 #include "host_sim/host/measure/identify/problem.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace volcomp::host::identify {
@@ -24,6 +25,24 @@ std::optional<std::size_t> Problem::reference() const {
 
 std::optional<std::size_t> Problem::stylus_of(const SetUp& s, std::size_t i) const {
   return s.stylus.empty() ? reference() : s.stylus[i];
+}
+
+Vec3 Problem::tip_of(const SetUp& s, std::size_t i) const {
+  const auto stylus = stylus_of(s, i);
+  return stylus ? styli[*stylus].offset : machine.chain.tool_point();
+}
+
+std::optional<Range> Problem::range_of(std::size_t axis) const {
+  std::optional<Range> range;
+  for (const SetUp& s : setups) {
+    if (s.kind == ObservationKind::runs && s.axis != axis) continue;
+    for (const Pose& q : s.q) {
+      if (!range) range = Range{q.at(axis), q.at(axis)};
+      range->lo = std::min(range->lo, q.at(axis));
+      range->hi = std::max(range->hi, q.at(axis));
+    }
+  }
+  return range;
 }
 
 std::array<Vec3, 2> across(const Vec3& n) {

@@ -145,6 +145,11 @@ struct SetUp {
   }
 };
 
+struct Range {
+  double lo = 0.0;
+  double hi = 0.0;
+};
+
 struct Problem {
   Machine machine;
   ErrorModel model;
@@ -156,6 +161,10 @@ struct Problem {
   [[nodiscard]] std::optional<std::size_t> reference() const;
   // The one of an observation; none: the functional point itself.
   [[nodiscard]] std::optional<std::size_t> stylus_of(const SetUp& s, std::size_t i) const;
+  // Tip of its stylus, tool frame, as the plan has it.
+  [[nodiscard]] Vec3 tip_of(const SetUp& s, std::size_t i) const;
+  // From where to where the readings move an axis; nothing where there are none of it.
+  [[nodiscard]] std::optional<Range> range_of(std::size_t axis) const;
   [[nodiscard]] bool is_slide(std::size_t axis) const {
     return machine.chain.axis(axis).kind == JointKind::prismatic;
   }

@@ -84,7 +84,7 @@ Triangle triangle_at(const Equations& equations, const Estimate& e, const KnownB
 Solution solve_from(const Equations& equations, const Estimate& start, bool robust) {
   const int most_steps = robust ? 200 : 30;
   const double small = robust ? 1e-8 : 1e-10;
-  Solution s{start, Triangle(equations.unknowns().size()), 0.0, 0, 0, false, {}};
+  Solution s{start, Triangle(equations.unknowns().size()), 0.0, 0, 0, false, robust, {}};
   Weights weights;
   while (s.steps < most_steps && !s.converged) {
     if (robust && s.steps > 0) weights = Weights(equations, s.estimate);

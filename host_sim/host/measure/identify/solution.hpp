@@ -16,6 +16,7 @@ struct Solution {
   Index dof = 0;
   int steps = 0;
   bool converged = false;
+  bool robust = false;
   // Beyond five times the robust spread; never dropped.
   std::vector<ReadingPlace> outliers;
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -10,42 +11,23 @@
 namespace volcomp::host::identify {
 namespace {
 
-// Proper rotation and way that bring `from` nearest to `to` (Kabsch, Umeyama).
-Placement rigid_placement(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  const auto n = static_cast<double>(from.size());
-  Vec3 a = Vec3::Zero();
-  Vec3 b = Vec3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    a += from[i] / n;
-    b += to[i] / n;
-  }
-  Mat3 together = Mat3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i)
-    together += (to[i] - b) * (from[i] - a).transpose();
-  const Eigen::JacobiSVD<Mat3> svd(together, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 sign(1.0, 1.0, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0);
-  Placement p;
-  p.R = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  p.t = b - p.R * a;
-  return p;
-}
-
 Vec3 ideal_tip(const Problem& problem, const SetUp& s, std::size_t i) {
-  const auto stylus = problem.stylus_of(s, i);
-  const Vec3 tip = stylus ? problem.styli[*stylus].offset : problem.machine.chain.tool_point();
-  return ideal_geometry(problem.machine.chain, s.q[i]).in_work(tip);
+  return ideal_geometry(problem.machine.chain, s.q[i]).in_work(problem.tip_of(s, i));
 }
 
+// The rigid motion that brings the spheres nearest to where they were found.
 Placement measured_placement(const Problem& problem, const SetUp& s) {
-  std::vector<Vec3> from;
-  std::vector<Vec3> to;
+  Eigen::Matrix3Xd nominal(3, static_cast<Index>(s.q.size()));
+  Eigen::Matrix3Xd found(3, static_cast<Index>(s.q.size()));
   for (std::size_t i = 0; i < s.q.size(); ++i) {
-    from.push_back(problem.artefacts[*s.artefact].spheres[s.sphere[i]]);
+    const auto column = static_cast<Index>(i);
+    nominal.col(column) = problem.artefacts[*s.artefact].spheres[s.sphere[i]];
     const bool measured = s.kind == ObservationKind::centre && !s.y.empty();
-    to.push_back(measured ? Vec3(s.y[3 * i], s.y[3 * i + 1], s.y[3 * i + 2])
-                          : ideal_tip(problem, s, i));
+    found.col(column) =
+        measured ? Vec3(s.y[3 * i], s.y[3 * i + 1], s.y[3 * i + 2]) : ideal_tip(problem, s, i);
   }
-  return rigid_placement(from, to);
+  const Eigen::Matrix4d motion = Eigen::umeyama(nominal, found, false);
+  return {motion.topLeftCorner<3, 3>(), motion.topRightCorner<3, 1>()};
 }
 
 }  // namespace

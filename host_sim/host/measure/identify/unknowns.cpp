@@ -131,7 +131,6 @@ std::vector<VectorXd> Unknowns::constraints(bool gauge) const {
 void Unknowns::eliminate(bool gauge) {
   const auto count = static_cast<Index>(coefficients_);
   MatrixXd T = MatrixXd::Identity(count, count);
-  std::vector<bool> angle;
   for (const VectorXd& row : constraints(gauge))
     eliminate_row(row, T);
   coefficient_.assign(coefficients_, {});

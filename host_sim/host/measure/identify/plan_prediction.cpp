@@ -1,15 +1,15 @@
-#include "host_sim/host/measure/identify/foresight.hpp"
+#include "host_sim/host/measure/identify/plan_prediction.hpp"
 
 #include "host_sim/host/measure/identify/volume.hpp"
 
 namespace volcomp::host::identify {
 
-Foreseen foresee(const MeasurementPlan& plan, const Progress& progress) {
+PlanPrediction predict_plan(const MeasurementPlan& plan, const Progress& progress) {
   progress(0.0, "what the plan can see");
   Problem problem = plan.problem;
   for (SetUp& s : problem.setups)
     s.y.clear();
-  Foreseen out;
+  PlanPrediction out;
   out.rank = rank_of(problem);
   const Problem consistent = Equations::made_consistent(problem);
   const Equations equations(consistent, true);

@@ -10,7 +10,7 @@
 
 namespace volcomp::host::identify {
 
-struct Foreseen {
+struct PlanPrediction {
   PlanRank rank;
   bool solvable = false;                 // with gauge and what is known beforehand
   std::vector<FoundFunction> functions;  // uncertainties, values 0
@@ -21,6 +21,6 @@ struct Foreseen {
   Index unknowns = 0;
   Index rows = 0;
 };
-[[nodiscard]] Foreseen foresee(const MeasurementPlan& plan, const Progress& progress);
+[[nodiscard]] PlanPrediction predict_plan(const MeasurementPlan& plan, const Progress& progress);
 
 }  // namespace volcomp::host::identify

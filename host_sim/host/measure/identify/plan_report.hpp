@@ -5,14 +5,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host_sim/host/measure/identify/foresight.hpp"
+#include "host_sim/host/measure/identify/plan_prediction.hpp"
 
 namespace volcomp::host::identify {
 
-[[nodiscard]] std::string foreseen_text(const MeasurementPlan& plan, const Foreseen& foreseen);
+[[nodiscard]] std::string plan_prediction_text(const MeasurementPlan& plan,
+                                               const PlanPrediction& predicted);
 // Where the machine will stand for each observation, for the program of a controller:
 // setup,kind,sphere,tip,X [mm],… ; of a sphere the place of the tip in its centre.
 [[nodiscard]] std::string points_csv(const MeasurementPlan& plan);
-[[nodiscard]] nlohmann::json foreseen_json(const MeasurementPlan& plan, const Foreseen& foreseen);
+[[nodiscard]] nlohmann::json plan_prediction_json(const MeasurementPlan& plan,
+                                                  const PlanPrediction& predicted);
 
 }  // namespace volcomp::host::identify

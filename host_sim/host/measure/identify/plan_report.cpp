@@ -1,4 +1,4 @@
-#include "host_sim/host/measure/identify/foreseen_report.hpp"
+#include "host_sim/host/measure/identify/plan_report.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,28 +47,28 @@ std::string points_csv(const MeasurementPlan& plan) {
   return text;
 }
 
-std::string foreseen_text(const MeasurementPlan& plan, const Foreseen& foreseen) {
+std::string plan_prediction_text(const MeasurementPlan& plan, const PlanPrediction& predicted) {
   json sections = json::array();
   std::vector<std::string> seen;
-  for (const auto& group : foreseen.rank.together)
+  for (const auto& group : predicted.rank.together)
     seen.push_back(group.size() > 1 ? fmt::format("Seen only together: {}", fmt::join(group, ", "))
                                     : fmt::format("Not seen: {}", group.front()));
   const std::size_t gauge = plan.problem.model.gauge.size();
   seen.push_back(fmt::format("{} combinations of errors are not seen, {} are held by the gauge{}",
-                             foreseen.rank.nullity_functions, gauge,
-                             foreseen.solvable
+                             predicted.rank.nullity_functions, gauge,
+                             predicted.solvable
                                  ? ": with it and what is known beforehand everything is determined"
                                  : ": the plan is not enough"));
   sections.push_back(text_section("What the plan sees", seen));
-  if (foreseen.solvable) {
-    sections.push_back(function_section(foreseen.functions, false));
-    if (!foreseen.values.empty()) sections.push_back(value_section(foreseen.values, false));
+  if (predicted.solvable) {
+    sections.push_back(function_section(predicted.functions, false));
+    if (!predicted.values.empty()) sections.push_back(value_section(predicted.values, false));
   }
   json rows = json::array();
-  for (std::size_t n = 0; n < foreseen.order.size(); ++n) {
-    const SetUp& s = plan.problem.setups[foreseen.order[n]];
+  for (std::size_t n = 0; n < predicted.order.size(); ++n) {
+    const SetUp& s = plan.problem.setups[predicted.order[n]];
     rows.push_back(json::array({n + 1, s.name, kKindNames.at(static_cast<std::size_t>(s.kind)),
-                                s.q.size(), kUmPerMm * foreseen.rms_u[n]}));
+                                s.q.size(), kUmPerMm * predicted.rms_u[n]}));
   }
   sections.push_back(table_section("Set-ups, each adding most to those before",
                                    {plain_column(""), plain_column("set-up"), plain_column("kind"),
@@ -77,32 +77,32 @@ std::string foreseen_text(const MeasurementPlan& plan, const Foreseen& foreseen)
   std::vector<std::string> lines;
   for (const std::string& sphere : plan.unreached)
     lines.push_back("out of reach, left out: " + sphere);
-  lines.push_back(fmt::format("{} rows, {} unknowns", foreseen.rows, foreseen.unknowns));
+  lines.push_back(fmt::format("{} rows, {} unknowns", predicted.rows, predicted.unknowns));
   if (const std::size_t spheres = planned_spheres(plan); spheres > 0)
     lines.push_back(fmt::format(
         "{} spheres: {} touches of {:g} s, {:.1f} hours", spheres, kTouchesOfSphere * spheres,
         kTouch_s, kTouch_s * static_cast<double>(kTouchesOfSphere * spheres) / 3600.0));
-  if (foreseen.solvable) lines.push_back(volume_line(foreseen.volume));
+  if (predicted.solvable) lines.push_back(volume_line(predicted.volume));
   sections.push_back(text_section("", lines));
   return text_of_sections(sections);
 }
 
-json foreseen_json(const MeasurementPlan& plan, const Foreseen& foreseen) {
+json plan_prediction_json(const MeasurementPlan& plan, const PlanPrediction& predicted) {
   json out = plan_json(plan);
-  out["unknowns"] = foreseen.unknowns;
-  out["rows"] = foreseen.rows;
-  out["solvable"] = foreseen.solvable;
-  out["nullity_functions"] = foreseen.rank.nullity_functions;
-  out["unseen"] = foreseen.rank.unseen;
-  out["together"] = foreseen.rank.together;
-  out["functions"] = functions_json(plan, foreseen.functions);
-  out["values"] = values_json(foreseen.values);
-  out["u_volume"] = foreseen.solvable ? volume_json(foreseen.volume) : json();
+  out["unknowns"] = predicted.unknowns;
+  out["rows"] = predicted.rows;
+  out["solvable"] = predicted.solvable;
+  out["nullity_functions"] = predicted.rank.nullity_functions;
+  out["unseen"] = predicted.rank.unseen;
+  out["together"] = predicted.rank.together;
+  out["functions"] = functions_json(plan, predicted.functions);
+  out["values"] = values_json(predicted.values);
+  out["u_volume"] = predicted.solvable ? volume_json(predicted.volume) : json();
   out["order"] = json::array();
-  for (std::size_t n = 0; n < foreseen.order.size(); ++n)
-    out["order"].push_back({{"setup", plan.problem.setups[foreseen.order[n]].name},
-                            {"observations", plan.problem.setups[foreseen.order[n]].q.size()},
-                            {"rms_u_um", kUmPerMm * foreseen.rms_u[n]}});
+  for (std::size_t n = 0; n < predicted.order.size(); ++n)
+    out["order"].push_back({{"setup", plan.problem.setups[predicted.order[n]].name},
+                            {"observations", plan.problem.setups[predicted.order[n]].q.size()},
+                            {"rms_u_um", kUmPerMm * predicted.rms_u[n]}});
   out["unreached"] = plan.unreached;
   return out;
 }
