@@ -42,6 +42,7 @@ host_sim/sim/campaign host_sim/sim/live: host_sim/sim/controller
 host_sim/experiments/any_machine host_sim/experiments/xyfz host_sim/experiments/l300g: host_sim/sim/campaign
 host_sim/experiments/face_gear host_sim/experiments/internal_helical: host_sim/sim/campaign
 host_sim/experiments/reversal: host_sim/sim/campaign
+host_sim/experiments/self_calibration: host_sim/experiments/any_machine
 host_sim/cli:              host_sim/experiments host_sim/sim
 """
 # Folder of tests -> what its files must not include.

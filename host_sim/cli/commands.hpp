@@ -14,6 +14,7 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
 void add_l300g_command(CLI::App& run, const std::string& command, int& code);
 void add_reversal_command(CLI::App& run, const std::string& command, int& code);
 void add_run_machine_command(CLI::App& run, const std::string& command, int& code);
+void add_self_calibration_command(CLI::App& run, const std::string& command, int& code);
 void add_xyfz_command(CLI::App& run, const std::string& command, int& code);
 void add_build_tables_command(CLI::App& app, int& code);
 void add_export_tables_command(CLI::App& app, int& code);
@@ -40,8 +41,8 @@ void add_completion_command(CLI::App& app, int& code);
 void add_man_command(CLI::App& app, int& code);
 void add_monitor_command(CLI::App& app, int& code);
 void add_simulate_command(CLI::App& app, int& code);
-void add_identify_command(CLI::App& app, int& code);
-void add_plan_command(CLI::App& app, int& code);
+void add_identify_command(CLI::App& app, int argc, char** argv, int& code);
+void add_plan_command(CLI::App& app, int argc, char** argv, int& code);
 void add_uncertainty_command(CLI::App& app, int argc, char** argv, int& code);
 void add_verify_command(CLI::App& app, int argc, char** argv, int& code);
 

@@ -1,6 +1,9 @@
 // volcomp identify, volcomp plan
 
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -8,10 +11,14 @@
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/cli/output.hpp"
 #include "host_sim/cli/progress_bar.hpp"
+#include "host_sim/cli/run_options.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/identify/found_report.hpp"
+#include "host_sim/host/measure/identify/identified_document.hpp"
 #include "host_sim/host/measure/identify/identified_report.hpp"
+#include "host_sim/host/measure/identify/plan_document.hpp"
 #include "host_sim/host/measure/identify/plan_report.hpp"
+#include "host_sim/host/measure/identify/touch_program.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -23,20 +30,38 @@ struct IdentifyArguments {
   std::string image_file;
   std::string json_file;
   std::string csv_file;
+  std::string report_folder;
+  std::string command;
   IdentifySettings settings;
   bool no_leave_out = false;
 };
 
+void print_report_place(const Results& results, const std::string& folder) {
+  if (!folder.empty()) fmt::print(results.text(), "report: {}\n", report_page(folder));
+}
+
 std::vector<std::string> inputs_of(const MeasurementPlan& plan) {
-  std::vector<std::string> inputs{plan.path};
+  std::vector<std::string> inputs{plan.path, plan.machine.path};
   for (const auto& file : plan.files)
     inputs.push_back(file.string());
   return inputs;
 }
 
+host::Origins origins_of(const MeasurementPlan& plan) {
+  host::Origins origins;
+  host::add_origin(origins, "plan", plan.path);
+  host::add_origin(origins, "machine file", plan.machine.path);
+  std::set<std::filesystem::path> added;
+  for (const std::filesystem::path& file : plan.files)
+    if (std::filesystem::exists(file) && added.insert(file).second)
+      host::add_origin(origins, "readings", file.string());
+  return origins;
+}
+
 int identify_machine(const IdentifyArguments& a) {
   const MeasurementPlan plan = read_plan(a.plan);
-  Results results({a.image_file, a.json_file, a.csv_file}, inputs_of(plan));
+  Results results(with_report({a.image_file, a.json_file, a.csv_file}, a.report_folder),
+                  inputs_of(plan), a.report_folder);
   if (!plan.has_readings())
     throw host::UserError(fmt::format(
         "{}: not every set-up has readings; volcomp plan says what it will see", plan.path));
@@ -51,45 +76,69 @@ int identify_machine(const IdentifyArguments& a) {
   results.add(a.image_file, {reinterpret_cast<const char*>(image.data()), image.size()});
   results.add(a.json_file, json_text(identified_json(plan, found)));
   results.add(a.csv_file, functions_csv(plan, found.functions));
+  if (!a.report_folder.empty())
+    add_report(results, a.report_folder,
+               identified_document(plan, found, {a.command, {}}, origins_of(plan)));
   results.write();
   fmt::print(results.text(), "{}", identified_text(plan, found));
+  print_report_place(results, a.report_folder);
   return number(found.consistency.good() ? ExitCode::done : ExitCode::negative);
 }
 
 struct PlanArguments {
   std::string plan;
   std::string points_file;
+  std::string program_file;
   std::string json_file;
+  std::string report_folder;
+  std::string command;
 };
 
+void print_program(std::FILE* text, const TouchProgram& program) {
+  fmt::print(text, "program: {} touches\n", program.touches);
+  for (const std::string& spheres : spheres_by_tip(program.left_out))
+    fmt::print(text, "not in the program, travels or other balls leave no room: {}\n", spheres);
+}
+
 int predict(const PlanArguments& a) {
-  const MeasurementPlan plan = read_plan(a.plan);
-  Results results({a.json_file, a.points_file}, inputs_of(plan));
+  const MeasurementPlan plan = read_plan(a.plan, {{}, true});
+  Results results(with_report({a.json_file, a.points_file, a.program_file}, a.report_folder),
+                  inputs_of(plan), a.report_folder);
+  std::optional<TouchProgram> program;
+  if (!a.program_file.empty()) program = touch_program(plan);
   const PlanPrediction predicted = [&] {
     ProgressBar bar;
     return predict_plan(plan, [&](double done, const std::string& what) { bar.show(done, what); });
   }();
   results.add(a.json_file, json_text(plan_prediction_json(plan, predicted)));
   results.add(a.points_file, points_csv(plan));
+  if (program) results.add(a.program_file, program->text);
+  if (!a.report_folder.empty())
+    add_report(results, a.report_folder,
+               plan_document(plan, predicted, {a.command, {}}, origins_of(plan)));
   results.write();
   fmt::print(results.text(), "{}", plan_prediction_text(plan, predicted));
+  if (program) print_program(results.text(), *program);
+  print_report_place(results, a.report_folder);
   return number(predicted.solvable ? ExitCode::done : ExitCode::negative);
 }
 
 }  // namespace
 
-void add_identify_command(CLI::App& app, int& code) {
+void add_identify_command(CLI::App& app, int argc, char** argv, int& code) {
   CLI::App* command = app.add_subcommand(
       "identify",
       "Errors of a machine from what a shop can measure: tracers, ball bars, diagonals, touched "
       "spheres, R-tests and runs, all together, with their uncertainty");
   auto a = std::make_shared<IdentifyArguments>();
+  a->command = command_line(argc, argv);
   command->add_option("PLAN", a->plan, "Measurement plan (TOML) with the files of its readings")
       ->required();
   command->add_option("-o,--out", a->image_file, "Write a table image to this file");
   command->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
   command->add_option("--csv", a->csv_file,
                       "Write the error functions to this file (-: standard output)");
+  command->add_option("--report", a->report_folder, "Write report.html and report.json here");
   command->add_flag("--robust", a->settings.robust,
                     "Readings far off count less (Huber); they are named, never dropped");
   command->add_flag("--no-leave-out", a->no_leave_out,
@@ -97,17 +146,22 @@ void add_identify_command(CLI::App& app, int& code) {
   command->callback([a, &code] { code = identify_machine(*a); });
 }
 
-void add_plan_command(CLI::App& app, int& code) {
+void add_plan_command(CLI::App& app, int argc, char** argv, int& code) {
   CLI::App* command = app.add_subcommand(
       "plan",
       "What a measurement plan will see before anything is measured: what stays unseen, the "
       "uncertainty of every error, and which set-up adds most");
   auto a = std::make_shared<PlanArguments>();
+  a->command = command_line(argc, argv);
   command->add_option("PLAN", a->plan, "Measurement plan (TOML)")->required();
   command->add_option("--points", a->points_file,
                       "Write where the machine will stand for every observation to this file (-: "
                       "standard output)");
+  command->add_option("--program", a->program_file,
+                      "Write an NC program that touches every sphere of the plan five times to "
+                      "this file (-: standard output)");
   command->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
+  command->add_option("--report", a->report_folder, "Write report.html and report.json here");
   command->callback([a, &code] { code = predict(*a); });
 }
 

@@ -15,6 +15,7 @@ void add_run_command(CLI::App& app, int argc, char** argv, int& code) {
   add_internal_helical_command(*run, command, code);
   add_reversal_command(*run, command, code);
   add_run_machine_command(*run, command, code);
+  add_self_calibration_command(*run, command, code);
 }
 
 }  // namespace volcomp::cli

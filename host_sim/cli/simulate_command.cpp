@@ -185,6 +185,7 @@ void add_simulate_command(CLI::App& app, int& code) {
   diagonals->callback([d, &code] { code = simulate_diagonal_file(*d); });
 
   add_simulate_ball_bar_command(*simulate, code);
+  add_simulate_observations_command(*simulate, code);
 
   CLI::App* volume =
       simulate->add_subcommand("volume", "Error vectors at random places, for verify --volume");

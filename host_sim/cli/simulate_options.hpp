@@ -37,5 +37,7 @@ void add_perfect(CLI::App& command, sim::Instruments& instruments);
 
 // --- simulate_ball_bar_command.cpp
 void add_simulate_ball_bar_command(CLI::App& simulate, int& code);
+// --- simulate_observations_command.cpp
+void add_simulate_observations_command(CLI::App& simulate, int& code);
 
 }  // namespace volcomp::cli

@@ -31,7 +31,7 @@ const marksOf = (index, most) => `[...document.querySelectorAll('.chart')[${inde
 async function places(page, chart, index) {
   const box = await page.value(boxOf(index));
   const grid = [0.35, 0.55, 0.75].flatMap((v) => PLACES.map((u) => ({ x: box.x + u * box.width, y: box.y + v * box.height })));
-  if (!['volume', 'lines', 'histogram'].includes(chart.type)) return grid;
+  if (!['volume', 'places', 'lines', 'histogram'].includes(chart.type)) return grid;
   const marks = await page.value(marksOf(index, chart.type === 'histogram' ? box.height : 60));
   const step = Math.max(1, Math.floor(marks.length / 30));
   return [...grid, ...marks.filter((_, i) => i % step === 0)];
@@ -88,6 +88,12 @@ function arrowAgrees(chart, { heading, rows }) {
     && chart.points[i].every((value, k) => shows(afterLabel(rows[k][0], [chart.x, chart.y, chart.z][k]), value)));
 }
 
+// "series: label", or the series alone where places have no labels.
+function placeAgrees(chart, { heading, rows }) {
+  return chart.series.some(({ name, points, labels }) => points.some((point, i) => heading === (labels ? `${name}: ${labels[i]}` : name)
+    && point.every((value, k) => shows(rows[k][1], value))));
+}
+
 function figureAgrees(chart, { heading, rows }) {
   if (!/^[AREBM] /.test(heading)) return curvesAgree(chart, { heading, rows });
   return shows(heading.slice(2), chart.figures[heading[0]]);
@@ -107,6 +113,7 @@ const isAscending = (values) => values.every((value, i) => i === 0 || value >= v
 const AGREES = {
   lines: (chart, tip) => (chart.series.every(({ x }) => isAscending(x)) ? curvesAgree : pointAgrees)(chart, tip),
   iso230_2: figureAgrees, bars: barsAgree, heatmap: cellAgrees, polar: circleAgrees, histogram: binAgrees, volume: arrowAgrees,
+  places: placeAgrees,
 };
 
 // Points at chart number `index` of the page until enough tips have been seen.

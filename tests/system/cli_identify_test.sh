@@ -163,4 +163,72 @@ assert len(points) == sum(step["observations"] for step in found["order"]), len(
 # Room for ball and tip on either side.
 assert all(-487 <= float(p["X [mm]"]) <= -13 and -287 <= float(p["Y [mm]"]) <= -13 and -387 <= float(p["Z [mm]"]) <= -13 for p in points)
 PYTHON
+# --- reports: both files, the figures of the text in them; never in the place of an input
+expect 0 'report: predicted/report.html' "$volcomp" plan plate.toml --report predicted
+(cd id_solve_noisy_00 && "$volcomp" identify plan.toml --report found >text.txt 2>&1)
+[ $? -le 1 ] || { echo "FAILED: report: $(cat id_solve_noisy_00/text.txt)"; failed=1; }
+/usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: reports'; failed=1; }
+import json
+for folder, wanted in (("predicted", {"functions", "volume-XY", "volume-XZ", "volume-YZ", "order", "plan", "weakest"}),
+                       ("id_solve_noisy_00/found", {"functions", "volume-XY", "residuals", "leave-out", "plan", "weakest"})):
+    page = open(f"{folder}/report.html").read()
+    report = json.load(open(f"{folder}/report.json"))
+    assert report["title"] in page and len(page) > 100000
+    ids = {s.get("id") for s in report["sections"]}
+    assert wanted <= ids, wanted - ids
+    assert {i["what"] for i in report["inputs"]} >= {"plan", "machine file"}
+u = json.load(open("plate.json"))["u_volume"]["rms_um"]
+assert f"{2 * u:.2f} µm rms" in json.load(open("predicted/report.json"))["verdict"]["text"]
+PYTHON
+mkdir -p taken
+cp plate.toml xyfz.toml taken
+mv taken/plate.toml taken/report.json
+before=$(cksum taken/report.json)
+expect 2 'cannot take the place of an input' "$volcomp" plan taken/report.json --report taken
+[ "$before" = "$(cksum taken/report.json)" ] || { echo 'FAILED: a report took the place of its plan'; failed=1; }
+[ ! -e taken/report.html ] || { echo 'FAILED: half a report'; failed=1; }
+
+# --- the program of touches, run by a controller with a machine that has no errors: what it logs is read, and says so
+"$volcomp" plan plate.toml --program plate.ngc >plate.txt 2>&1 || { echo "FAILED: program: $(cat plate.txt)"; failed=1; }
+expect 2 'cannot take the place of an input' "$volcomp" plan plate.toml --program plate.toml
+expect 2 'cannot take the place of an input' "$volcomp" plan plate.toml --program xyfz.toml
+sed '/^radius_mm = 10/d' plate.toml >no_radius.toml
+refused_program() { expect 2 "$1" "$volcomp" plan "$2" --program never.ngc; [ ! -e never.ngc ] || { echo 'FAILED: never.ngc'; failed=1; }; }
+refused_program "has no 'radius_mm'" no_radius.toml
+sed 's/"placement 3"/"placement (3)"/' plate.toml >names.toml
+refused_program 'cannot stand in a program' names.toml
+cp id_solve_noisy_00/plan.toml id_solve_noisy_00/setup_*.csv id_solve_noisy_00/machine.toml .
+refused_program 'there is no set-up of kind centre or touch' plan.toml
+/usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: the program as a controller runs it'; failed=1; }
+import json, re
+at, rows, pauses = {}, [], 0
+for line in open("plate.ngc"):
+    line = line.strip()
+    log = re.fullmatch(r"\(LOG,(.*)\)", line)
+    if log:
+        # The tip stops at the contact: 3 mm from where probing begins, 2 mm from the target.
+        latched = {5061 + "XYZ".index(a): (2 * begin[a] + 3 * at[a]) / 5 for a in "XYZ"} if rows else {}
+        rows.append(re.sub(r"#(\d+)", lambda p: f"{latched[int(p[1])]:.6f}", log[1]))
+    elif re.match(r"G(0|1|38\.2) ", line):
+        begin = dict(at)
+        at.update({w[0]: float(w[1:]) for w in line.split()[1:] if w[0] in "XYZ"})
+    pauses += line == "M0"
+    assert not line.startswith("(") or (line.count("(") == 1 and line.endswith(")") and len(line) < 256), line
+# A pause for every placement and tip.
+assert pauses == len({tuple(r.split(",")[:3:2]) for r in rows[1:]}), pauses
+text = open("plate.txt").read()
+assert f"program: {len(rows) - 1} touches" in text, len(rows)
+left_out = sum(len(line.split(": spheres ")[1].split()) for line in text.splitlines() if line.startswith("not in the program"))
+planned = sum(step["observations"] for step in json.load(open("plate.json"))["order"])
+assert 5 * (planned - left_out) == len(rows) - 1 and left_out < 0.1 * planned, (planned, left_out, len(rows))
+open("touches.csv", "w").write("\n".join(rows) + "\n")
+PYTHON
+sed 's/^kind = "centre"/&\nfile = "touches.csv"/' plate.toml >touched.toml
+expect 0 'chi-square 0.0 of' "$volcomp" identify touched.toml --json touched.json --no-leave-out
+/usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: errors of a machine without'; failed=1; }
+import json
+found = json.load(open("touched.json"))
+# Coordinates in a program have five decimals.
+assert all(abs(v) < 0.1 for f in found["functions"] for v in f["value"]), [(f["name"], max(map(abs, f["value"]))) for f in found["functions"]]
+PYTHON
 exit "$failed"

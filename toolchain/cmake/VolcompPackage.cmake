@@ -42,7 +42,7 @@ endforeach()
 
 if(VOLCOMP_BUILD_HOST_SIM)
   install(TARGETS volcomp volcomp-node RUNTIME COMPONENT tools)
-  install(DIRECTORY host_sim/machines host_sim/drives DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp" COMPONENT tools)
+  install(DIRECTORY host_sim/machines host_sim/drives host_sim/plans DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp" COMPONENT tools)
   install(FILES firmware/posix/volcomp-node@.service DESTINATION lib/systemd/system COMPONENT tools)
   install(FILES firmware/embed/cpp/xyfz.vct firmware/volcomp.eds firmware/volcomp.dbc
     DESTINATION "${CMAKE_INSTALL_DATADIR}/volcomp" COMPONENT tools)

@@ -10,7 +10,6 @@
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/range_of_draws.hpp"
 #include "host_sim/host/report/shared_progress.hpp"
 #include "host_sim/host/report/text_of.hpp"
 
@@ -21,52 +20,9 @@ using nlohmann::json;
 
 constexpr double kWantedMachines = 15.0 / 16.0;
 
-host::RangeOfDraws range_over(const MachineSpread& spread, std::size_t figure,
-                              double host::BeforeAfter::*value) {
-  std::vector<double> values;
-  for (const JudgedMachine& m : spread.drawn)
-    values.push_back(m.figures.at(figure).*value);
-  return host::range_of_draws(values);
-}
-
-// Every machine has the same figures.
-json spread_table(const MachineSpread& spread) {
-  json rows = json::array();
-  for (std::size_t f = 0; f < spread.drawn.front().figures.size(); ++f) {
-    const host::RangeOfDraws before = range_over(spread, f, &host::BeforeAfter::before);
-    const host::RangeOfDraws after = range_over(spread, f, &host::BeforeAfter::after);
-    rows.push_back({spread.drawn.front().figures[f].figure, before.median, before.least,
-                    before.most, after.median, after.least, after.most});
-  }
-  json made = host::table_section(
-      fmt::format("{} machines, largest deviations before and after", spread.drawn.size()),
-      {host::plain_column("figure", "figure"),
-       host::column("before: median", "µm", 2, "before_median_um"),
-       host::column("least", "µm", 2, "before_least_um"),
-       host::column("most", "µm", 2, "before_most_um"),
-       host::column("after: median", "µm", 2, "after_median_um"),
-       host::column("least", "µm", 2, "after_least_um"),
-       host::column("most", "µm", 2, "after_most_um")},
-      rows);
-  made["name"] = "machines";
-  return host::in_summary(host::with_id(
-      "machines", std::move(made),
-      fmt::format("Each with errors, places and noise of its own, measured with {}.",
-                  spread.options.noise ? "realistic instruments" : "perfect instruments")));
-}
-
-json what_is_left(const MachineSpread& spread) {
-  json series = json::array();
-  for (std::size_t f = 0; f < spread.drawn.front().figures.size(); ++f) {
-    std::vector<double> values;
-    for (const JudgedMachine& m : spread.drawn)
-      values.push_back(m.figures[f].after);
-    series.push_back({{"name", spread.drawn.front().figures[f].figure}, {"values", values}});
-  }
-  return host::with_id("left", {{"type", "histogram"},
-                                {"title", "What compensation leaves"},
-                                {"x", host::axis_label("largest deviation", "µm")},
-                                {"series", series}});
+std::string measured_note(const MachineSpread& spread) {
+  return fmt::format("Each with errors, places and noise of its own, measured with {}.",
+                     spread.options.noise ? "realistic instruments" : "perfect instruments");
 }
 
 }  // namespace
@@ -111,8 +67,8 @@ json machine_spread_document(const MachineSpread& spread, const host::RunContext
                             spread.drawn.size());
   parts.subtitle = "Simulated machines with errors drawn at random";
   parts.verdict = machine_spread_verdict(spread);
-  parts.before_after = spread_table(spread);
-  parts.plots = json::array({what_is_left(spread)});
+  parts.before_after = spread_table(spread.drawn, measured_note(spread));
+  parts.plots = json::array({what_is_left(spread.drawn)});
   host::Origins origins;
   origins.data = "simulated: no machine was measured";
   origins.settings = {
@@ -137,7 +93,7 @@ json machine_spread_figures(const MachineSpread& spread) {
           {"noise", spread.options.noise},
           {"machines", spread.drawn.size()},
           {"good", spread.good()},
-          {"figures", host::figures_of_table(spread_table(spread))},
+          {"figures", host::figures_of_table(spread_table(spread.drawn, measured_note(spread)))},
           {"ok", machine_spread_verdict(spread).ok},
           {"version", host::kVersion}};
 }

@@ -3,17 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host_sim/experiments/any_machine/judged_spread.hpp"
 #include "host_sim/experiments/any_machine/scenario.hpp"
-#include "host_sim/host/report/before_after.hpp"
 #include "host_sim/host/report/document.hpp"
 
 namespace volcomp::any_machine {
-
-// What the verdict of one machine is about.
-struct JudgedMachine {
-  std::vector<host::BeforeAfter> figures;
-  bool good = false;
-};
 
 struct MachineSpread {
   MachineOptions options;  // of the first

@@ -132,6 +132,7 @@ std::vector<PlaceReading> measure_places(sim::MotionCell& cell, const MachineCha
     cell.move_to(q, kRapid_mm_s);
     PlaceReading r;
     r.pose = q;
+    r.approach = cell.axes().approach();
     r.deviation_mm = reachable_deviation(cell, chain);
     r.orientation_rad = cell.orientation_rad();
     r.tilt_rad = tilt_of(chain, q, r.orientation_rad);

@@ -23,6 +23,7 @@ namespace volcomp::any_machine {
 // The reading at a pose of the machine.
 struct PlaceReading {
   Pose pose{};
+  sim::Approach approach{};             // sides from which the axes have arrived
   Vec3 deviation_mm = Vec3::Zero();     // that the correcting axes can reach, work frame
   Vec3 orientation_rad = Vec3::Zero();  // work frame
   double tilt_rad = 0.0;                // of the tool axis, Z of the tool frame

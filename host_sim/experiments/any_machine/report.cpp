@@ -6,53 +6,16 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/experiments/any_machine/figures.hpp"
+#include "host_sim/experiments/any_machine/verification_charts.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/report/before_after.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/volume_map.hpp"
 
 namespace volcomp::any_machine {
 namespace {
 
 using nlohmann::json;
-
-json line_charts(const MachineResult& r) {
-  json charts = json::array();
-  for (std::size_t i = 0; i < r.before.line.size(); ++i) {
-    const sim::MeasuredDiagonal& before = r.before.line[i];
-    const sim::MeasuredDiagonal& after = r.after.line[i];
-    charts.push_back(host::lines_chart(
-        "diagonal-" + before.name, before.name, host::axis_label("distance", "mm"),
-        host::axis_label("deviation along the diagonal", "µm"),
-        {host::series_of("uncompensated", before.distance_mm, before.mean_um),
-         host::series_of("compensated", after.distance_mm, after.mean_um)}));
-  }
-  return host::chart_group("diagonals", "Diagonals of the linear axes", charts,
-                           "Mean of both directions; rotary axes at their references.");
-}
-
-template <class Value>
-json reading_series(const std::vector<PlaceReading>& before, const std::vector<PlaceReading>& after,
-                    const Value& value) {
-  const auto curve = [&](const char* name, const std::vector<PlaceReading>& readings) {
-    std::vector<double> y(readings.size());
-    std::transform(readings.begin(), readings.end(), y.begin(), value);
-    return host::series_of(name, host::counted(y.size()), y);
-  };
-  return {curve("uncompensated", before), curve("compensated", after)};
-}
-
-json sphere_chart(const MachineResult& r) {
-  return host::lines_chart(
-      "sphere", "Ball on the table, rotary axes turned", host::axis_label("position", ""),
-      host::axis_label("off the centre of the ball", "µm"),
-      reading_series(r.before.sphere, r.after.sphere,
-                     [](const PlaceReading& p) { return kUmPerMm * p.deviation_mm.norm(); }),
-      fmt::format("Ball at {:.1f} {:.1f} {:.1f} mm of the workpiece frame, found at the first "
-                  "position; {} positions could not be reached.",
-                  r.sphere.ball.x(), r.sphere.ball.y(), r.sphere.ball.z(), r.sphere.left_out));
-}
 
 json orientation_chart(const MachineResult& r) {
   return host::lines_chart(
@@ -109,25 +72,6 @@ json measured_text(const MachineResult& r) {
       host::with_id("measured", host::text_section("What was measured", {machine, sphere})));
 }
 
-json volume_chart(const MachineResult& r) {
-  std::vector<Vec3> places;
-  host::VolumeArrows before{"uncompensated", {}};
-  host::VolumeArrows after{"compensated", {}};
-  const MachineChain& chain = r.machine.chain;
-  for (std::size_t i = 0; i < r.before.place.size(); ++i) {
-    places.push_back(ideal_points(chain, r.before.place[i].pose, chain.tool_point()).work);
-    before.error.push_back(r.before.place[i].deviation_mm);
-    after.error.push_back(r.after.place[i].deviation_mm);
-  }
-  before.error = host::aligned_errors(places, before.error);
-  after.error = host::aligned_errors(places, after.error);
-  return host::volume_map(
-      "Error vectors all over the travel", places, {before, after},
-      "Tool point in the workpiece frame, all axes anywhere on their travels; of the error what "
-      "the "
-      "correcting axes can reach, after aligning the workpiece frame as for the figures.");
-}
-
 host::Origins origins(const MachineResult& r) {
   host::Origins origins;
   origins.data = "simulated: no machine was measured";
@@ -149,9 +93,9 @@ json machine_document(const MachineResult& r, const host::RunContext& run) {
   parts.subtitle = "Simulated machine with errors drawn at random";
   parts.verdict = machine_verdict(r);
   parts.before_after = before_after(r);
-  if (!r.before.place.empty()) parts.plots.push_back(volume_chart(r));
-  if (!r.before.line.empty()) parts.plots.push_back(line_charts(r));
-  if (!r.before.sphere.empty()) parts.plots.push_back(sphere_chart(r));
+  if (!r.before.place.empty()) parts.plots.push_back(volume_chart(r.machine, r.before, r.after));
+  if (!r.before.line.empty()) parts.plots.push_back(line_charts(r.before, r.after));
+  if (!r.before.sphere.empty()) parts.plots.push_back(sphere_chart(r.sphere, r.before, r.after));
   if (!r.before.place.empty()) parts.plots.push_back(orientation_chart(r));
   parts.details.push_back(measured_text(r));
   parts.ticks = run.ticks;

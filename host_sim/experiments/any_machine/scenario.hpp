@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "host_sim/experiments/any_machine/sphere_test.hpp"
+#include "host_sim/experiments/any_machine/verification.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
-#include "host_sim/host/measure/volume_csv.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
@@ -25,21 +24,6 @@ struct MachineOptions {
   std::size_t knots = kDefaultKnots;  // per table: what the node has room for
   double tool_length_mm = 100.0;      // for the effect of orientation errors
   sim::CellFactory make_cell = sim::make_integrated_cell;
-};
-
-struct MachineState {
-  std::vector<sim::MeasuredDiagonal> line;
-  std::vector<PlaceReading> place;
-  host::VolumeFigures volume;  // of the places, beside the best rigid motion; um
-  std::vector<PlaceReading> sphere;
-
-  [[nodiscard]] double lines_max_um() const;
-  [[nodiscard]] host::VolumeFigures sphere_um() const;
-  // Error of direction of the tool axis over places and ball, rad.
-  [[nodiscard]] double tilt_max_rad() const;
-  [[nodiscard]] double tilt_rms_rad() const;
-  // The part of it that the orienting axes reach.
-  [[nodiscard]] double steerable_max_rad() const;
 };
 
 struct MachineResult {

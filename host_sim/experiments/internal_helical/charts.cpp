@@ -105,7 +105,7 @@ json slot_chart(const InternalHelicalResult& run) {
 json spectrum_along_z(const InternalHelicalResult& run) {
   const HelicalDetail& d = run.detail;
   return host::bar_chart("along-z", "Spectrum along Z, by wavelength in mm",
-                         {kWavelengths_mm.begin(), kWavelengths_mm.end()},
+                         std::vector<double>(kWavelengths_mm.begin(), kWavelengths_mm.end()),
                          host::axis_label("amplitude on the flank", "µm"),
                          bars_before_and_after(d.before.along, d.after.along));
 }

@@ -27,18 +27,24 @@ json lines_chart(const std::string& id, const std::string& title, json x, json y
 }
 
 json bar_chart(const std::string& id, const std::string& title,
-               const std::vector<double>& categories, json y, json series,
+               const std::vector<std::string>& categories, json y, json series,
                const std::string& note) {
-  json names = json::array();
-  for (const double number : categories)
-    names.push_back(fmt::format("{:g}", number));
   return with_id(id,
                  {{"type", "bars"},
                   {"title", title},
-                  {"categories", std::move(names)},
+                  {"categories", categories},
                   {"y", std::move(y)},
                   {"series", std::move(series)}},
                  note);
+}
+
+json bar_chart(const std::string& id, const std::string& title,
+               const std::vector<double>& categories, json y, json series,
+               const std::string& note) {
+  std::vector<std::string> names;
+  for (const double number : categories)
+    names.push_back(fmt::format("{:g}", number));
+  return bar_chart(id, title, names, std::move(y), std::move(series), note);
 }
 
 json chart_group(const std::string& id, const std::string& title, json charts,

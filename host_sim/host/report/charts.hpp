@@ -22,6 +22,9 @@ inline constexpr double kDegPerRad = 180.0 / kPi;
 [[nodiscard]] nlohmann::json bar_chart(const std::string& id, const std::string& title,
                                        const std::vector<double>& categories, nlohmann::json y,
                                        nlohmann::json series, const std::string& note = "");
+[[nodiscard]] nlohmann::json bar_chart(const std::string& id, const std::string& title,
+                                       const std::vector<std::string>& categories, nlohmann::json y,
+                                       nlohmann::json series, const std::string& note = "");
 // Charts side by side under one legend; `shared_y`: with the same y range.
 [[nodiscard]] nlohmann::json chart_group(const std::string& id, const std::string& title,
                                          nlohmann::json charts, const std::string& note,

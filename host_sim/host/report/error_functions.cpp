@@ -35,7 +35,7 @@ json chart(const ErrorCurves& axis, bool angles) {
   const std::vector<double> x = scaled(axis.at, axis.rotary ? kDegPerRad : 1.0);
   json series = json::array();
   for (Eigen::Index c = angles ? kLengths : 0; c < (angles ? 2 * kLengths : kLengths); ++c)
-    series.push_back(curve(axis, x, c));
+    if (axis.known.at(static_cast<std::size_t>(c))) series.push_back(curve(axis, x, c));
   return lines_chart(fmt::format("function-{}-{}", axis.letter, angles ? "angles" : "lengths"),
                      fmt::format("{}: {}", axis.letter, angles ? "angles" : "displacements"),
                      axis_label("position", axis.rotary ? "deg" : "mm"),
@@ -48,8 +48,10 @@ json error_functions_group(const std::string& title, const std::vector<ErrorCurv
                            const std::string& note) {
   json charts = json::array();
   for (const ErrorCurves& axis : axes) {
-    charts.push_back(chart(axis, false));
-    charts.push_back(chart(axis, true));
+    for (const bool angles : {false, true}) {
+      json drawn = chart(axis, angles);
+      if (!drawn["series"].empty()) charts.push_back(std::move(drawn));
+    }
   }
   return chart_group("functions", title, charts, note, false);
 }

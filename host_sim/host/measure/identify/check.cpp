@@ -84,6 +84,10 @@ Refusal check_references(const Problem& problem, const SetUp& s) {
     if (*s.artefact >= problem.artefacts.size()) return unknown("artefact");
     for (const std::size_t sphere : s.sphere)
       if (sphere >= problem.artefacts[*s.artefact].spheres.size()) return unknown("sphere");
+    // A touch is held against the surface of its ball.
+    const Artefact& artefact = problem.artefacts[*s.artefact];
+    if (s.kind == ObservationKind::touch && artefact.radius.size() != artefact.spheres.size())
+      return refusal(Reason::missing_field, s, "radius");
   }
   const std::size_t axes = problem.machine.chain.axis_count();
   return s.kind == ObservationKind::runs && s.axis >= axes ? unknown("axis") : Refusal{};
@@ -118,6 +122,8 @@ Refusal check_finite(const Problem& problem) {
       if (!std::isfinite(s.y[n]))
         return placed(refusal(Reason::not_finite, s, "y"), n / s.components());
     if (s.station && !s.station->allFinite()) return refusal(Reason::not_finite, s, "station");
+    if (s.pose && !(s.pose->R.allFinite() && s.pose->t.allFinite()))
+      return refusal(Reason::not_finite, s, "pose");
     return Refusal{};
   });
 }

@@ -19,10 +19,6 @@ using nlohmann::json;
 constexpr double kWeak_mm = 5e-3;
 constexpr double kWeak_rad = 20e-6;
 
-double shown(const Quantity& quantity, double value) {
-  return value * (quantity.angular() ? kUradPerRad : kUmPerMm);
-}
-
 const char* unit_name(const Quantity& quantity) { return quantity.angular() ? "urad" : "um"; }
 
 bool weak(const FoundFunction& f) {
@@ -46,14 +42,29 @@ json function_rows(const std::vector<FoundFunction>& functions, bool values) {
     json row = json::array({f.quantity.name});
     if (values) row.push_back(shown(f.quantity, range_of(f)));
     row.push_back(kCover * shown(f.quantity, f.largest_u()));
-    row.push_back(unit_name(f.quantity));
+    row.push_back(shown_unit(f.quantity));
     row.push_back(weak(f) ? "weak" : "");
     rows.push_back(row);
   }
   return rows;
 }
 
+json value_row(const std::string& name, const Measured& m, double scale, const char* unit,
+               bool measured) {
+  json row = json::array({name});
+  if (measured) row.push_back(scale * m.value);
+  row.push_back(kCover * scale * m.u);
+  row.push_back(unit);
+  return row;
+}
+
 }  // namespace
+
+double shown(const Quantity& quantity, double value) {
+  return value * (quantity.angular() ? kUradPerRad : kUmPerMm);
+}
+
+const char* shown_unit(const Quantity& quantity) { return quantity.angular() ? "µrad" : "µm"; }
 
 json function_section(const std::vector<FoundFunction>& functions, bool measured) {
   json columns = json::array({plain_column("function")});
@@ -65,28 +76,34 @@ json function_section(const std::vector<FoundFunction>& functions, bool measured
                        function_rows(functions, measured));
 }
 
-json value_section(const std::vector<FoundValue>& values, bool measured) {
+json value_section(const std::vector<FoundValue>& values,
+                   const std::optional<FoundSquareness>& squareness, bool measured) {
+  if (values.empty() && !squareness) return {};
   json rows = json::array();
-  for (const FoundValue& v : values) {
-    json row = json::array({v.quantity.name});
-    if (measured) row.push_back(shown(v.quantity, v.value.value));
-    row.push_back(kCover * shown(v.quantity, v.value.u));
-    row.push_back(unit_name(v.quantity));
-    rows.push_back(row);
+  if (squareness) {
+    const auto add = [&](const char* name, const Measured& m) {
+      rows.push_back(value_row(name, m, kUradPerRad, "µrad", measured));
+    };
+    add("squareness a_xy, Y the datum", squareness->a_xy);
+    add("squareness a_xz", squareness->a_xz);
+    add("squareness a_yz", squareness->a_yz);
   }
+  for (const FoundValue& v : values)
+    rows.push_back(value_row(v.quantity.name, v.value, shown(v.quantity, 1.0),
+                             shown_unit(v.quantity), measured));
   json columns = json::array({plain_column("")});
   if (measured) columns.push_back(column("value", "", 2));
   columns.push_back(column("U (k = 2)", "", 2));
   columns.push_back(plain_column(""));
-  return table_section("Reversals, places of rotary axes", columns, rows);
+  return table_section("Squareness, reversals, places of rotary axes", columns, rows);
 }
 
 std::string volume_line(const FoundVolume& v) {
   return fmt::format(
       "Error of the functional point over the travels, beside the best rigid motion: U (k = 2) "
-      "{:.2f} "
-      "um rms, {:.2f} um at 95 % of the places, {:.2f} um at most",
-      kCover * kUmPerMm * v.rms, kCover * kUmPerMm * v.p95, kCover * kUmPerMm * v.max);
+      "{:.2f} µm rms; on the average {:.2f} µm are left at 95 % of the places, {:.2f} µm at the "
+      "worst",
+      kCover * kUmPerMm * v.rms, kUmPerMm * v.p95, kUmPerMm * v.max);
 }
 
 json volume_json(const FoundVolume& v) {

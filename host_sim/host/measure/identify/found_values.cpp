@@ -8,6 +8,9 @@
 namespace volcomp::host::identify {
 namespace {
 
+// Over which the best rigid motion is taken.
+constexpr std::size_t kRigidPlaces = 1000;
+
 // The van der Corput sequence: evenly over 0…1 for any number of terms.
 double evenly(std::size_t n, std::size_t base) {
   double place = 0.0;
@@ -38,6 +41,14 @@ std::optional<VectorXd> slope_row(const Unknowns& unknowns, const MachineFile& m
     return row;
   }
   return std::nullopt;
+}
+
+std::vector<double> spread(const Travel& travel, std::size_t count) {
+  std::vector<double> places;
+  for (std::size_t k = 0; k < count; ++k)
+    places.push_back(travel.lo + (travel.hi - travel.lo) * static_cast<double>(k) /
+                                     static_cast<double>(count - 1));
+  return places;
 }
 
 }  // namespace
@@ -88,6 +99,15 @@ std::optional<FoundSquareness> Values::squareness(const MachineFile& machine) co
   return FoundSquareness{of(*X_y + *Y_x), of(*Z_x + *X_z), of(-*Z_y - *Y_z)};
 }
 
+Pose middle_of(const Problem& problem) {
+  Pose q{};
+  for (std::size_t a = 0; a < problem.machine.chain.axis_count(); ++a) {
+    const Travel& travel = problem.machine.travel.at(a);
+    q.at(a) = problem.is_slide(a) ? 0.5 * (travel.lo + travel.hi) : travel.reference;
+  }
+  return q;
+}
+
 std::vector<Pose> places_of(const Machine& machine, std::size_t count) {
   constexpr std::array<std::size_t, kMaxAxes> kPrimes{2, 3, 5, 7, 11, 13, 17, 19};
   std::vector<Pose> places(count);
@@ -100,17 +120,50 @@ std::vector<Pose> places_of(const Machine& machine, std::size_t count) {
 }
 
 FoundVolume volume_of(const Equations& equations, const Triangle& triangle) {
-  constexpr std::size_t kPlaces = 1000;
   const Machine& machine = equations.problem().machine;
-  VolumeUncertainty u = volume_uncertainty(equations, triangle, places_of(machine, kPlaces),
-                                           machine.chain.tool_point());
-  FoundVolume out;
-  out.rms = u.rms_rigid();
-  std::sort(u.rigid.begin(), u.rigid.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(u.rigid.size())));
-  out.p95 = u.rigid[rank - 1];
-  out.max = u.rigid.back();
-  return out;
+  const std::vector<Pose> places = places_of(machine, kRigidPlaces);
+  const Vec3 tool = machine.chain.tool_point();
+  const DrawnVolume drawn = draw_volume(equations, triangle, places, tool);
+  return {volume_uncertainty(equations, triangle, places, tool).rms_rigid(), drawn.p95, drawn.max};
+}
+
+std::vector<VolumeSection> volume_sections(const Equations& equations, const Triangle& triangle) {
+  constexpr std::size_t kSteps = 13;
+  const Problem& problem = equations.problem();
+  const Machine& machine = problem.machine;
+  std::vector<VolumeSection> sections;
+  std::vector<Pose> places;
+  // In the order of their letters: Z is drawn upwards.
+  std::vector<std::size_t> slides;
+  for (std::size_t a = 0; a < machine.chain.axis_count(); ++a)
+    if (problem.is_slide(a)) slides.push_back(a);
+  std::sort(slides.begin(), slides.end(), [&](std::size_t a, std::size_t b) {
+    return machine.chain.axis(a).letter < machine.chain.axis(b).letter;
+  });
+  for (std::size_t i = 0; i < slides.size(); ++i)
+    for (std::size_t k = i + 1; k < slides.size(); ++k) {
+      const std::size_t right = slides[i];
+      const std::size_t up = slides[k];
+      sections.push_back({right,
+                          up,
+                          spread(machine.travel.at(right), kSteps),
+                          spread(machine.travel.at(up), kSteps),
+                          {}});
+      for (const double y : sections.back().row)
+        for (const double x : sections.back().column) {
+          places.push_back(middle_of(problem));
+          places.back().at(right) = x;
+          places.back().at(up) = y;
+        }
+    }
+  if (sections.empty()) return sections;
+  const std::vector<double> u = rigid_uncertainty_at(
+      equations, triangle, places_of(machine, kRigidPlaces), places, machine.chain.tool_point());
+  auto next = u.begin();
+  for (VolumeSection& section : sections)
+    for (std::size_t r = 0; r < section.row.size(); ++r, next += kSteps)
+      section.u.emplace_back(next, next + kSteps);
+  return sections;
 }
 
 }  // namespace volcomp::host::identify

@@ -91,6 +91,15 @@ std::vector<Visited> visited_of(const Problem& problem) {
   return out;
 }
 
+std::vector<FoundStylus> styli_of(const Unknowns& unknowns, const VectorXd& x) {
+  const std::vector<Stylus>& all = unknowns.problem().styli;
+  std::vector<FoundStylus> found;
+  for (std::size_t s = 0; s < all.size(); ++s)
+    if (const auto first = unknowns.stylus(s))
+      found.push_back({s, x.segment<3>(*first), all[s].place.value_or(kFree)});
+  return found;
+}
+
 // Centres as found by a machine with the errors of the estimate; how far the farthest has moved.
 double refine_centres(const MeasurementPlan& plan, const Equations& equations, const VectorXd& x,
                       Problem& problem) {
@@ -116,6 +125,15 @@ double refine_centres(const MeasurementPlan& plan, const Equations& equations, c
     }
   }
   return moved;
+}
+
+std::vector<Residual> residuals_of(const Equations& equations, const Estimate& estimate) {
+  std::vector<Residual> out;
+  equations.visit_readings(estimate,
+                           [&](const ReadingPlace& of, const VectorXd& /*row*/, double residual) {
+                             out.push_back({of, residual});
+                           });
+  return out;
 }
 
 std::unique_ptr<BuiltTables> tables_of(const MeasurementPlan& plan, const Unknowns& unknowns,
@@ -168,7 +186,11 @@ Identified identify(const MeasurementPlan& plan, const IdentifySettings& setting
   out.functions = values.functions(plan.machine);
   out.values = values.singles();
   out.squareness = values.squareness(plan.machine);
+  out.styli = styli_of(unknowns, solution.estimate.x);
   out.volume = volume_of(equations, solution.triangle);
+  out.sections = volume_sections(equations, solution.triangle);
+  out.weakest = weakest_values(equations, solution.triangle, plan.machine, kWeakest);
+  out.residuals = residuals_of(equations, solution.estimate);
   out.consistency = check_consistency(equations, solution, settings.leave_out);
   out.outliers = solution.outliers;
   out.rank = rank_of(problem);

@@ -10,6 +10,7 @@
 #include "host_sim/host/measure/identify/found_values.hpp"
 #include "host_sim/host/measure/identify/plan_file.hpp"
 #include "host_sim/host/measure/identify/rank.hpp"
+#include "host_sim/host/measure/identify/weakest.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
@@ -22,11 +23,31 @@ struct Visited {
   double hi = 0.0;
 };
 
+// What the estimate leaves of a reading, over its stated standard uncertainty.
+struct Residual {
+  ReadingPlace of;
+  double over_sigma = 0.0;
+};
+
+// What was found of a stylus that is not the reference, against the plan.
+struct FoundStylus {
+  std::size_t stylus = 0;
+  Vec3 correction = Vec3::Zero();  // of its offset, mm
+  double known = 0.0;              // σ of a coordinate, mm; infinite: free
+
+  // Farther off than what is known of it allows: another length, another tip, a wrong offset.
+  [[nodiscard]] bool doubtful() const { return correction.cwiseAbs().maxCoeff() > 3.0 * known; }
+};
+
 struct Identified {
   std::vector<FoundFunction> functions;
   std::vector<FoundValue> values;  // reversals, locations, constants
   std::optional<FoundSquareness> squareness;
+  std::vector<FoundStylus> styli;
   FoundVolume volume;
+  std::vector<VolumeSection> sections;
+  std::vector<WeakValue> weakest;
+  std::vector<Residual> residuals;
   Consistency consistency;
   std::vector<ReadingPlace> outliers;
   std::vector<Visited> visited;

@@ -68,46 +68,49 @@ std::vector<std::string> closing_lines(const MeasurementPlan& plan, const Identi
                              std::sqrt(c.chi2 / static_cast<double>(std::max<Index>(c.dof, 1))))));
   if (found.refinements > 0)
     lines.push_back(fmt::format(
-        "Centres of spheres refined in {} rounds, by up to {:.2f} um in one: the errors of the "
+        "Centres of spheres refined in {} rounds, by up to {:.2f} µm in one: the errors of the "
         "machine over a sphere",
         found.refinements, kUmPerMm * found.largest_refinement));
+  for (const FoundStylus& s : found.styli)
+    if (s.doubtful())
+      lines.push_back(fmt::format(
+          "stylus \"{}\" is off by ({:.3f}, {:.3f}, {:.3f}) mm, more than 3 times what is known of "
+          "it ({:g} mm): its length or its offset is another",
+          plan.problem.styli[s.stylus].name, s.correction.x(), s.correction.y(), s.correction.z(),
+          s.known));
   for (const ReadingPlace& o : found.outliers)
     lines.push_back(fmt::format("outlier: observation {} of \"{}\"", o.observation + 1,
                                 plan.problem.setups[o.setup].name));
-  if (found.squareness) {
-    const auto text = [](const Measured& m) {
-      return fmt::format("{:.1f} ± {:.1f}", kUradPerRad * m.value, kCover * kUradPerRad * m.u);
-    };
-    lines.push_back(fmt::format("Squareness, Y the datum, urad (k = 2): a_xy {}, a_xz {}, a_yz {}",
-                                text(found.squareness->a_xy), text(found.squareness->a_xz),
-                                text(found.squareness->a_yz)));
-  }
   lines.push_back(volume_line(found.volume));
   if (const auto& curvature = plan.problem.model.curvature)
     lines.push_back(
-        fmt::format("Stated beforehand: within a segment a slope changes by about {:g} um or {:g} "
-                    "urad a segment",
+        fmt::format("Stated beforehand: within a segment a slope changes by about {:g} µm or {:g} "
+                    "µrad a segment",
                     kUmPerMm * curvature->mm, kUradPerRad * curvature->rad));
   lines.emplace_back(
       "Not in these uncertainties: what the splines cannot follow, reversal that is not an "
-      "unknown, "
-      "and drift within a set-up");
+      "unknown, and drift within a set-up");
   return lines;
 }
 
 }  // namespace
 
-std::string identified_text(const MeasurementPlan& plan, const Identified& found) {
+json identified_sections(const MeasurementPlan& plan, const Identified& found) {
   json sections = json::array();
-  sections.push_back(function_section(found.functions, true));
-  if (!found.values.empty()) sections.push_back(value_section(found.values, true));
+  if (!found.functions.empty()) sections.push_back(function_section(found.functions, true));
+  if (json values = value_section(found.values, found.squareness, true); !values.is_null())
+    sections.push_back(std::move(values));
   sections.push_back(table_section(
       "Set-ups",
       {plain_column("set-up"), plain_column("kind"), plain_column("rows"),
        column("chi-square / redundancy", "", 2), column("without it", "", 2), plain_column("")},
       setup_rows(plan, found)));
-  sections.push_back(text_section("", closing_lines(plan, found)));
-  return text_of_sections(sections);
+  sections.push_back(text_section("Consistency and uncertainty", closing_lines(plan, found)));
+  return sections;
+}
+
+std::string identified_text(const MeasurementPlan& plan, const Identified& found) {
+  return text_of_sections(identified_sections(plan, found));
 }
 
 json identified_json(const MeasurementPlan& plan, const Identified& found) {
@@ -123,6 +126,13 @@ json identified_json(const MeasurementPlan& plan, const Identified& found) {
                          {"a_xz", urad(found.squareness->a_xz)},
                          {"a_yz", urad(found.squareness->a_yz)}};
   }
+  out["styli"] = json::array();
+  for (const FoundStylus& s : found.styli)
+    out["styli"].push_back(
+        {{"name", plan.problem.styli[s.stylus].name},
+         {"correction_mm", {s.correction.x(), s.correction.y(), s.correction.z()}},
+         {"known_mm", s.known < kFree ? json(s.known) : json()},
+         {"doubtful", s.doubtful()}});
   out["u_volume"] = volume_json(found.volume);
   const Consistency& c = found.consistency;
   out["chi2"] = c.chi2;

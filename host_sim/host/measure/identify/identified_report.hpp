@@ -9,6 +9,9 @@
 
 namespace volcomp::host::identify {
 
+// Tables and sentences, in the order of the text.
+[[nodiscard]] nlohmann::json identified_sections(const MeasurementPlan& plan,
+                                                 const Identified& found);
 [[nodiscard]] std::string identified_text(const MeasurementPlan& plan, const Identified& found);
 [[nodiscard]] nlohmann::json identified_json(const MeasurementPlan& plan, const Identified& found);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
+#include "host_sim/host/io/bundled_files.hpp"
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/measure/identify/plan_setup.hpp"
@@ -18,7 +19,8 @@ namespace {
 
 class PlanReader {
  public:
-  explicit PlanReader(std::filesystem::path path) : path_(std::move(path)) {}
+  PlanReader(std::filesystem::path path, const PlanFiles& files)
+      : path_(std::move(path)), files_(files) {}
 
   MeasurementPlan read() {
     plan_.path = shown_name(path_);
@@ -49,7 +51,7 @@ class PlanReader {
       for (const TomlSection& s : top.tables("artefact"))
         read_artefact(s);
     for (const TomlSection& s : top.tables("setup"))
-      read_setup(plan_, path_.parent_path(), s);
+      read_setup(plan_, {path_.parent_path(), files_}, s);
   }
 
   void read_machine() {
@@ -59,13 +61,6 @@ class PlanReader {
       const AxisFile& axis = plan_.machine.axes[a];
       machine.travel.at(a) = {axis.lo, axis.hi, axis.reference, axis.full_turn()};
     }
-  }
-
-  std::size_t axis_of(const TomlSection& s, const std::string& key, const std::string& name) {
-    for (std::size_t a = 0; a < plan_.machine.axes.size(); ++a)
-      if (name == std::string(1, plan_.machine.axes[a].letter)) return a;
-    s.complain(key, fmt::format("'{}': the machine has no axis {} [{}]", key, name,
-                                code(Reason::unknown_reference)));
   }
 
   static std::size_t channel_of(const TomlSection& s, const std::string& key,
@@ -86,7 +81,7 @@ class PlanReader {
       for (const std::string& word : words_of(model, key, list))
         channels.push_back(channel_of(model, key, word));
       std::sort(channels.begin(), channels.end());
-      take(axis_of(model, key, name), channels);
+      take(axis_named(plan_, model, key, name), channels);
     }
   }
 
@@ -126,7 +121,7 @@ class PlanReader {
     if (!table.is_table()) model.complain("segments", "'segments' must be a table, { X = 6, … }");
     const TomlSection segments = model.table("segments");
     for (const auto& entry : table.as_table()) {
-      const std::size_t a = axis_of(model, "segments", entry.first);
+      const std::size_t a = axis_named(plan_, model, "segments", entry.first);
       const long least = plan_.machine.axes[a].full_turn() ? 4 : 1;
       AxisFunctions& f = plan_.problem.model.functions.at(a);
       f.segments = static_cast<std::size_t>(segments.integer(entry.first, least, kMostSegments));
@@ -168,7 +163,7 @@ class PlanReader {
       const std::vector<std::string> pair = words_of(model, "gauge", row);
       if (pair.size() != 2) model.complain("gauge", R"('gauge' must be a list of ["Y", "EX"])");
       plan_.problem.model.gauge.push_back(
-          {axis_of(model, "gauge", pair[0]), channel_of(model, "gauge", pair[1])});
+          {axis_named(plan_, model, "gauge", pair[0]), channel_of(model, "gauge", pair[1])});
     }
   }
 
@@ -246,6 +241,7 @@ class PlanReader {
   }
 
   std::filesystem::path path_;
+  const PlanFiles& files_;
   MeasurementPlan plan_;
 };
 
@@ -257,6 +253,12 @@ bool MeasurementPlan::has_readings() const {
   });
 }
 
-MeasurementPlan read_plan(const std::filesystem::path& path) { return PlanReader(path).read(); }
+MeasurementPlan read_plan(const std::filesystem::path& path, const PlanFiles& files) {
+  return PlanReader(path, files).read();
+}
+
+std::filesystem::path bundled_plan(const std::string& name) {
+  return path_of({"plans", ".toml", "VOLCOMP_PLANS"}, name);
+}
 
 }  // namespace volcomp::host::identify

@@ -21,7 +21,10 @@ PlanPrediction predict_plan(const MeasurementPlan& plan, const Progress& progres
     const Values values(equations, triangle, nullptr);
     out.functions = values.functions(plan.machine);
     out.values = values.singles();
+    out.squareness = values.squareness(plan.machine);
     out.volume = volume_of(equations, triangle);
+    out.sections = volume_sections(equations, triangle);
+    out.weakest = weakest_values(equations, triangle, plan.machine, kWeakest);
   }
   progress(0.4, "which set-up adds most");
   constexpr std::size_t kPlaces = 100;  // for every candidate

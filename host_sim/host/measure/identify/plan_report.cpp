@@ -27,6 +27,23 @@ std::size_t planned_spheres(const MeasurementPlan& plan) {
 
 }  // namespace
 
+std::vector<std::string> spheres_by_tip(const std::vector<std::string>& spheres) {
+  const std::string sphere_word = ": sphere ";
+  const std::string tip_word = " with tip ";
+  std::vector<std::string> lines;
+  std::string last;
+  for (const std::string& text : spheres) {
+    const std::size_t tip = text.rfind(tip_word);
+    const std::size_t sphere = text.rfind(sphere_word, tip);
+    const std::size_t number = sphere + sphere_word.size();
+    const std::string place = text.substr(0, sphere) + text.substr(tip);
+    if (place != last) lines.push_back(place + ": spheres");
+    lines.back() += " " + text.substr(number, tip - number);
+    last = place;
+  }
+  return lines;
+}
+
 std::string points_csv(const MeasurementPlan& plan) {
   std::string text = "setup,kind,sphere,tip";
   for (const AxisFile& axis : plan.machine.axes)
@@ -47,7 +64,7 @@ std::string points_csv(const MeasurementPlan& plan) {
   return text;
 }
 
-std::string plan_prediction_text(const MeasurementPlan& plan, const PlanPrediction& predicted) {
+json plan_prediction_sections(const MeasurementPlan& plan, const PlanPrediction& predicted) {
   json sections = json::array();
   std::vector<std::string> seen;
   for (const auto& group : predicted.rank.together)
@@ -61,8 +78,11 @@ std::string plan_prediction_text(const MeasurementPlan& plan, const PlanPredicti
                                  : ": the plan is not enough"));
   sections.push_back(text_section("What the plan sees", seen));
   if (predicted.solvable) {
-    sections.push_back(function_section(predicted.functions, false));
-    if (!predicted.values.empty()) sections.push_back(value_section(predicted.values, false));
+    if (!predicted.functions.empty())
+      sections.push_back(function_section(predicted.functions, false));
+    if (json values = value_section(predicted.values, predicted.squareness, false);
+        !values.is_null())
+      sections.push_back(std::move(values));
   }
   json rows = json::array();
   for (std::size_t n = 0; n < predicted.order.size(); ++n) {
@@ -75,16 +95,22 @@ std::string plan_prediction_text(const MeasurementPlan& plan, const PlanPredicti
                                     plain_column("observations"), column("u left, rms", "µm", 2)},
                                    rows));
   std::vector<std::string> lines;
-  for (const std::string& sphere : plan.unreached)
-    lines.push_back("out of reach, left out: " + sphere);
+  for (const std::string& spheres : spheres_by_tip(plan.unreached))
+    lines.push_back("out of reach, left out: " + spheres);
+  for (const std::string& name : plan.lacking)
+    lines.push_back(fmt::format("\"{}\" is planned at usual places: its file is not there", name));
   lines.push_back(fmt::format("{} rows, {} unknowns", predicted.rows, predicted.unknowns));
   if (const std::size_t spheres = planned_spheres(plan); spheres > 0)
     lines.push_back(fmt::format(
         "{} spheres: {} touches of {:g} s, {:.1f} hours", spheres, kTouchesOfSphere * spheres,
         kTouch_s, kTouch_s * static_cast<double>(kTouchesOfSphere * spheres) / 3600.0));
   if (predicted.solvable) lines.push_back(volume_line(predicted.volume));
-  sections.push_back(text_section("", lines));
-  return text_of_sections(sections);
+  sections.push_back(text_section("Extent and uncertainty", lines));
+  return sections;
+}
+
+std::string plan_prediction_text(const MeasurementPlan& plan, const PlanPrediction& predicted) {
+  return text_of_sections(plan_prediction_sections(plan, predicted));
 }
 
 json plan_prediction_json(const MeasurementPlan& plan, const PlanPrediction& predicted) {

@@ -66,6 +66,7 @@ void judge(const Equations& equations, const Weights& weights, Solution& s) {
     s.chi2 += residual * residual;
   });
   s.dof = s.triangle.rows() - equations.unknowns().size();
+  s.converged = s.converged && std::isfinite(s.chi2);
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ Triangle triangle_at(const Equations& equations, const Estimate& e, const KnownB
 Solution solve_from(const Equations& equations, const Estimate& start, bool robust) {
   const int most_steps = robust ? 200 : 30;
   const double small = robust ? 1e-8 : 1e-10;
-  Solution s{start, Triangle(equations.unknowns().size()), 0.0, 0, 0, false, robust, {}};
+  Solution s{start, Triangle(0), 0.0, 0, 0, false, robust, {}};
   Weights weights;
   while (s.steps < most_steps && !s.converged) {
     if (robust && s.steps > 0) weights = Weights(equations, s.estimate);
@@ -92,9 +93,8 @@ Solution solve_from(const Equations& equations, const Estimate& start, bool robu
     const VectorXd step = s.triangle.solve();
     equations.move(step, s.estimate);
     ++s.steps;
-    const double size = largest_step(equations.unknowns(), step);
-    if (!std::isfinite(size)) break;
-    s.converged = size < small;
+    if (!step.allFinite()) break;
+    s.converged = largest_step(equations.unknowns(), step) < small;
   }
   judge(equations, robust ? Weights(equations, s.estimate) : Weights(), s);
   return s;

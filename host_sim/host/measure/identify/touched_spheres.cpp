@@ -102,45 +102,4 @@ void add_single_touches(const std::vector<TipTouch>& touches, double sigma, SetU
   }
 }
 
-void add_planned_spheres(MeasurementPlan& plan, const std::vector<std::size_t>& tips, double sigma,
-                         SetUp& setup) {
-  // Five touches, the pole and four round the equator: what they leave in a centre.
-  constexpr double kAcross = 0.7071067811865476;
-  constexpr double kAlong = 1.118033988749895;
-  const Problem& problem = plan.problem;
-  const MachineChain& chain = problem.machine.chain;
-  if (!setup.pose)
-    throw UserError(
-        fmt::format("{}: set-up \"{}\" has neither a file nor pose_deg_mm", plan.path, setup.name));
-  const Artefact& artefact = problem.artefacts[*setup.artefact];
-  for (const std::size_t tip : tips) {
-    for (std::size_t sphere = 0; sphere < artefact.spheres.size(); ++sphere) {
-      Pose q{};
-      for (std::size_t a = 0; a < chain.axis_count(); ++a)
-        q.at(a) = problem.machine.travel.at(a).reference;
-      const ChainGeometry g = ideal_geometry(chain, q);
-      const Vec3 centre = setup.pose->R * artefact.spheres[sphere] + setup.pose->t;
-      bool reached = move_by(chain, g, centre - g.in_work(problem.styli[tip].offset), q);
-      // A ball is touched from the side as well: so much room on either side of every linear axis.
-      const double room =
-          (artefact.radius.empty() ? 0.0 : artefact.radius[sphere]) + problem.styli[tip].radius;
-      for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-        const Travel& travel = problem.machine.travel.at(a);
-        if (!problem.is_slide(a)) continue;
-        reached = reached && q.at(a) >= travel.lo + room && q.at(a) <= travel.hi - room;
-      }
-      if (!reached) {
-        plan.unreached.push_back(
-            fmt::format("{}: sphere {} with tip {}", setup.name, sphere, problem.styli[tip].name));
-        continue;
-      }
-      setup.q.push_back(q);
-      setup.d.push_back({});
-      setup.sphere.push_back(sphere);
-      setup.stylus.push_back(tip);
-      setup.sigma.insert(setup.sigma.end(), {kAcross * sigma, kAcross * sigma, kAlong * sigma});
-    }
-  }
-}
-
 }  // namespace volcomp::host::identify

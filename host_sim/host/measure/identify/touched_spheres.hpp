@@ -1,6 +1,5 @@
 #pragma once
-// Touches of spheres as observations of a set-up: their centres, each touch alone, or, before
-// anything is measured, the centres that a plan would find.
+// Touches of spheres as observations of a set-up: their centres, or each touch alone.
 
 #include <string>
 #include <vector>
@@ -22,10 +21,5 @@ struct TipTouch {
 void add_centres(MeasurementPlan& plan, const std::string& file,
                  const std::vector<TipTouch>& touches, double sigma, SetUp& setup);
 void add_single_touches(const std::vector<TipTouch>& touches, double sigma, SetUp& setup);
-
-// Every sphere with every tip, the rotary axes at their references; what is out of reach is named
-// in the plan. Throws UserError where the set-up has no pose.
-void add_planned_spheres(MeasurementPlan& plan, const std::vector<std::size_t>& tips, double sigma,
-                         SetUp& setup);
 
 }  // namespace volcomp::host::identify

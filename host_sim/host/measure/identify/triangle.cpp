@@ -10,8 +10,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Room for some times as many rows as unknowns: each fold carries the triangle along.
 Triangle::Triangle(Index unknowns)
-    : block_(MatrixXd::Zero(2 * unknowns + 64, unknowns + 1)),
+    : block_(MatrixXd::Zero(4 * unknowns + 64, unknowns + 1)),
       R_(MatrixXd::Zero(unknowns, unknowns)),
       z_(VectorXd::Zero(unknowns)) {}
 
@@ -25,11 +26,9 @@ void Triangle::add(const VectorXd& row, double residual) {
 
 void Triangle::fold() {
   const Index n = R_.cols();
-  const Eigen::HouseholderQR<MatrixXd> qr(block_.topRows(filled_));
-  const Index kept = std::min(filled_, n + 1);
-  const MatrixXd upper = qr.matrixQR().topRows(kept).triangularView<Eigen::Upper>();
-  block_.setZero();
-  block_.topRows(kept) = upper;
+  Eigen::Block<MatrixXd> rows = block_.topRows(filled_);
+  const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> in_place(rows);
+  rows.triangularView<Eigen::StrictlyLower>().setZero();
   filled_ = std::min(filled_, n);
   // What no unknown can change goes: the row below the triangle holds the residual alone.
   block_.bottomRows(block_.rows() - filled_).setZero();
@@ -40,6 +39,7 @@ void Triangle::finish() {
   const Index n = R_.cols();
   R_ = block_.topLeftCorner(n, n).triangularView<Eigen::Upper>();
   z_ = block_.col(n).head(n);
+  block_.resize(0, 0);
 }
 
 VectorXd Triangle::column_norms() const {

@@ -11,7 +11,7 @@ class Triangle {
   explicit Triangle(Eigen::Index unknowns);
 
   void add(const Eigen::VectorXd& row, double residual);
-  // All rows in; R is upper triangular, JᵀJ = RᵀR.
+  // All rows in, no more after it; R is upper triangular, JᵀJ = RᵀR.
   void finish();
 
   [[nodiscard]] Eigen::Index rows() const { return rows_; }

@@ -5,24 +5,41 @@
 
 #include <Eigen/QR>
 
+#include "comp/metrology/statistics/random_stream.hpp"
+
 namespace volcomp::host::identify {
 namespace {
 
-// Orthonormal columns that span the rigid motions of points.
-MatrixXd rigid_motions(const std::vector<Vec3>& points) {
+// About which point rigid motions turn, and the length that makes turns as large as shifts.
+struct Pivot {
   Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : points)
-    mean += p / static_cast<double>(points.size());
   double size = 0.0;
+};
+
+Pivot pivot_of(const std::vector<Vec3>& points) {
+  Pivot pivot;
   for (const Vec3& p : points)
-    size = std::max(size, (p - mean).norm());
+    pivot.mean += p / static_cast<double>(points.size());
+  for (const Vec3& p : points)
+    pivot.size = std::max(pivot.size, (p - pivot.mean).norm());
+  if (!(pivot.size > 0.0)) pivot.size = 1.0;
+  return pivot;
+}
+
+// What the six rigid motions do at points, three rows each.
+MatrixXd motions_at(const Pivot& pivot, const std::vector<Vec3>& points) {
   MatrixXd motions(static_cast<Index>(3 * points.size()), 6);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto row = static_cast<Index>(3 * i);
     motions.block<3, 3>(row, 0).setIdentity();
-    motions.block<3, 3>(row, 3) = -cross_matrix((points[i] - mean) / (size > 0.0 ? size : 1.0));
+    motions.block<3, 3>(row, 3) = -cross_matrix((points[i] - pivot.mean) / pivot.size);
   }
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(motions);
+  return motions;
+}
+
+// Orthonormal columns that span the rigid motions of points.
+MatrixXd rigid_motions(const std::vector<Vec3>& points) {
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(motions_at(pivot_of(points), points));
   return MatrixXd(qr.householderQ()).leftCols(qr.rank());
 }
 
@@ -49,7 +66,10 @@ MatrixXd error_rows(const Equations& equations, const std::vector<Pose>& places,
   return L;
 }
 
-std::vector<double> roots_of_traces(const MatrixXd& reduced) {
+// Root of the trace of the covariance of each three rows.
+std::vector<double> roots_of_traces(const Triangle& triangle, const MatrixXd& rows) {
+  const MatrixXd reduced =
+      triangle.R().transpose().triangularView<Eigen::Lower>().solve(rows.transpose());
   std::vector<double> u;
   for (Index i = 0; i < reduced.cols(); i += 3)
     u.push_back(reduced.middleCols(i, 3).norm());
@@ -83,15 +103,50 @@ VolumeUncertainty volume_uncertainty(const Equations& equations, const Triangle&
                                      const std::vector<Pose>& places, const Vec3& tool_point) {
   std::vector<Vec3> points;
   const MatrixXd L = error_rows(equations, places, tool_point, points);
-  const auto reduced = [&](const MatrixXd& rows) {
-    return MatrixXd(
-        triangle.R().transpose().triangularView<Eigen::Lower>().solve(rows.transpose()));
-  };
   VolumeUncertainty u;
-  u.datum = roots_of_traces(reduced(L));
+  u.datum = roots_of_traces(triangle, L);
   const MatrixXd Q = rigid_motions(points);
-  u.rigid = roots_of_traces(reduced(L - Q * (Q.transpose() * L)));
+  u.rigid = roots_of_traces(triangle, L - Q * (Q.transpose() * L));
   return u;
+}
+
+DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle,
+                        const std::vector<Pose>& places, const Vec3& tool_point) {
+  constexpr std::uint32_t kDraws = 200;
+  constexpr std::uint64_t kSeed = 1;
+  std::vector<Vec3> points;
+  const MatrixXd L = error_rows(equations, places, tool_point, points);
+  const MatrixXd Q = rigid_motions(points);
+  MatrixXd z(triangle.R().cols(), kDraws);
+  for (std::uint32_t draw = 0; draw < kDraws; ++draw)
+    for (Index i = 0; i < z.rows(); ++i)
+      z(i, draw) = normal(kSeed, {static_cast<std::uint32_t>(RandomStream::intervals), draw, 0,
+                                  static_cast<std::uint32_t>(i)});
+  MatrixXd e = L * triangle.R().triangularView<Eigen::Upper>().solve(z);
+  e -= Q * (Q.transpose() * e);
+  DrawnVolume out;
+  std::vector<double> length(places.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(length.size())));
+  for (Index draw = 0; draw < e.cols(); ++draw) {
+    for (std::size_t i = 0; i < length.size(); ++i)
+      length[i] = e.block<3, 1>(static_cast<Index>(3 * i), draw).norm();
+    std::sort(length.begin(), length.end());
+    out.p95 += length[rank - 1] / kDraws;
+    out.max += length.back() / kDraws;
+  }
+  return out;
+}
+
+std::vector<double> rigid_uncertainty_at(const Equations& equations, const Triangle& triangle,
+                                         const std::vector<Pose>& fitted,
+                                         const std::vector<Pose>& places, const Vec3& tool_point) {
+  std::vector<Vec3> points;
+  const MatrixXd all = error_rows(equations, fitted, tool_point, points);
+  std::vector<Vec3> shown;
+  const MatrixXd L = error_rows(equations, places, tool_point, shown);
+  const Pivot pivot = pivot_of(points);
+  const MatrixXd motion = motions_at(pivot, points).completeOrthogonalDecomposition().solve(all);
+  return roots_of_traces(triangle, L - motions_at(pivot, shown) * motion);
 }
 
 PlanChoice choose_setups(const Problem& problem, const std::vector<Pose>& places,

@@ -24,6 +24,23 @@ struct VolumeUncertainty {
                                                    const std::vector<Pose>& places,
                                                    const Vec3& tool_point);
 
+// What such uncertainties come to: error vectors drawn from the covariance, of each draw the 95 %
+// of the places and the worst, their means over the draws. Beside the best rigid motion.
+struct DrawnVolume {
+  double p95 = 0.0;
+  double max = 0.0;
+};
+[[nodiscard]] DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle,
+                                      const std::vector<Pose>& places, const Vec3& tool_point);
+
+// The uncertainty beside the best rigid motion at places of their own, beside the rigid motion that
+// is best over `fitted`.
+[[nodiscard]] std::vector<double> rigid_uncertainty_at(const Equations& equations,
+                                                       const Triangle& triangle,
+                                                       const std::vector<Pose>& fitted,
+                                                       const std::vector<Pose>& places,
+                                                       const Vec3& tool_point);
+
 // Set-ups of a plan in the order in which each adds most, and what is left after it.
 struct PlanChoice {
   std::vector<std::size_t> chosen;

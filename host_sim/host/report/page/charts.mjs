@@ -6,19 +6,20 @@ import { heatmapOption } from './charts/heatmap.mjs';
 import { histogramOption } from './charts/histogram.mjs';
 import { iso230Option } from './charts/iso230_2.mjs';
 import { linesOption } from './charts/lines.mjs';
+import { placesOption } from './charts/places.mjs';
 import { polarOption } from './charts/polar.mjs';
 import { volumeOption } from './charts/volume.mjs';
 import { limitsOf, niceRange, yExtent } from './series.mjs';
 
 const BUILDERS = {
   lines: linesOption, bars: barsOption, heatmap: heatmapOption, histogram: histogramOption,
-  iso230_2: iso230Option, polar: polarOption, volume: volumeOption,
+  iso230_2: iso230Option, polar: polarOption, volume: volumeOption, places: placesOption,
 };
 
 // view, all optional:
 //   width      width of the drawing in pixels, and its
 //   height
-//   turn       {yaw, pitch} in degrees: from where a volume is looked at
+//   turn       {yaw, pitch} in degrees: from where a volume or places are looked at
 //   hidden     Set of series names not to draw
 //   yRange     {min, max, interval} that replaces the chart's own y range
 //   zoom       true: Ctrl + wheel or a pinch zooms, dragging moves

@@ -3,7 +3,10 @@
 
 import { positioningSeries } from './charts/iso230_2.mjs';
 
-export const CHART_TYPES = ['lines', 'bars', 'heatmap', 'histogram', 'iso230_2', 'polar', 'volume'];
+export const CHART_TYPES = ['lines', 'bars', 'heatmap', 'histogram', 'iso230_2', 'polar', 'volume', 'places'];
+
+// Drawn in three dimensions, and turned by dragging.
+export const SPATIAL_TYPES = ['volume', 'places'];
 
 const CURVES = ['lines', 'iso230_2', 'polar'];
 

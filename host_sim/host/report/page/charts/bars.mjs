@@ -6,7 +6,7 @@ import {
   grid, limitSeries, quantity, rightMargin, tooltip, tooltipTable, valueScale, visibleSeries, xAxis, yAxis,
 } from './parts.mjs';
 
-const LETTER = 6.8;           // pixels, of a category name
+const LETTER = 7.6;           // pixels, of a category name in a wide font
 const NARROWEST_NUMBER = 30;  // pixels for a number above its bar
 
 export function barsOption(section, theme, view) {
@@ -48,7 +48,7 @@ const bar = (value) => ({ value, label: { position: value < 0 ? 'bottom' : 'top'
 function categoryLabel(categories, room) {
   if (categories.every(isWhole)) return roundNumbers(categories, room);
   const longestWord = Math.max(...categories.flatMap((name) => name.split(' ')).map((word) => word.length));
-  const level = { rotate: 0, width: room - 8, overflow: 'break' };
+  const level = { rotate: 0, width: room - 8, overflow: 'break', lineHeight: 16 };
   const leaning = { rotate: 40, width: 120, overflow: 'truncate' };
   return { interval: 0, hideOverlap: false, ...(longestWord * LETTER + 8 <= room ? level : leaning) };
 }

@@ -76,7 +76,7 @@ export function limitSeries(section, theme, { along, unit, anchor }) {
       lineStyle: { color: theme.limit, type: [6, 4], width: 1.2 },
       label: {
         formatter: `limit${along === 'y' ? '\n' : ' '}${withUnit(formatTick(limit), unit)}`,
-        position: 'end', color: theme.limit, fontSize: 11.5,
+        position: 'end', color: theme.limit, fontSize: 11.5, lineHeight: 16,
       },
       data: [along === 'y' ? { yAxis: limit } : { xAxis: limit }],
     },

@@ -37,10 +37,7 @@ export function volumeOption(section, theme, view) {
     },
     grid: { left: 0, right: 0, top: 0, bottom: 0 },
     xAxis: axis(range.x), yAxis: axis(range.y),
-    dataZoom: view.zoom ? ['x', 'y'].map((name) => ({
-      id: `wheel-${name}`, type: 'inside', [`${name}AxisIndex`]: 0, filterMode: 'none', zoomOnMouseWheel: 'ctrl',
-      moveOnMouseMove: false, preventDefaultMouseMove: false,
-    })) : [],
+    dataZoom: wheelZoom(view),
     tooltip: tooltip(theme, { trigger: 'item' }),
     series: [
       boxSeries(box, project, theme, section),
@@ -50,10 +47,16 @@ export function volumeOption(section, theme, view) {
   };
 }
 
-const boxCorners = (box) => [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => box.map((ends, k) => ends[(bits >> k) & 1]));
+export const boxCorners = (box) => [0, 1, 2, 3, 4, 5, 6, 7].map((bits) => box.map((ends, k) => ends[(bits >> k) & 1]));
+
+// Ctrl + wheel alone: dragging turns.
+export const wheelZoom = (view) => (view.zoom ? ['x', 'y'].map((name) => ({
+  id: `wheel-${name}`, type: 'inside', [`${name}AxisIndex`]: 0, filterMode: 'none', zoomOnMouseWheel: 'ctrl',
+  moveOnMouseMove: false, preventDefaultMouseMove: false,
+})) : []);
 
 // Equal scales, whatever the shape of the drawing; room for arrows and names around the box.
-function screenRange(points, { width, height = 420 }) {
+export function screenRange(points, { width, height = 420 }) {
   const [x, y] = [0, 1].map((k) => extent(points.map((point) => point[k])));
   const spans = [x, y].map(([low, high]) => high - low || 1);
   const scale = Math.max(spans[0] / Math.max(80, width - 120), spans[1] / Math.max(80, height - 96));
@@ -64,7 +67,7 @@ function screenRange(points, { width, height = 420 }) {
   return { x: around(x, width), y: around(y, height), scale };
 }
 
-function boxSeries(box, project, theme, section) {
+export function boxSeries(box, project, theme, section) {
   const corners = boxCorners(box);
   const edges = corners.flatMap((_, from) => [1, 2, 4].filter((bit) => !(from & bit)).map((bit) => [from, from | bit]));
   const data = edges.map(([from, to]) => [...project(corners[from]), ...project(corners[to])]);

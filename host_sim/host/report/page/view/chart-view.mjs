@@ -3,7 +3,7 @@
 import { chartOption, sharedRange } from '../charts.mjs';
 import * as echarts from '../echarts-parts.mjs';
 import { VIEWS } from '../charts/volume.mjs';
-import { legendEntries } from '../series.mjs';
+import { legendEntries, SPATIAL_TYPES } from '../series.mjs';
 import { element, note } from './dom.mjs';
 import { makeLegend } from './legend.mjs';
 
@@ -21,7 +21,7 @@ export function makeFigure(section) {
     canvases.forEach((canvas) => canvas.draw(theme, { hidden: legend.hidden, yRange, slider, zoom: true }));
   };
   const legend = makeLegend(entries, redraw);
-  const views = isGroup || section.type !== 'volume' ? null : makeViews(canvases[0]);
+  const views = isGroup || !SPATIAL_TYPES.includes(section.type) ? null : makeViews(canvases[0]);
   const body = isGroup
     ? element('div', { class: 'small-multiples' }, ...canvases.map((canvas) => canvas.node))
     : canvases[0].node;
@@ -75,7 +75,7 @@ function turnByDragging(target, current, turnTo) {
 function makeCanvas(chart, inGroup) {
   const size = inGroup ? 'small' : chart.type;
   const target = element('div', { class: `chart ${size}`, role: 'img', 'aria-label': chart.title });
-  const size3d = chart.type === 'volume';
+  const size3d = SPATIAL_TYPES.includes(chart.type);
   let instance;
   let drawAgain;
   let turn = size3d ? { ...VIEWS.oblique } : undefined;

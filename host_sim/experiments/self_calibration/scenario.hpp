@@ -1,0 +1,66 @@
+#pragma once
+// A simulated machine measures itself: its probe touches spheres, or tracers follow it; the errors
+// identified from that go into its tables, and instruments that took no part in it judge the
+// result.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_sim/experiments/any_machine/verification.hpp"
+#include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/measure/identify/identification.hpp"
+#include "host_sim/host/report/progress.hpp"
+#include "host_sim/sim/campaign/plan_readings.hpp"
+#include "host_sim/sim/controller/bus_axes.hpp"
+#include "host_sim/sim/controller/integrated_axes.hpp"
+
+namespace volcomp::self_calibration {
+
+struct Options {
+  std::filesystem::path plan;
+  std::uint64_t seed = 1;    // of the errors of the machine, of what stands where, of the noise
+  bool noise = true;         // of instruments, artefact and temperature
+  std::size_t places = 300;  // of the verification, all over the travel
+  bool leave_out = true;     // each set-up against the others
+  sim::BusAxesFactory make_axes;  // touches through drives, latches and node; none: computed
+  double cycle_hz = sim::kBusCycle_hz;
+  sim::CellFactory make_cell = sim::make_integrated_cell;  // of the verification
+};
+
+// Error vectors all over the travel beside their best rigid motion, µm.
+struct Left {
+  double rms = 0.0;
+  double p95 = 0.0;
+  double max = 0.0;
+};
+
+struct Result {
+  Options options;
+  sim::TrueMachine truth;
+  host::identify::MeasurementPlan plan;      // as measured
+  std::map<std::string, std::string> files;  // of its readings, by name
+  std::size_t touches = 0;
+  host::identify::Identified found;
+  std::vector<std::uint8_t> image;
+  any_machine::SpherePlan sphere;
+  any_machine::MachineState before;
+  any_machine::MachineState after;
+  std::vector<host::HashedInput> inputs;
+
+  // As measured.
+  [[nodiscard]] Left left(const any_machine::MachineState& state) const;
+  // What the prediction speaks of: where the plan knows nothing of reversal, without what that
+  // adds, the mean of both directions.
+  [[nodiscard]] Left left_of_known(const any_machine::MachineState& state) const;
+  [[nodiscard]] bool knows_reversal() const;
+  // What `after` should be by the uncertainty of the identification.
+  [[nodiscard]] Left predicted() const;
+};
+
+// Throws UserError.
+[[nodiscard]] Result run_self_calibration(const Options& options, const host::Progress& progress);
+
+}  // namespace volcomp::self_calibration

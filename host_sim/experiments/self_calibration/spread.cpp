@@ -1,0 +1,143 @@
+#include "host_sim/experiments/self_calibration/spread.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host_sim/experiments/self_calibration/figures.hpp"
+#include "host_sim/experiments/self_calibration/report.hpp"
+#include "host_sim/host/io/parallel.hpp"
+#include "host_sim/host/io/version.hpp"
+#include "host_sim/host/report/charts.hpp"
+#include "host_sim/host/report/provenance.hpp"
+#include "host_sim/host/report/shared_progress.hpp"
+#include "host_sim/host/report/text_of.hpp"
+
+namespace volcomp::self_calibration {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kWanted = 0.95;
+
+std::vector<any_machine::JudgedMachine> judged(const Spread& spread) {
+  std::vector<any_machine::JudgedMachine> all;
+  for (const Draw& d : spread.drawn)
+    all.push_back(d.judged);
+  return all;
+}
+
+double mean_of(const Spread& spread, const std::function<double(const Draw&)>& value) {
+  double sum = 0.0;
+  for (const Draw& d : spread.drawn)
+    sum += value(d);
+  return sum / static_cast<double>(spread.drawn.size());
+}
+
+json means_json(const Spread& spread) {
+  return {{"after_p95_um", mean_of(spread, [](const Draw& d) { return d.after.p95; })},
+          {"after_max_um", mean_of(spread, [](const Draw& d) { return d.after.max; })},
+          {"after_rms_um", mean_of(spread, [](const Draw& d) { return d.after.rms; })},
+          {"predicted_p95_um", mean_of(spread, [](const Draw& d) { return d.predicted.p95; })},
+          {"predicted_max_um", mean_of(spread, [](const Draw& d) { return d.predicted.max; })},
+          {"predicted_rms_um", mean_of(spread, [](const Draw& d) { return d.predicted.rms; })},
+          {"chi2_of_dof", mean_of(spread, [](const Draw& d) { return d.chi2_of_dof; })}};
+}
+
+json means_text(const Spread& spread) {
+  const json m = means_json(spread);
+  return host::in_summary(host::with_id(
+      "means",
+      host::text_section(
+          "Mean over the machines",
+          {fmt::format("volume after: 95 % {:.2f} um, worst {:.2f} um, root mean square {:.2f} um",
+                       m["after_p95_um"].get<double>(), m["after_max_um"].get<double>(),
+                       m["after_rms_um"].get<double>()),
+           fmt::format("predicted: 95 % {:.2f} um, worst {:.2f} um, root mean square {:.2f} um",
+                       m["predicted_p95_um"].get<double>(), m["predicted_max_um"].get<double>(),
+                       m["predicted_rms_um"].get<double>()),
+           fmt::format("chi-square over its degrees of freedom {:.2f}",
+                       m["chi2_of_dof"].get<double>())})));
+}
+
+}  // namespace
+
+std::size_t Spread::good() const {
+  return static_cast<std::size_t>(
+      std::count_if(drawn.begin(), drawn.end(), [](const Draw& d) { return d.judged.good; }));
+}
+
+std::size_t Spread::covered() const {
+  constexpr double kCoverageFactor = 2.0;
+  return static_cast<std::size_t>(std::count_if(drawn.begin(), drawn.end(), [](const Draw& d) {
+    return d.after.p95 <= kCoverageFactor * d.predicted.p95;
+  }));
+}
+
+Spread run_spread(const Options& options, std::size_t count, std::size_t threads,
+                  const host::Progress& progress) {
+  Spread spread;
+  spread.options = options;
+  spread.plan = host::identify::read_plan(options.plan, {{}, true});
+  spread.inputs = {host::hashed_file("measurement plan", options.plan),
+                   host::hashed_file("machine file", spread.plan.machine.path)};
+  spread.drawn.resize(count);
+  host::SharedProgress shared(progress, count);
+  host::in_parallel(count, threads, [&](std::size_t i) {
+    Options one = options;
+    one.seed = options.seed + i;
+    const std::string what = fmt::format("machine {} of {}", i + 1, count);
+    const Result result = run_self_calibration(
+        one, [&](double done, const std::string&) { shared.show(i, done, what); });
+    spread.drawn[i] = {{judged_figures(result), verdict(result).ok},
+                       result.left_of_known(result.after),
+                       result.predicted(),
+                       misfit(result)};
+  });
+  progress(1.0, "done");
+  return spread;
+}
+
+host::Verdict spread_verdict(const Spread& spread) {
+  const auto enough = static_cast<double>(spread.drawn.size()) * kWanted;
+  const bool ok = static_cast<double>(spread.good()) >= enough &&
+                  static_cast<double>(spread.covered()) >= enough;
+  return {ok, fmt::format("{} of {} machines are good, of {} the volume keeps within twice its "
+                          "predicted uncertainty (95 % wanted of both).",
+                          spread.good(), spread.drawn.size(), spread.covered())};
+}
+
+json spread_document(const Spread& spread, const host::RunContext& run) {
+  host::ReportParts parts;
+  parts.title = fmt::format("{}: {} machines identified by themselves", spread.plan.machine.name,
+                            spread.drawn.size());
+  parts.subtitle = "Simulated machines with errors drawn at random";
+  parts.verdict = spread_verdict(spread);
+  parts.before_after =
+      any_machine::spread_table(judged(spread), "Each with errors, places and noise of its own.");
+  parts.plots = json::array({any_machine::what_is_left(judged(spread))});
+  parts.details.push_back(means_text(spread));
+  parts.provenance = host::provenance(run, origins(spread.options, spread.plan, spread.inputs));
+  return host::report_document(std::move(parts));
+}
+
+std::string spread_summary(const Spread& spread) {
+  return host::terminal_text(spread_document(spread, {}));
+}
+
+json spread_figures(const Spread& spread) {
+  json out{{"machine", spread.plan.machine.name},
+           {"plan", spread.plan.path},
+           {"seed", spread.options.seed},
+           {"noise", spread.options.noise},
+           {"machines", spread.drawn.size()},
+           {"good", spread.good()},
+           {"covered", spread.covered()},
+           {"mean", means_json(spread)},
+           {"figures", host::figures_of_table(any_machine::spread_table(judged(spread), ""))},
+           {"ok", spread_verdict(spread).ok},
+           {"version", host::kVersion}};
+  return out;
+}
+
+}  // namespace volcomp::self_calibration

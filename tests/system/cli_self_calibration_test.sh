@@ -1,0 +1,187 @@
+#!/usr/bin/env bash
+# A machine that identifies itself, as a user meets it: by touching, over the bus as integrated, by tracers; and the tables
+# of a plan with every kind of set-up, made by the simulated machine and taken by identify.
+# shellcheck source=tests/system/cli_common.sh
+. "$(dirname "$0")/cli_common.sh"
+volcomp=$1
+source_dir=$2
+cd "$work" || exit 1
+run=("$volcomp" run self-calibration)
+
+# value FILE KEY…: a figure of a JSON file.
+value() {
+  /usr/bin/python3 -c '
+import json, sys
+at = json.load(open(sys.argv[1]))
+for key in sys.argv[2:]: at = at[key]
+print(at)' "$@"
+}
+# holds SENTENCE EXPRESSION: of numbers, in Python.
+holds() {
+  /usr/bin/python3 -c "import sys; sys.exit(not ($2))" || { echo "FAILED: $1: $2"; failed=1; }
+}
+
+# --- four tracer stations: what is left is what was predicted, a tenth of what was there
+expect 0 'PASS' "${run[@]}" --instrument tracer --seed 5 --json tracer.json
+holds 'tracers' "$(value tracer.json after p95_um) < 1.5 * $(value tracer.json predicted p95_um)"
+holds 'tracers' "$(value tracer.json after p95_um) < 0.15 * $(value tracer.json before p95_um)"
+expect 0 'PASS' "${run[@]}" --instrument tracer --seed 5 --noise-free --json perfect.json
+holds 'perfect instruments leave less' "$(value perfect.json after p95_um) < $(value tracer.json after p95_um)"
+
+# --- many machines, on one processor as on several
+expect 0 'of 4 machines are good' "${run[@]}" --instrument tracer --draws 4 --places 100 --json four.json
+expect 0 'of 4 machines are good' taskset -c 0 "${run[@]}" --instrument tracer --draws 4 --places 100 --json one.json
+cmp four.json one.json || { echo 'FAILED: another number of threads, other figures'; failed=1; }
+
+# --- touched over the bus: what identify makes of the latches is, byte for byte, what the run made of them
+small=$source_dir/tests/data/plan_small.toml
+expect 0 "touches.csv" "$volcomp" simulate observations "$small" --out integrated
+"${run[@]}" --plan "$small" --can loopback --places 20 --out bus --report report --json bus.json >bus.txt 2>&1
+[ $? -le 1 ] || { echo "FAILED: over the bus: $(cat bus.txt)"; failed=1; }
+grep -q 'CAN loopback' bus.txt || { echo 'FAILED: no word of the bus'; failed=1; }
+[ -s report/report.html ] || { echo 'FAILED: no report'; failed=1; }
+sed "s#../../host_sim#$source_dir/host_sim#" "$small" >bus/plan.toml
+expect 0 'chi-square' "$volcomp" identify bus/plan.toml --out again.vct
+cmp bus/tables.vct again.vct || { echo 'FAILED: identify makes other tables of the same touches'; failed=1; }
+# Computed instead of moved, the same places: latches differ by what the edge comes late, 50 nm, and no more than that.
+"${run[@]}" --plan "$small" --places 20 --out computed --json computed.json >/dev/null 2>&1
+/usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: touches over the bus and computed ones'; failed=1; }
+import csv
+rows = [list(csv.DictReader(open(folder + "/touches.csv"))) for folder in ("bus", "computed")]
+assert len(rows[0]) == len(rows[1]) > 200
+worst = 0.0
+for a, b in zip(*rows):
+    assert all(a[k] == b[k] for k in ("setup", "sphere", "tip")), (a, b)
+    worst = max(worst, *(abs(float(a[k]) - float(b[k])) for k in ("X [mm]", "Y [mm]", "Z [mm]")))
+assert worst < 2e-3, worst  # reversal of axes that arrived from another side, up to 1.5 µm
+PYTHON
+
+# --- every kind of set-up as files that identify takes
+cat >all.toml <<END
+positions = "actual"
+compensation = "off"
+temperature_C = 20.0
+[machine]
+file = "$source_dir/host_sim/machines/trunnion.toml"
+[model]
+segments = { X = 3, Y = 3, Z = 3, A = 3, C = 6 }
+gauge = [["Y", "EX"], ["Y", "EZ"], ["X", "EZ"]]
+curvature_um = 10
+curvature_urad = 60
+[[stylus]]
+name = "S0"
+offset_mm = [0, 0, -150]
+radius_mm = 3
+reference = true
+[[stylus]]
+name = "S1"
+offset_mm = [60, 0, -120]
+radius_mm = 3
+u_mm = 0.1
+[[stylus]]
+name = "S2"
+offset_mm = [0, 60, -120]
+radius_mm = 3
+u_mm = 0.1
+[[artefact]]
+name = "posts"
+calibrated = true
+u_um = 0.25
+radius_mm = 10
+spheres_mm = [[100, 0, 90], [0, 120, 150], [-90, -60, 200], [60, -90, 120]]
+[[setup]]
+name = "tracer"
+kind = "tracer"
+station_mm = [-330, -300, 60]
+file = "tracer.csv"
+places = 90
+tips = ["S0", "S1", "S2"]
+u_um = 0.1
+machine_um = 0.7
+[[setup]]
+name = "bar"
+kind = "bar"
+socket_mm = [0, 0, 250]
+length_mm = 100
+plane = "XY"
+file = "bar.csv"
+u_um = 0.3
+machine_um = 0.7
+[[setup]]
+name = "diagonal"
+kind = "diagonal"
+along = "PPP"
+file = "diagonal.csv"
+u_um = 0.1
+machine_um = 0.7
+[[setup]]
+name = "step"
+kind = "step"
+along = "PNP"
+beam_mm = [0, 0, 300]
+file = "step.csv"
+u_um = 0.1
+machine_um = 0.7
+[[setup]]
+name = "rtest"
+kind = "rtest"
+ball_mm = [60, 0, 150]
+file = "rtest.csv"
+u_um = 0.5
+machine_um = 0.7
+[[setup]]
+name = "balls"
+kind = "centre"
+artefact = "posts"
+turns_deg = { A = [-50, 0, 25], C = [0, 90, 180, 270] }
+pose_deg_mm = [0, 0, 0, 0, 0, 0]
+file = "touches.csv"
+probe_um = 0.35
+machine_um = 0.7
+scale_ppm = 1.2
+[[setup]]
+name = "single touches"
+kind = "touch"
+artefact = "posts"
+turns_deg = { A = [0], C = [0, 120] }
+pose_deg_mm = [0, 0, 0, 0, 0, 0]
+file = "touches.csv"
+probe_um = 0.35
+machine_um = 0.7
+scale_ppm = 1.2
+[[setup]]
+name = "runs of X"
+kind = "runs"
+axis = "X"
+file = "runs_X.csv"
+u_um = 0.7
+u_urad = 0.7
+END
+expect 0 'is planned at usual places' "$volcomp" plan all.toml
+expect 0 'runs_X.csv' "$volcomp" simulate observations all.toml --out measured --perfect
+cp all.toml measured/plan.toml
+expect 0 'chi-square' "$volcomp" identify measured/plan.toml --out measured/tables.vct --json measured/found.json
+holds 'perfect instruments fit' "$(value measured/found.json chi2) < $(value measured/found.json dof)"
+for file in tracer bar diagonal step rtest touches runs_X; do
+  [ -s "measured/$file.csv" ] || { echo "FAILED: no $file.csv"; failed=1; }
+done
+# Another seed, other readings; the same seed, the same bytes.
+expect 0 'tracer.csv' "$volcomp" simulate observations all.toml --out again --perfect
+diff -r -x plan.toml -x '*.vct' -x '*.json' measured again >/dev/null || { echo 'FAILED: the same seed, other readings'; failed=1; }
+expect 0 'tracer.csv' "$volcomp" simulate observations all.toml --out other --machine-seed 2
+cmp -s measured/tracer.csv other/tracer.csv && { echo 'FAILED: another machine, the same readings'; failed=1; }
+
+# --- refused
+expect 2 'no plan for l300g' "${run[@]}" --machine l300g
+expect 2 'no plan for trunnion with tracer' "${run[@]}" --machine trunnion --instrument tracer
+expect 2 'cannot be opened' "${run[@]}" --plan none.toml
+expect 2 'excludes' "${run[@]}" --draws 3 --can loopback
+sed '/^file = "bar.csv"/d' all.toml >nameless.toml
+expect 2 'names no file' "$volcomp" simulate observations nameless.toml --out nameless
+sed 's/^turns_deg = { A = \[-50/turns_deg = { A = [-95/' all.toml >far.toml
+expect 2 'A does not turn to -95 degrees' "$volcomp" plan far.toml
+sed 's/^turns_deg = { A/turns_deg = { X/' all.toml >slide.toml
+expect 2 'X is a linear axis' "$volcomp" plan slide.toml
+expect 2 'cannot be opened' "$volcomp" identify all.toml
+[ ! -e nameless ] || { echo 'FAILED: something half written'; failed=1; }
+exit "$failed"
