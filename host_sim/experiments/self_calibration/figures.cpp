@@ -36,7 +36,11 @@ std::vector<host::BeforeAfter> judged_figures(const Result& r) {
   }
   lines.push_back({"diagonals", r.before.lines_max_um(), r.after.lines_max_um()});
   if (!r.before.sphere.empty())
-    lines.push_back({"sphere", r.before.sphere_um().max_um, r.after.sphere_um().max_um});
+    lines.push_back(
+        {"ball on the table", r.sphere_of_known_um(r.before), r.sphere_of_known_um(r.after)});
+  if (!r.before.sphere.empty() && !r.knows_reversal())
+    lines.push_back(
+        {"the same with reversal", r.before.sphere_um().max_um, r.after.sphere_um().max_um});
   return lines;
 }
 
@@ -76,8 +80,8 @@ json figures(const Result& r) {
            {"diagonals_after_um", r.after.lines_max_um()},
            {"ok", verdict(r).ok}};
   if (!r.before.sphere.empty()) {
-    out["sphere_before_um"] = r.before.sphere_um().max_um;
-    out["sphere_after_um"] = r.after.sphere_um().max_um;
+    out["sphere_before_um"] = r.sphere_of_known_um(r.before);
+    out["sphere_after_um"] = r.sphere_of_known_um(r.after);
   }
   return out;
 }

@@ -7,6 +7,7 @@
 #include "host_sim/experiments/any_machine/verification_charts.hpp"
 #include "host_sim/experiments/self_calibration/figures.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
+#include "host_sim/host/measure/identify/identified_document.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/text_of.hpp"
@@ -85,7 +86,11 @@ json document(const Result& r, const host::RunContext& run) {
   parts.plots.push_back(any_machine::line_charts(r.before, r.after));
   if (!r.before.sphere.empty())
     parts.plots.push_back(any_machine::sphere_chart(r.sphere, r.before, r.after));
+  for (json& plot : host::identify::identified_plots(r.plan, r.found))
+    parts.plots.push_back(std::move(plot));
   parts.details.push_back(measured_text(r));
+  for (json& details : host::identify::identified_details(r.plan, r.found))
+    parts.details.push_back(std::move(details));
   parts.ticks = run.ticks;
   parts.provenance = host::provenance(run, origins(r.options, r.plan, r.inputs));
   return host::report_document(std::move(parts));

@@ -44,6 +44,14 @@ Left beside_rigid(const MachineChain& chain, const std::vector<any_machine::Plac
           length.back()};
 }
 
+// What reversal adds at a reading, of it what the correcting axes can reach; work frame.
+Vec3 reversal_at(const sim::TrueMachine& truth, const any_machine::PlaceReading& r) {
+  const Vec3 tool = truth.chain.tool_point();
+  return any_machine::within_reach(truth.chain, r.pose,
+                                   truth.error(r.pose, r.approach, tool).position_work -
+                                       truth.error(r.pose, {}, tool).position_work);
+}
+
 // The share of a step of the run.
 host::Progress part_of(const host::Progress& progress, double from, double to) {
   return [&progress, from, to](double done, const std::string& what) {
@@ -66,13 +74,18 @@ bool Result::knows_reversal() const {
 
 Left Result::left_of_known(const any_machine::MachineState& state) const {
   if (knows_reversal()) return left(state);
-  const MachineChain& chain = plan.machine.chain;
-  const Vec3 tool = chain.tool_point();
-  return beside_rigid(chain, state.place, [&](const any_machine::PlaceReading& r) {
-    const Vec3 reversal = truth.error(r.pose, r.approach, tool).position_work -
-                          truth.error(r.pose, {}, tool).position_work;
-    return Vec3(r.deviation_mm - any_machine::within_reach(chain, r.pose, reversal));
+  return beside_rigid(plan.machine.chain, state.place, [&](const any_machine::PlaceReading& r) {
+    return Vec3(r.deviation_mm - reversal_at(truth, r));
   });
+}
+
+double Result::sphere_of_known_um(const any_machine::MachineState& state) const {
+  if (knows_reversal() || state.sphere.empty()) return state.sphere_um().max_um;
+  const Vec3 first = reversal_at(truth, state.sphere.front());
+  double worst = 0.0;
+  for (const any_machine::PlaceReading& r : state.sphere)
+    worst = std::max(worst, (r.deviation_mm - reversal_at(truth, r) + first).norm());
+  return kUmPerMm * worst;
 }
 
 Left Result::predicted() const {

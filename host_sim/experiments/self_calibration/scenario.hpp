@@ -55,6 +55,8 @@ struct Result {
   // What the prediction speaks of: where the plan knows nothing of reversal, without what that
   // adds, the mean of both directions.
   [[nodiscard]] Left left_of_known(const any_machine::MachineState& state) const;
+  // Largest distance from the ball on the table, found at the first position; of the same.
+  [[nodiscard]] double sphere_of_known_um(const any_machine::MachineState& state) const;
   [[nodiscard]] bool knows_reversal() const;
   // What `after` should be by the uncertainty of the identification.
   [[nodiscard]] Left predicted() const;

@@ -86,6 +86,7 @@ Spread run_spread(const Options& options, std::size_t count, std::size_t threads
   host::in_parallel(count, threads, [&](std::size_t i) {
     Options one = options;
     one.seed = options.seed + i;
+    one.leave_out = false;
     const std::string what = fmt::format("machine {} of {}", i + 1, count);
     const Result result = run_self_calibration(
         one, [&](double done, const std::string&) { shared.show(i, done, what); });

@@ -67,6 +67,28 @@ json leave_out_chart(const MeasurementPlan& plan, const Identified& found) {
 
 }  // namespace
 
+json identified_plots(const MeasurementPlan& plan, const Identified& found) {
+  json plots = json::array();
+  if (!found.functions.empty())
+    plots.push_back(function_curves(
+        plan, found.functions,
+        "Body, moving side; mean of the two directions. Bands: U (k = 2), twice the standard "
+        "uncertainty."));
+  for (json& map : volume_maps(plan, found.sections))
+    plots.push_back(std::move(map));
+  plots.push_back(residual_chart(plan, found));
+  if (json chart = leave_out_chart(plan, found); !chart.is_null())
+    plots.push_back(std::move(chart));
+  plots.push_back(plan_picture(plan));
+  return plots;
+}
+
+json identified_details(const MeasurementPlan& plan, const Identified& found) {
+  json details = identified_sections(plan, found);
+  details.push_back(weakest_table(plan, found.weakest));
+  return details;
+}
+
 json identified_document(const MeasurementPlan& plan, const Identified& found,
                          const RunContext& run, Origins origins) {
   origins.data = "measured: what the files hold";
@@ -76,19 +98,8 @@ json identified_document(const MeasurementPlan& plan, const Identified& found,
       fmt::format("{} set-ups, {} rows, {} unknowns; {:g} °C", plan.problem.setups.size(),
                   found.rows, found.unknowns, plan.temperature_C);
   parts.verdict = verdict_of(found);
-  if (!found.functions.empty())
-    parts.plots.push_back(function_curves(
-        plan, found.functions,
-        "Body, moving side; mean of the two directions. Bands: U (k = 2), twice the standard "
-        "uncertainty."));
-  for (json& map : volume_maps(plan, found.sections))
-    parts.plots.push_back(std::move(map));
-  parts.plots.push_back(residual_chart(plan, found));
-  if (json chart = leave_out_chart(plan, found); !chart.is_null())
-    parts.plots.push_back(std::move(chart));
-  parts.plots.push_back(plan_picture(plan));
-  parts.details = identified_sections(plan, found);
-  parts.details.push_back(weakest_table(plan, found.weakest));
+  parts.plots = identified_plots(plan, found);
+  parts.details = identified_details(plan, found);
   parts.provenance = provenance(run, origins);
   return report_document(std::move(parts));
 }

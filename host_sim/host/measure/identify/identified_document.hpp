@@ -8,6 +8,11 @@
 
 namespace volcomp::host::identify {
 
+// Arrays: its pictures and its tables, for other reports as well.
+[[nodiscard]] nlohmann::json identified_plots(const MeasurementPlan& plan, const Identified& found);
+[[nodiscard]] nlohmann::json identified_details(const MeasurementPlan& plan,
+                                                const Identified& found);
+
 [[nodiscard]] nlohmann::json identified_document(const MeasurementPlan& plan,
                                                  const Identified& found, const RunContext& run,
                                                  Origins origins);

@@ -54,6 +54,12 @@ bool has_room(const Problem& problem, const Pose& q, double room) {
   return true;
 }
 
+// Two observations of one sphere with one tip at one rotary position.
+bool same_sphere(const Problem& problem, const SetUp& s, std::size_t i, std::size_t k) {
+  return s.sphere[i] == s.sphere[k] && problem.stylus_of(s, i) == problem.stylus_of(s, k) &&
+         problem.same_turn(s.q[i], s.q[k]);
+}
+
 class PlannedSpheres {
  public:
   PlannedSpheres(MeasurementPlan& plan, double sigma, SetUp& setup)
@@ -138,9 +144,9 @@ std::vector<TouchMove> touch_moves(const MeasurementPlan& plan, std::size_t setu
   const SetUp& s = problem.setups[setup];
   const Artefact& artefact = problem.artefacts[*s.artefact];
   std::vector<TouchMove> moves;
-  // Single touches of a sphere stand one after the other.
-  const std::size_t step = s.kind == ObservationKind::centre ? 1 : 5;
-  for (std::size_t i = 0; i < s.q.size(); i += step) {
+  for (std::size_t i = 0; i < s.q.size(); ++i) {
+    // Single touches of a sphere stand one after the other.
+    if (i > 0 && same_sphere(problem, s, i - 1, i)) continue;
     const std::size_t stylus = *problem.stylus_of(s, i);
     const ChainGeometry g = ideal_geometry(chain, s.q[i]);
     const Vec3 centre = s.pose->R * artefact.spheres[s.sphere[i]] + s.pose->t;

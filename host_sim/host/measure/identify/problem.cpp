@@ -17,6 +17,13 @@ std::size_t SetUp::components() const {
   }
 }
 
+bool Problem::same_turn(const Pose& a, const Pose& b) const {
+  constexpr double kSame_rad = 1e-7;
+  for (std::size_t axis = 0; axis < machine.chain.axis_count(); ++axis)
+    if (!is_slide(axis) && std::abs(a.at(axis) - b.at(axis)) > kSame_rad) return false;
+  return true;
+}
+
 std::optional<std::size_t> Problem::reference() const {
   for (std::size_t s = 0; s < styli.size(); ++s)
     if (!styli[s].place) return s;

@@ -165,6 +165,8 @@ struct Problem {
   [[nodiscard]] Vec3 tip_of(const SetUp& s, std::size_t i) const;
   // From where to where the readings move an axis; nothing where there are none of it.
   [[nodiscard]] std::optional<Range> range_of(std::size_t axis) const;
+  // The rotary axes stand alike.
+  [[nodiscard]] bool same_turn(const Pose& a, const Pose& b) const;
   [[nodiscard]] bool is_slide(std::size_t axis) const {
     return machine.chain.axis(axis).kind == JointKind::prismatic;
   }

@@ -10,14 +10,8 @@
 namespace volcomp::host::identify {
 namespace {
 
-constexpr double kSameTurn_rad = 1e-7;
-
 bool belongs(const Problem& problem, const TipTouch& a, const TipTouch& b) {
-  if (a.sphere != b.sphere || a.stylus != b.stylus) return false;
-  for (std::size_t axis = 0; axis < problem.machine.chain.axis_count(); ++axis)
-    if (!problem.is_slide(axis) && std::abs(a.q.at(axis) - b.q.at(axis)) > kSameTurn_rad)
-      return false;
-  return true;
+  return a.sphere == b.sphere && a.stylus == b.stylus && problem.same_turn(a.q, b.q);
 }
 
 std::vector<std::vector<TipTouch>> groups_of(const Problem& problem,
