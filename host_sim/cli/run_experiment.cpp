@@ -71,13 +71,14 @@ int run_experiment(const RunArguments& arguments, const std::vector<std::string>
   RunView view(arguments.live, arguments.command, transport, results.text());
   RunPlace place(arguments, view);
   RunOutcome outcome = run_watched(place, view, experiment);
-  fmt::print(results.text(), "{}transport: {}\n{}", outcome.summary, transport, outcome.file_lines);
+  fmt::print(results.text(), "{}transport: {}\n", outcome.summary, transport);
   if (!outcome.folder.empty()) results.add_files(outcome.folder, outcome.files);
   if (!arguments.report_folder.empty())
     add_report(results, arguments.report_folder, outcome.document);
   outcome.figures["transport"] = transport;
   results.add(arguments.json_file, json_text(outcome.figures));
   results.write();
+  fmt::print(results.text(), "{}", outcome.file_lines);
   if (!arguments.report_folder.empty())
     fmt::print(results.text(), "report: {}\n", report_page(arguments.report_folder));
   view.ended(outcome.document);

@@ -27,12 +27,21 @@ struct SelfCalibrationArguments : RunArguments {
 std::filesystem::path plan_of(const SelfCalibrationArguments& a) {
   if (!a.plan.empty()) return a.plan;
   const std::string machine = a.machine.empty() ? "xyfz" : a.machine;
-  const std::filesystem::path plan =
+  std::filesystem::path plan =
       host::identify::bundled_plan(fmt::format("{}_{}", machine, a.instrument));
   if (!std::filesystem::exists(plan))
     throw host::UserError(fmt::format("no plan for {} with {} comes with the program (--plan FILE)",
                                       machine, a.instrument));
   return plan;
+}
+
+// The plan with its machine and whatever readings are there.
+std::vector<std::string> inputs_of(const SelfCalibrationArguments& a) {
+  const host::identify::MeasurementPlan plan = host::identify::read_plan(plan_of(a), {{}, true});
+  std::vector<std::string> inputs{plan.path, plan.machine.path};
+  for (const auto& file : plan.files)
+    inputs.push_back(file.string());
+  return inputs;
 }
 
 RunOutcome spread_outcome(const RunPlace& place, const self_calibration::Options& options,
@@ -97,9 +106,10 @@ void add_self_calibration_command(CLI::App& run, const std::string& command, int
           ->add_option("--draws", a->draws, "Machines, each with errors and noise of its own")
           ->check(CLI::Range(1, 10000))
           ->capture_default_str();
-  calibration->add_option("--plan", a->plan,
-                          "Measurement plan (default: the one that comes with the program for "
-                          "--machine xyfz or trunnion)");
+  CLI::Option* plan =
+      calibration->add_option("--plan", a->plan,
+                              "Measurement plan, which names its machine (default: the one that "
+                              "comes with the program for --machine xyfz or trunnion)");
   calibration
       ->add_option("--instrument", a->instrument,
                    "Of the plan that comes with the program: the probe of the machine, or four "
@@ -116,13 +126,14 @@ void add_self_calibration_command(CLI::App& run, const std::string& command, int
   add_firmware_options(*calibration, a->node.firmware,
                        "Touch and compensate with the node as firmware", "");
   add_output_options(*calibration, *a);
+  plan->excludes("--machine");
   const std::vector<CLI::Option*> on_a_bus = add_bus_options(*calibration, a->node);
   for (const char* single : {"--can", "--firmware"})
     draws->excludes(single);
   draws->excludes(out);
   calibration->callback([a, on_a_bus, &code] {
     require_node(on_a_bus, a->node, "--can or --firmware");
-    code = run_experiment(*a, {a->plan}, self_calibration_outcome);
+    code = run_experiment(*a, inputs_of(*a), self_calibration_outcome);
   });
 }
 

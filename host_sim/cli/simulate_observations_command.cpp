@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "host_sim/cli/output.hpp"
+#include "host_sim/cli/run_options.hpp"
 #include "host_sim/cli/simulate_options.hpp"
 #include "host_sim/host/measure/identify/plan_file.hpp"
 #include "host_sim/sim/campaign/plan_readings.hpp"
@@ -52,10 +53,8 @@ void add_simulate_observations_command(CLI::App& simulate, int& code) {
   auto a = std::make_shared<ObservationArguments>();
   command->add_option("PLAN", a->plan, "Measurement plan (TOML)")->required();
   command->add_option("--out", a->out, "Folder for the files the plan names")->required();
-  command->add_option("--machine-seed", a->machine_seed, "Seed of the errors of the machine")
-      ->capture_default_str();
-  command->add_option("--seed", a->floor.seed, "Seed of instruments, artefacts and readings")
-      ->capture_default_str();
+  add_seed(*command, "--machine-seed", a->machine_seed, "Seed of the errors of the machine");
+  add_seed(*command, "--seed", a->floor.seed, "Seed of instruments, artefacts and readings");
   command->add_flag("--perfect", a->floor.perfect, "Instruments and artefacts without errors");
   command->callback([a, &code] { code = simulate_observations(*a); });
 }

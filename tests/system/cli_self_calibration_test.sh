@@ -171,7 +171,56 @@ diff -r -x plan.toml -x '*.vct' -x '*.json' measured again >/dev/null || { echo 
 expect 0 'tracer.csv' "$volcomp" simulate observations all.toml --out other --machine-seed 2
 cmp -s measured/tracer.csv other/tracer.csv && { echo 'FAILED: another machine, the same readings'; failed=1; }
 
+# --- a step diagonal beside tracers: the tilt of its mirror does not make the work frame seen
+{
+  sed "s#../machines#$source_dir/host_sim/machines#" "$source_dir/host_sim/plans/xyfz_tracer.toml"
+  cat <<'END'
+[[setup]]
+name = "step"
+kind = "step"
+along = "PPP"
+beam_mm = [0, 0, 300]
+file = "step.csv"
+u_um = 0.1
+machine_um = 0.7
+END
+} >step.toml
+expect 0 'step.csv' "$volcomp" simulate observations step.toml --out step
+cp step.toml step/plan.toml
+expect 0 'chi-square' "$volcomp" identify step/plan.toml --no-leave-out
+
+# --- an artefact that is not calibrated is as large as its known length
+sed -e "s#../../host_sim#$source_dir/host_sim#" -e '/^u_um = 0.25/d' -e '/^scale_ppm = 0.71/d' \
+  -e 's/^calibrated = true/calibrated = false\nlengths = [{ a = 0, b = 8, mm = 339.5, u_um = 0.5 }]/' "$small" >length.toml
+expect 0 'touches.csv' "$volcomp" simulate observations length.toml --out length --perfect
+cp length.toml length/plan.toml
+expect 0 'chi-square' "$volcomp" identify length/plan.toml --no-leave-out
+
+# --- readings and machine of a plan are never replaced
+cp -r bus own
+cp "$source_dir/host_sim/machines/xyfz.toml" own/machine.toml
+sed -i "s#^file = \".*xyfz.toml\"#file = \"machine.toml\"#" own/plan.toml
+cp -r own kept
+expect 2 'cannot take the place of an input' "${run[@]}" --plan own/plan.toml --places 10 --json own/machine.toml
+expect 2 'cannot take the place of an input' "${run[@]}" --plan own/plan.toml --places 10 --out own
+expect 2 'cannot take the place of an input' "$volcomp" simulate observations own/plan.toml --out own
+diff -r own kept || { echo 'FAILED: an input was replaced'; failed=1; }
+
 # --- refused
+sed 's/^tips = .*/tips = []/' step.toml >one_tip.toml
+expect 1 'Seen only together: EAZ, EBZ, ECZ, EXZ' "$volcomp" plan one_tip.toml
+sed 's/^tips = .*/tips = []/' length.toml >tips.toml
+expect 2 'no sphere of set-up "flat" is within reach' "$volcomp" plan tips.toml
+expect 2 'no sphere of set-up "flat" is within reach' "$volcomp" simulate observations tips.toml --out nothing
+sed '/^radius_mm = 10.0/d' length.toml >radius.toml
+expect 2 'has no radius_mm' "$volcomp" simulate observations radius.toml --out nothing
+sed 's/^name = "flat"/name = "flat, left"/' length.toml >comma.toml
+expect 2 "comma.toml:51: 'name' must have" "$volcomp" plan comma.toml
+sed 's#^file = "step.csv"#file = "../step.csv"#' step.toml >outside.toml
+expect 2 'outside the folder' "$volcomp" simulate observations outside.toml --out nothing
+sed 's/^reference = true//; s/^u_mm = 0.1/&/' step.toml | sed '0,/^offset_mm.*/s//&\nu_mm = 0.1/' >tip.toml
+expect 2 'reference_stylus' "$volcomp" plan tip.toml
+[ ! -e nothing ] || { echo 'FAILED: something half written'; failed=1; }
 expect 2 'no plan for l300g' "${run[@]}" --machine l300g
 expect 2 'no plan for trunnion with tracer' "${run[@]}" --machine trunnion --instrument tracer
 expect 2 'cannot be opened' "${run[@]}" --plan none.toml

@@ -1,6 +1,8 @@
 #include "host_sim/sim/campaign/plan_readings.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -152,7 +154,7 @@ LatchedTouch touch_sphere(const MeasurementPlan& plan, const PlanTruth& truth,
     part = next;
     gap = gap_at(part);
   }
-  if (!(part > 0.0 && part < 1.0) || std::abs(gap) > 1e3 * kClosed_mm)
+  if (!(part > 0.0 && part < 1.0) || !(std::abs(gap) <= 1e3 * kClosed_mm))
     throw host::UserError(fmt::format("set-up \"{}\": sphere {} was not touched",
                                       plan.problem.setups[move.setup].name, move.sphere));
   return latched;
@@ -225,6 +227,10 @@ std::map<std::string, std::string> files_of_plan(const MeasurementPlan& plan,
     if (name.empty())
       throw host::UserError(
           fmt::format("{}: set-up \"{}\" names no file for its readings", plan.path, s.name));
+    if (const std::filesystem::path path = name;
+        path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
+      throw host::UserError(
+          fmt::format("{}: \"{}\" lies outside the folder of the readings", plan.path, name));
     if (s.has_pose()) {
       for (const LatchedTouch& touch : touches)
         if (touch.setup == k) touched[name].push_back(touch);
@@ -236,6 +242,9 @@ std::map<std::string, std::string> files_of_plan(const MeasurementPlan& plan,
       files[name] = host::runs_csv(read_axis(plan, truth, k));
     } else {
       read_instrument(plan, truth, k, s);
+      if (!std::all_of(s.y.begin(), s.y.end(), [](double y) { return std::isfinite(y); }))
+        throw host::UserError(
+            fmt::format("{}: set-up \"{}\" has a reading that is not finite", plan.path, s.name));
       files[name] = readings_csv(plan, s);
     }
   }

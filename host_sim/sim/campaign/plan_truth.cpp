@@ -53,7 +53,13 @@ void draw_artefacts(const identify::Problem& problem, const ShopFloor& floor, Dr
                     PlanTruth& out) {
   const double share = floor.perfect ? 0.0 : 1.0;
   for (const identify::Artefact& artefact : problem.artefacts) {
-    const double longer = 1.0 + share * draws.next(stated(artefact.scale));
+    double longer = 1.0 + share * draws.next(stated(artefact.scale));
+    // One that is not calibrated is as large as its known length says.
+    if (!artefact.lengths.empty()) {
+      const identify::Length& known = artefact.lengths.front();
+      const double nominal = (artefact.spheres[known.b] - artefact.spheres[known.a]).norm();
+      if (artefact.place == identify::kFree && nominal > 0.0) longer = known.length / nominal;
+    }
     std::vector<Vec3> spheres;
     for (const Vec3& sphere : artefact.spheres)
       spheres.emplace_back(longer * (sphere + share * draws.next3(stated(artefact.place))));

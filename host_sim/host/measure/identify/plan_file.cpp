@@ -170,7 +170,7 @@ class PlanReader {
   void read_stylus(const TomlSection& s) {
     s.allow_only({"name", "offset_mm", "radius_mm", "reference", "u_mm", "radius_u_um"});
     Stylus stylus;
-    stylus.name = s.text("name");
+    stylus.name = name_of(s, "name");
     stylus.offset = vector_of(s, "offset_mm");
     stylus.radius = s.number_or("radius_mm", 0.0);
     if (stylus.radius < 0.0) s.complain("radius_mm", "'radius_mm' must not be negative");
@@ -185,7 +185,7 @@ class PlanReader {
   void read_artefact(const TomlSection& s) {
     s.allow_only({"name", "spheres_mm", "radius_mm", "calibrated", "u_um", "scale_ppm", "lengths"});
     Artefact a;
-    a.name = s.text("name");
+    a.name = name_of(s, "name");
     read_spheres(s, a);
     read_radii(s, a);
     static_cast<void>(s.need("calibrated"));
@@ -207,6 +207,8 @@ class PlanReader {
   static Length length_of(const TomlSection& l, std::size_t spheres) {
     l.allow_only({"a", "b", "mm", "u_um"});
     const long last = static_cast<long>(spheres) - 1;
+    if (l.integer("a", 0, last) == l.integer("b", 0, last))
+      l.complain("b", "'a' and 'b' of a length must be two spheres");
     return {static_cast<std::size_t>(l.integer("a", 0, last)),
             static_cast<std::size_t>(l.integer("b", 0, last)), positive(l, "mm"),
             kMmPerUm * positive(l, "u_um")};

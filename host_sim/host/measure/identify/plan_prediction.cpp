@@ -1,5 +1,6 @@
 #include "host_sim/host/measure/identify/plan_prediction.hpp"
 
+#include "host_sim/host/measure/identify/refusal_text.hpp"
 #include "host_sim/host/measure/identify/volume.hpp"
 
 namespace volcomp::host::identify {
@@ -10,6 +11,9 @@ PlanPrediction predict_plan(const MeasurementPlan& plan, const Progress& progres
   for (SetUp& s : problem.setups)
     s.y.clear();
   PlanPrediction out;
+  // What is not seen is told with what is.
+  const Refusal refusal = check_problem(problem);
+  if (refusal.reason != Reason::not_observable) require_good(plan, refusal);
   out.rank = rank_of(problem);
   const Problem consistent = Equations::made_consistent(problem);
   const Equations equations(consistent, true);

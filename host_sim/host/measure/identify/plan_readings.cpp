@@ -1,5 +1,6 @@
 #include "host_sim/host/measure/identify/plan_readings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -23,7 +24,7 @@ class ReadingsReader {
 
   void read() {
     plan_.touched.emplace_back();
-    plan_.file_of.push_back(s_.has("file") ? s_.text("file") : "");
+    plan_.file_of.push_back(s_.has("file") ? file_name() : "");
     plan_.touch_sigma.push_back(0.0);
     if (setup_.has_pose()) {
       read_touched();
@@ -35,6 +36,15 @@ class ReadingsReader {
   }
 
  private:
+  std::string file_name() const {
+    std::string name = s_.text("file");
+    if (name.empty() || name == "-" || std::any_of(name.begin(), name.end(), [](char c) {
+          return static_cast<unsigned char>(c) < 0x20;
+        }))
+      s_.complain("file", "'file' must name a file");
+    return name;
+  }
+
   // Its file for `read(stream, name)`; false where there is none and none is needed.
   template <class Read>
   bool with_file(const Read& read) {
@@ -57,11 +67,12 @@ class ReadingsReader {
     return true;
   }
 
-  double machine_mm() const {
-    const double um = s_.number_or("machine_um", 0.0);
-    if (um < 0.0) s_.complain("machine_um", "'machine_um' must not be negative");
-    return kMmPerUm * um;
+  double not_negative(const std::string& key) const {
+    const double value = s_.number_or(key, 0.0);
+    if (value < 0.0) s_.complain(key, fmt::format("'{}' must not be negative", key));
+    return value;
   }
+  double machine_mm() const { return kMmPerUm * not_negative("machine_um"); }
 
   void read_table() {
     const auto take = [&](std::istream& stream, const std::string& name) {
@@ -132,7 +143,7 @@ class ReadingsReader {
     if (!with_file(take)) add_planned_places(plan_, {}, setup_);
     const double mm = std::hypot(kMmPerUm * positive(s_, "u_um"), machine_mm());
     const double rad =
-        kRadPerUrad * std::hypot(positive(s_, "u_urad"), s_.number_or("machine_urad", 0.0));
+        kRadPerUrad * std::hypot(positive(s_, "u_urad"), not_negative("machine_urad"));
     for (std::size_t i = 0; i < setup_.q.size(); ++i)
       setup_.sigma.insert(setup_.sigma.end(), {mm, mm, mm, rad, rad, rad});
   }

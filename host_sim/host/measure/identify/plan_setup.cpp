@@ -20,9 +20,11 @@ class SetUpReader {
       : plan_(plan), problem_(plan.problem), s_(s) {}
 
   void read(const SetUpFiles& files) {
-    setup_.name = s_.text("name");
+    setup_.name = name_of(s_, "name");
     setup_.kind =
         static_cast<ObservationKind>(s_.choice("kind", {kKindNames.begin(), kKindNames.end()}));
+    if (s_.has("scale_ppm") && setup_.kind == Kind::runs)
+      s_.complain("scale_ppm", "'scale_ppm' is not for runs: state it with u_um");
     if (s_.has("scale_ppm")) setup_.scale = prior_of(s_, "scale_ppm", kPpm);
     read_fields();
     read_readings(plan_, files, s_, setup_);

@@ -1,8 +1,26 @@
 #include "host_sim/host/measure/identify/plan_values.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace volcomp::host::identify {
+
+std::string name_of(const TomlSection& s, const std::string& key) {
+  constexpr std::size_t kLongest = 80;
+  std::string name = s.text(key);
+  const bool prints = std::none_of(name.begin(), name.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7f || c == ',';
+  });
+  if (!prints || name.empty() || name.size() > kLongest || name.front() == ' ' ||
+      name.back() == ' ' || name.front() == '#')
+    s.complain(key,
+               fmt::format("'{}' must have 1 to {} bytes without comma and control characters, "
+                           "without a blank at either end and no # in front",
+                           key, kLongest));
+  return name;
+}
 
 double positive(const TomlSection& s, const std::string& key) {
   const double value = s.number(key);

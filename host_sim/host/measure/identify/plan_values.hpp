@@ -14,7 +14,10 @@ inline constexpr double kRadPerUrad = 1e-6;
 inline constexpr double kPpm = 1e-6;
 inline constexpr double kRadPerDegree = kPi / 180.0;
 
-// All throw UserError with file and line. Larger than 0.
+// All throw UserError with file and line. What stands in tables and messages: no comma, nothing
+// that does not print, no blank at either end, no # at the beginning, at most 80 bytes.
+[[nodiscard]] std::string name_of(const TomlSection& s, const std::string& key);
+// Larger than 0.
 [[nodiscard]] double positive(const TomlSection& s, const std::string& key);
 [[nodiscard]] Vec3 vector_of(const TomlSection& s, const std::string& key);
 [[nodiscard]] Vec3 unit_of(const TomlSection& s, const std::string& key);

@@ -146,15 +146,28 @@ class Planner {
     return out;
   }
 
-  // There and back.
+  // Along the beam through the middle of the travels, from end to end, there and back.
   void add_diagonal() {
     constexpr int kPlaces = 20;
-    const std::vector<Corner> all = corners();
+    Pose middle = reference_pose();
+    for (std::size_t a = 0; a < chain_.axis_count(); ++a)
+      if (problem_.is_slide(a))
+        middle.at(a) = 0.5 * (problem_.machine.travel.at(a).lo + problem_.machine.travel.at(a).hi);
+    Pose ahead = middle;
+    if (!move_by(chain_, ideal_geometry(chain_, middle), *setup_.along, ahead)) return;
+    double half = HUGE_VAL;
+    for (std::size_t a = 0; a < chain_.axis_count(); ++a) {
+      const Travel& travel = problem_.machine.travel.at(a);
+      const double step = std::abs(ahead.at(a) - middle.at(a));
+      if (step > 0.0) half = std::min(half, 0.5 * (travel.hi - travel.lo) / step);
+    }
     for (int i = 0; i <= 2 * kPlaces; ++i) {
-      const double part = static_cast<double>(i <= kPlaces ? i : 2 * kPlaces - i) / kPlaces;
-      Pose q = reference_pose();
-      for (const Corner& c : all)
-        q.at(c.axis) = c.from + part * (c.to - c.from);
+      const int place = i <= kPlaces ? i : 2 * kPlaces - i;
+      const double along = half * (2.0 * place / kPlaces - 1.0);
+      Pose q = middle;
+      for (std::size_t a = 0; a < chain_.axis_count(); ++a)
+        q.at(a) = std::clamp(middle.at(a) + along * (ahead.at(a) - middle.at(a)),
+                             problem_.machine.travel.at(a).lo, problem_.machine.travel.at(a).hi);
       stand(q);
     }
   }

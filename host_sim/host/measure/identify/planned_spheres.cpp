@@ -130,6 +130,9 @@ void add_planned_spheres(MeasurementPlan& plan, const SphereChoice& choice, doub
   };
   add_all(choice.tips, 1);
   add_all(choice.more_tips, choice.more_every);
+  if (setup.q.empty())
+    throw UserError(
+        fmt::format("{}: no sphere of set-up \"{}\" is within reach", plan.path, setup.name));
 }
 
 std::array<Vec3, 5> touch_directions(const Placement& pose) {
@@ -143,6 +146,12 @@ std::vector<TouchMove> touch_moves(const MeasurementPlan& plan, std::size_t setu
   const MachineChain& chain = problem.machine.chain;
   const SetUp& s = problem.setups[setup];
   const Artefact& artefact = problem.artefacts[*s.artefact];
+  if (!s.pose)
+    throw UserError(fmt::format("{}: set-up \"{}\" has no pose_deg_mm", plan.path, s.name));
+  if (artefact.radius.empty())
+    throw UserError(
+        fmt::format("{}: artefact \"{}\" has no radius_mm, without which nothing can be touched",
+                    plan.path, artefact.name));
   std::vector<TouchMove> moves;
   for (std::size_t i = 0; i < s.q.size(); ++i) {
     // Single touches of a sphere stand one after the other.

@@ -101,13 +101,14 @@ Estimate Equations::start() const {
 Problem Equations::made_consistent(const Problem& problem) {
   Problem out = problem;
   const MachineChain& chain = problem.machine.chain;
-  for (SetUp& s : out.setups) {
+  for (std::size_t k = 0; k < out.setups.size(); ++k) {
+    SetUp& s = out.setups[k];
+    s.y.clear();
     if (!s.has_pose() && s.kind != ObservationKind::rtest) continue;
     const Placement pose = s.pose         ? *s.pose
-                           : s.has_pose() ? measured_placement(problem, s)
+                           : s.has_pose() ? measured_placement(problem, problem.setups[k])
                                           : Placement{};
     const Vec3 ball = ideal_tip(problem, s, 0);  // of an R-test
-    s.y.clear();
     for (std::size_t i = 0; i < s.q.size(); ++i) {
       const Vec3 tip = ideal_tip(problem, s, i);
       Vec3 way = ball - tip;
