@@ -12,6 +12,7 @@ using nlohmann::json;
 host::RangeOfDraws range_over(const std::vector<JudgedMachine>& drawn, std::size_t figure,
                               double host::BeforeAfter::*value) {
   std::vector<double> values;
+  values.reserve(drawn.size());
   for (const JudgedMachine& m : drawn)
     values.push_back(m.figures.at(figure).*value);
   return host::range_of_draws(values);
@@ -44,6 +45,7 @@ json what_is_left(const std::vector<JudgedMachine>& drawn) {
   json series = json::array();
   for (std::size_t f = 0; f < drawn.front().figures.size(); ++f) {
     std::vector<double> values;
+    values.reserve(drawn.size());
     for (const JudgedMachine& m : drawn)
       values.push_back(m.figures[f].after);
     series.push_back({{"name", drawn.front().figures[f].figure}, {"values", values}});

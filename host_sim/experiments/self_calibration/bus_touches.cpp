@@ -48,9 +48,12 @@ class TouchingMachine {
  public:
   TouchingMachine(const MeasurementPlan& plan, const sim::PlanTruth& truth, const TouchingBus& bus,
                   std::size_t setup, std::size_t stylus)
-      : plan_(plan), truth_(truth), machine_(plan.machine), true_(truth.setup[setup].machine) {
+      : plan_(plan),
+        truth_(truth),
+        machine_(plan.machine),
+        true_(truth.setup[setup].machine),
+        radius_(truth.tip_radius[stylus]) {
     const Vec3 tip = plan.problem.styli[stylus].offset;
-    radius_ = truth.tip_radius[stylus];
     host::require(MachineChain::build(with_tip(plan.machine.chain, tip), nominal_), plan.path);
     host::require(MachineChain::build(with_tip(plan.machine.chain, truth.tip[stylus]), true_.chain),
                   plan.path);
@@ -170,7 +173,7 @@ class TouchingMachine {
   host::MachineFile machine_;
   sim::TrueMachine true_;
   MachineChain nominal_;
-  double radius_ = 0.0;
+  double radius_;
   sim::BusAxes* axes_ = nullptr;
   std::unique_ptr<sim::MotionCell> cell_;
   std::unique_ptr<sim::Prober> prober_;
