@@ -71,8 +71,12 @@ bad() { refused "$1" "$volcomp" identify bad.toml; }
 table() { sed "$1" setup_0.csv >bad.csv; sed 's/setup_0.csv/bad.csv/' plan.toml >bad.toml; }
 changed '/^positions/d'
 bad "'positions'"
-changed 's/^compensation.*/compensation = "1234ABCD"/'
+changed 's/^compensation.*/compensation = "1234ABCD"/; s/^positions.*/positions = "command"/'
 bad 'measure with compensation switched off'
+changed 's/^compensation.*/compensation = "on"/'
+bad 'the CRC-32 of the image that was active'
+sed 's/^compensation.*/compensation = "1234ABCD"/; s/^positions.*/positions = "actual"/' plan.toml >active.toml
+expect 0 'Measured with the tables 1234ABCD at work' "$volcomp" identify active.toml --no-leave-out
 changed '/^temperature_C/d'
 bad "'temperature_C'"
 changed 's/^file = "machine.toml"/file = "none.toml"/'

@@ -87,6 +87,11 @@ std::vector<std::string> closing_lines(const MeasurementPlan& plan, const Identi
         fmt::format("Stated beforehand: within a segment a slope changes by about {:g} µm or {:g} "
                     "µrad a segment",
                     kUmPerMm * curvature->mm, kUradPerRad * curvature->rad));
+  if (!plan.active_image.empty())
+    lines.push_back(fmt::format(
+        "Measured with the tables {} at work. Positions are those of the encoders, so these are "
+        "the errors of the machine, not what those tables left of them",
+        plan.active_image));
   lines.emplace_back(
       "Not in these uncertainties: what the splines cannot follow, reversal that is not an "
       "unknown, and drift within a set-up");

@@ -35,10 +35,7 @@ class PlanReader {
     top.allow_only({"positions", "compensation", "temperature_C", "machine", "model", "stylus",
                     "artefact", "setup"});
     plan_.commanded = top.choice("positions", {"actual", "command"}) == 1;
-    if (top.text("compensation") != "off")
-      top.complain("compensation",
-                   "what was measured with tables active holds their effect, too: measure with "
-                   "compensation switched off and state \"off\"");
+    read_compensation(top);
     plan_.temperature_C = top.number("temperature_C");
     const TomlSection machine = top.table("machine");
     machine.allow_only({"file"});
@@ -52,6 +49,25 @@ class PlanReader {
         read_artefact(s);
     for (const TomlSection& s : top.tables("setup"))
       read_setup(plan_, {path_.parent_path(), files_}, s);
+  }
+
+  // What encoders say is where the axes stood, whatever was added to the targets. What was
+  // commanded is that only as long as nothing was.
+  void read_compensation(const TomlSection& top) {
+    const std::string word = top.text("compensation");
+    if (word == "off") return;
+    constexpr std::size_t kDigits = 8;
+    if (word.size() != kDigits ||
+        word.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+      top.complain("compensation",
+                   "'compensation' must be \"off\" or the CRC-32 of the image that was active, 8 "
+                   "hexadecimal digits");
+    if (plan_.commanded)
+      top.complain("compensation",
+                   "positions that were commanded do not hold what active tables added: measure "
+                   "with compensation switched off and state \"off\", or record the encoders "
+                   "and state positions = \"actual\"");
+    plan_.active_image = word;
   }
 
   void read_machine() {

@@ -23,7 +23,8 @@ struct MeasurementPlan {
   MachineFile machine;
   Problem problem;
   double temperature_C = 20.0;
-  bool commanded = false;  // positions are those commanded, not those of the encoders
+  bool commanded = false;    // positions are those commanded, not those of the encoders
+  std::string active_image;  // CRC-32 of the tables that were at work; empty: none
   std::vector<std::filesystem::path> files;
   // By set-up of kind centre, by observation.
   std::vector<std::vector<TouchedSphere>> touched;

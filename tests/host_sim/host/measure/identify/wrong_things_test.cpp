@@ -219,12 +219,14 @@ TEST(WrongThings, CompensationLeftOnIsShownByNoReading) {
       EXPECT_LT(std::abs(v.value), f.quantity.angular() ? 5e-6 : 3e-3) << f.quantity.name;
 }
 
-// Therefore a plan states that it was off.
-TEST(WrongThings, APlanThatDoesNotSayOffIsRefused) {
+// Therefore a plan states whether it was off, and with tables at work positions must be those of
+// the encoders, which hold what the tables added.
+TEST(WrongThings, APlanStatesWhatWasCompensated) {
   const std::filesystem::path path =
       std::filesystem::path(testing::TempDir()) / "volcomp_stated_off.toml";
-  const auto refused = [&](const std::string& compensation) {
-    std::ofstream(path) << "positions = \"actual\"\n" << compensation << "temperature_C = 20.0\n";
+  const auto refused = [&](const std::string& positions, const std::string& compensation) {
+    std::ofstream(path) << "positions = \"" << positions << "\"\n"
+                        << compensation << "temperature_C = 20.0\n";
     try {
       static_cast<void>(read_plan(path));
     } catch (const host::UserError& e) {
@@ -232,12 +234,17 @@ TEST(WrongThings, APlanThatDoesNotSayOffIsRefused) {
     }
     return std::string();
   };
-  EXPECT_THAT(refused("compensation = \"on\"\n"),
-              HasSubstr(":2: what was measured with tables active holds their effect"));
-  EXPECT_THAT(refused("compensation = \"1234ABCD\"\n"), HasSubstr("compensation switched off"));
-  EXPECT_THAT(refused("compensation = false\n"), HasSubstr("'compensation'"));
-  EXPECT_THAT(refused(""), AllOf(HasSubstr("'compensation'"), HasSubstr("[missing_field]")));
-  EXPECT_THAT(refused("compensation = \"off\"\n"), Not(HasSubstr("compensation")));
+  for (const char* const positions : {"actual", "command"}) {
+    EXPECT_THAT(refused(positions, "compensation = \"on\"\n"),
+                HasSubstr(":2: 'compensation' must be \"off\" or the CRC-32"));
+    EXPECT_THAT(refused(positions, "compensation = false\n"), HasSubstr("'compensation'"));
+    EXPECT_THAT(refused(positions, ""),
+                AllOf(HasSubstr("'compensation'"), HasSubstr("[missing_field]")));
+    EXPECT_THAT(refused(positions, "compensation = \"off\"\n"), Not(HasSubstr("compensation")));
+  }
+  EXPECT_THAT(refused("command", "compensation = \"1234ABCD\"\n"),
+              HasSubstr("compensation switched off"));
+  EXPECT_THAT(refused("actual", "compensation = \"1234ABCD\"\n"), Not(HasSubstr("compensation")));
   std::filesystem::remove(path);
 }
 
