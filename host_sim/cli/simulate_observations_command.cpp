@@ -8,7 +8,7 @@
 #include "host_sim/cli/run_options.hpp"
 #include "host_sim/cli/simulate_options.hpp"
 #include "host_sim/host/measure/identify/plan_file.hpp"
-#include "host_sim/sim/campaign/plan_readings.hpp"
+#include "host_sim/sim/campaign/simulated_readings.hpp"
 #include "host_sim/sim/truth/drawn_machine.hpp"
 
 namespace volcomp::cli {

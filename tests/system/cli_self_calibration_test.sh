@@ -43,17 +43,18 @@ grep -q 'CAN loopback' bus.txt || { echo 'FAILED: no word of the bus'; failed=1;
 sed "s#../../host_sim#$source_dir/host_sim#" "$small" >bus/plan.toml
 expect 0 'chi-square' "$volcomp" identify bus/plan.toml --out again.vct
 cmp bus/tables.vct again.vct || { echo 'FAILED: identify makes other tables of the same touches'; failed=1; }
-# Computed instead of moved, the same places: latches differ by what the edge comes late, 50 nm, and no more than that.
+# Computed instead of moved: latches differ by what the edge comes late, 50 nm, and by the reversal of axes that arrived
+# from another side.
 "${run[@]}" --plan "$small" --places 20 --out computed --json computed.json >/dev/null 2>&1
 /usr/bin/python3 - <<'PYTHON' || { echo 'FAILED: touches over the bus and computed ones'; failed=1; }
 import csv
-rows = [list(csv.DictReader(open(folder + "/touches.csv"))) for folder in ("bus", "computed")]
+rows = [list(csv.DictReader(l for l in open(folder + "/touches.csv") if l[0] != "#")) for folder in ("bus", "computed")]
 assert len(rows[0]) == len(rows[1]) > 200
 worst = 0.0
 for a, b in zip(*rows):
     assert all(a[k] == b[k] for k in ("setup", "sphere", "tip")), (a, b)
     worst = max(worst, *(abs(float(a[k]) - float(b[k])) for k in ("X [mm]", "Y [mm]", "Z [mm]")))
-assert worst < 2e-3, worst  # reversal of axes that arrived from another side, up to 1.5 µm
+assert worst < 2e-3, worst
 PYTHON
 
 # --- every kind of set-up as files that identify takes
@@ -161,15 +162,21 @@ expect 0 'is planned at usual places' "$volcomp" plan all.toml
 expect 0 'runs_X.csv' "$volcomp" simulate observations all.toml --out measured --perfect
 cp all.toml measured/plan.toml
 expect 0 'chi-square' "$volcomp" identify measured/plan.toml --out measured/tables.vct --json measured/found.json
-holds 'perfect instruments fit' "$(value measured/found.json chi2) < $(value measured/found.json dof)"
+holds 'perfect instruments fit' "$(value measured/found.json chi2) < 0.5 * $(value measured/found.json dof)"
 for file in tracer bar diagonal step rtest touches runs_X; do
   [ -s "measured/$file.csv" ] || { echo "FAILED: no $file.csv"; failed=1; }
 done
 # Another seed, other readings; the same seed, the same bytes.
 expect 0 'tracer.csv' "$volcomp" simulate observations all.toml --out again --perfect
 diff -r -x plan.toml -x '*.vct' -x '*.json' measured again >/dev/null || { echo 'FAILED: the same seed, other readings'; failed=1; }
-expect 0 'tracer.csv' "$volcomp" simulate observations all.toml --out other --machine-seed 2
+expect 0 'tracer.csv' "$volcomp" simulate observations all.toml --out other --machine-seed 2 --perfect
 cmp -s measured/tracer.csv other/tracer.csv && { echo 'FAILED: another machine, the same readings'; failed=1; }
+expect 0 'tracer.csv' "$volcomp" simulate observations all.toml --out seeded --seed 2 --perfect
+for kind in tracer touches; do
+  cmp -s <(grep -v '^#' "measured/$kind.csv") <(grep -v '^#' "seeded/$kind.csv") &&
+    { echo "FAILED: another seed, the same $kind"; failed=1; }
+done
+head -n 1 measured/tracer.csv | grep -q '^# Simulated' || { echo 'FAILED: no word that it is simulated'; failed=1; }
 
 # --- a step diagonal beside tracers: the tilt of its mirror does not make the work frame seen
 {

@@ -1,5 +1,5 @@
 #pragma once
-// A machine many times: others errors, other places and other noise of the instruments each time.
+// A machine many times: other errors, other places and other noise of the instruments each time.
 
 #include <nlohmann/json.hpp>
 

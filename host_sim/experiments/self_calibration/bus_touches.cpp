@@ -187,7 +187,6 @@ class TouchingMachine {
 
 std::vector<LatchedTouch> touch_on_bus(const MeasurementPlan& plan, const sim::PlanTruth& truth,
                                        const TouchingBus& bus, const host::Progress& progress) {
-  constexpr std::size_t kTouches = 5;
   std::vector<LatchedTouch> touches;
   const std::size_t setups = plan.problem.setups.size();
   for (std::size_t k = 0; k < setups; ++k) {
@@ -195,7 +194,7 @@ std::vector<LatchedTouch> touch_on_bus(const MeasurementPlan& plan, const sim::P
     const std::vector<TouchMove> moves = touch_moves(plan, k);
     std::unique_ptr<TouchingMachine> machine;
     std::size_t stylus = 0;
-    for (std::size_t i = 0; i + kTouches <= moves.size(); i += kTouches) {
+    for (std::size_t i = 0; i + kTouchesOfSphere <= moves.size(); i += kTouchesOfSphere) {
       progress(
           (static_cast<double>(k) + static_cast<double>(i) / static_cast<double>(moves.size())) /
               static_cast<double>(setups),
@@ -205,7 +204,7 @@ std::vector<LatchedTouch> touch_on_bus(const MeasurementPlan& plan, const sim::P
         machine.reset();
         machine = std::make_unique<TouchingMachine>(plan, truth, bus, k, stylus);
       }
-      machine->touch(moves, i, kTouches, touches);
+      machine->touch(moves, i, kTouchesOfSphere, touches);
     }
   }
   return touches;

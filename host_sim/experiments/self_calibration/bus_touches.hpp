@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "host_sim/host/report/progress.hpp"
-#include "host_sim/sim/campaign/plan_readings.hpp"
+#include "host_sim/sim/campaign/simulated_readings.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 
 namespace volcomp::self_calibration {

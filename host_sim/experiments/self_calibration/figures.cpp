@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-json left_json(const Left& left) {
+json residual_json(const VolumeResidual& left) {
   return {{"rms_um", left.rms}, {"p95_um", left.p95}, {"max_um", left.max}};
 }
 
@@ -21,14 +21,14 @@ double misfit(const Result& r) {
 }
 
 std::vector<host::BeforeAfter> judged_figures(const Result& r) {
-  const Left before = r.left_of_known(r.before);
-  const Left after = r.left_of_known(r.after);
-  const Left measured_before = r.left(r.before);
-  const Left measured_after = r.left(r.after);
+  const VolumeResidual before = r.without_unmodelled_reversal(r.before);
+  const VolumeResidual after = r.without_unmodelled_reversal(r.after);
+  const VolumeResidual measured_before = r.residual(r.before);
+  const VolumeResidual measured_after = r.residual(r.after);
   std::vector<host::BeforeAfter> lines{{"volume, 95 % of the places", before.p95, after.p95},
                                        {"volume, worst place", before.max, after.max},
                                        {"volume, root mean square", before.rms, after.rms}};
-  if (!r.knows_reversal()) {
+  if (!r.models_reversal()) {
     lines.push_back(
         {"the same with reversal, 95 % of the places", measured_before.p95, measured_after.p95});
     lines.push_back(
@@ -36,18 +36,18 @@ std::vector<host::BeforeAfter> judged_figures(const Result& r) {
   }
   lines.push_back({"diagonals", r.before.lines_max_um(), r.after.lines_max_um()});
   if (!r.before.sphere.empty())
-    lines.push_back(
-        {"ball on the table", r.sphere_of_known_um(r.before), r.sphere_of_known_um(r.after)});
-  if (!r.before.sphere.empty() && !r.knows_reversal())
+    lines.push_back({"ball on the table", r.sphere_without_unmodelled_reversal_um(r.before),
+                     r.sphere_without_unmodelled_reversal_um(r.after)});
+  if (!r.before.sphere.empty() && !r.models_reversal())
     lines.push_back(
         {"the same with reversal", r.before.sphere_um().max_um, r.after.sphere_um().max_um});
   return lines;
 }
 
 host::Verdict verdict(const Result& r) {
-  const Left before = r.left_of_known(r.before);
-  const Left after = r.left_of_known(r.after);
-  const Left predicted = r.predicted();
+  const VolumeResidual before = r.without_unmodelled_reversal(r.before);
+  const VolumeResidual after = r.without_unmodelled_reversal(r.after);
+  const VolumeResidual predicted = r.predicted;
   const bool seen = r.found.rank.nullity_functions == r.plan.problem.model.gauge.size();
   const bool ok = after.p95 <= kOfPrediction * predicted.p95 &&
                   after.max <= kOfBefore * before.max && seen && misfit(r) < kChiSquareOfDof;
@@ -71,17 +71,19 @@ json figures(const Result& r) {
            {"dof", r.found.consistency.dof},
            {"largest_refinement_um", 1e3 * r.found.largest_refinement},
            {"places", r.before.place.size()},
-           {"before", left_json(r.left_of_known(r.before))},
-           {"after", left_json(r.left_of_known(r.after))},
+           {"before", residual_json(r.without_unmodelled_reversal(r.before))},
+           {"after", residual_json(r.without_unmodelled_reversal(r.after))},
            {"with_reversal",
-            {{"before", left_json(r.left(r.before))}, {"after", left_json(r.left(r.after))}}},
-           {"predicted", left_json(r.predicted())},
+            {{"before", residual_json(r.residual(r.before))},
+             {"after", residual_json(r.residual(r.after))}}},
+           {"predicted", residual_json(r.predicted)},
+           {"coverage", r.coverage()},
            {"diagonals_before_um", r.before.lines_max_um()},
            {"diagonals_after_um", r.after.lines_max_um()},
            {"ok", verdict(r).ok}};
   if (!r.before.sphere.empty()) {
-    out["sphere_before_um"] = r.sphere_of_known_um(r.before);
-    out["sphere_after_um"] = r.sphere_of_known_um(r.after);
+    out["sphere_before_um"] = r.sphere_without_unmodelled_reversal_um(r.before);
+    out["sphere_after_um"] = r.sphere_without_unmodelled_reversal_um(r.after);
   }
   return out;
 }

@@ -37,17 +37,17 @@ json measured_text(const Result& r) {
 }
 
 json before_after(const Result& r) {
-  const Left predicted = r.predicted();
+  const VolumeResidual predicted = r.predicted;
   return host::before_after_table(
       judged_figures(r),
       fmt::format("Volume: error vectors at {} places all over the travel, beside their best rigid "
-                  "motion, as whoever clamps and aligns a part sees them. By its uncertainty the "
+                  "motion, which clamping and aligning a part takes out. By its covariance the "
                   "identification should leave {:.2f} um at 95 % of the places, {:.2f} um at the "
-                  "worst{}. Measured by instruments that took no part.",
+                  "worst{}. Read of the simulated machine itself, without noise.",
                   r.before.place.size(), predicted.p95, predicted.max,
-                  r.knows_reversal() ? ""
-                                     : "; it knows nothing of reversal, which is left in the "
-                                       "figures with reversal"),
+                  r.models_reversal() ? ""
+                                      : "; reversal is not modelled and not in that, and the "
+                                        "figures with reversal hold it"),
       std::size_t{0});
 }
 
@@ -78,7 +78,7 @@ host::Origins origins(const Options& options, const host::identify::MeasurementP
 
 json document(const Result& r, const host::RunContext& run) {
   host::ReportParts parts;
-  parts.title = fmt::format("{}: identified by itself", r.plan.machine.name);
+  parts.title = fmt::format("{}: self-calibrated", r.plan.machine.name);
   parts.subtitle = "Simulated machine with errors drawn at random";
   parts.verdict = verdict(r);
   parts.before_after = before_after(r);

@@ -5,6 +5,7 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/experiments/self_calibration/bus_touches.hpp"
+#include "host_sim/host/measure/identify/volume.hpp"
 #include "host_sim/host/measure/volume_csv.hpp"
 #include "host_sim/sim/truth/drawn_machine.hpp"
 #include "host_sim/sim/truth/seeds.hpp"
@@ -21,10 +22,12 @@ std::vector<LatchedTouch> touches_of(const MeasurementPlan& plan, const sim::Pla
   return touch_on_bus(plan, truth, {options.make_axes, options.cycle_hz}, progress);
 }
 
-// Lengths of error vectors, µm; `error(reading)` in the work frame, mm.
+// Lengths of error vectors beside their best rigid motion, µm; `error(reading)` in the work frame,
+// mm.
 template <class Error>
-Left beside_rigid(const MachineChain& chain, const std::vector<any_machine::PlaceReading>& readings,
-                  const Error& error) {
+std::vector<double> beside_rigid(const MachineChain& chain,
+                                 const std::vector<any_machine::PlaceReading>& readings,
+                                 const Error& error) {
   std::vector<Vec3> places;
   std::vector<Vec3> errors;
   for (const any_machine::PlaceReading& r : readings) {
@@ -32,12 +35,16 @@ Left beside_rigid(const MachineChain& chain, const std::vector<any_machine::Plac
     errors.push_back(error(r));
   }
   std::vector<double> length;
-  double squares = 0.0;
-  for (const Vec3& e : host::aligned_errors(places, errors)) {
+  for (const Vec3& e : host::aligned_errors(places, errors))
     length.push_back(kUmPerMm * e.norm());
-    squares += length.back() * length.back();
-  }
+  return length;
+}
+
+VolumeResidual figures_of(std::vector<double> length) {
   if (length.empty()) return {};
+  double squares = 0.0;
+  for (const double l : length)
+    squares += l * l;
   std::sort(length.begin(), length.end());
   const auto count = static_cast<double>(length.size());
   return {std::sqrt(squares / count), length[static_cast<std::size_t>(std::ceil(0.95 * count)) - 1],
@@ -52,6 +59,34 @@ Vec3 reversal_at(const sim::TrueMachine& truth, const any_machine::PlaceReading&
                                        truth.error(r.pose, {}, tool).position_work);
 }
 
+std::vector<double> modelled_lengths(const Result& result, const any_machine::MachineState& state) {
+  return beside_rigid(result.plan.machine.chain, state.place,
+                      [&](const any_machine::PlaceReading& r) -> Vec3 {
+                        if (result.models_reversal()) return r.deviation_mm;
+                        return r.deviation_mm - reversal_at(result.truth, r);
+                      });
+}
+
+// What the covariance says of the places of the verification.
+void predict(Result& result) {
+  namespace identify = host::identify;
+  const identify::Problem problem = identify::Equations::made_consistent(result.plan.problem);
+  const identify::Equations equations(problem, true);
+  const identify::Triangle triangle = identify::triangle_at(equations, equations.start(), {});
+  const Vec3 tool = problem.machine.chain.tool_point();
+  identify::Places places({});
+  for (const any_machine::PlaceReading& r : result.after.place) {
+    places.q.push_back(r.pose);
+    if (result.models_reversal()) places.d.push_back(r.approach);
+  }
+  const identify::VolumeUncertainty u =
+      identify::volume_uncertainty(equations, triangle, places, tool);
+  const identify::DrawnVolume drawn = identify::draw_volume(equations, triangle, places, tool);
+  result.predicted = {kUmPerMm * u.rms_rigid(), kUmPerMm * drawn.p95, kUmPerMm * drawn.max};
+  for (const double one : u.rigid)
+    result.u_um.push_back(kUmPerMm * one);
+}
+
 // The share of a step of the run.
 host::Progress part_of(const host::Progress& progress, double from, double to) {
   return [&progress, from, to](double done, const std::string& what) {
@@ -61,35 +96,38 @@ host::Progress part_of(const host::Progress& progress, double from, double to) {
 
 }  // namespace
 
-Left Result::left(const any_machine::MachineState& state) const {
-  return beside_rigid(plan.machine.chain, state.place,
-                      [](const any_machine::PlaceReading& r) { return r.deviation_mm; });
+VolumeResidual Result::residual(const any_machine::MachineState& state) const {
+  return figures_of(
+      beside_rigid(plan.machine.chain, state.place,
+                   [](const any_machine::PlaceReading& r) { return r.deviation_mm; }));
 }
 
-bool Result::knows_reversal() const {
+bool Result::models_reversal() const {
   const auto& functions = plan.problem.model.functions;
   return std::any_of(functions.begin(), functions.end(),
                      [](const auto& axis) { return !axis.reversal.empty(); });
 }
 
-Left Result::left_of_known(const any_machine::MachineState& state) const {
-  if (knows_reversal()) return left(state);
-  return beside_rigid(plan.machine.chain, state.place, [&](const any_machine::PlaceReading& r) {
-    return Vec3(r.deviation_mm - reversal_at(truth, r));
-  });
+VolumeResidual Result::without_unmodelled_reversal(const any_machine::MachineState& state) const {
+  return figures_of(modelled_lengths(*this, state));
 }
 
-double Result::sphere_of_known_um(const any_machine::MachineState& state) const {
-  if (knows_reversal() || state.sphere.empty()) return state.sphere_um().max_um;
+double Result::coverage() const {
+  constexpr double kCoverageFactor = 2.0;
+  const std::vector<double> length = modelled_lengths(*this, after);
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < length.size(); ++i)
+    if (length[i] <= kCoverageFactor * u_um[i]) ++within;
+  return static_cast<double>(within) / static_cast<double>(length.size());
+}
+
+double Result::sphere_without_unmodelled_reversal_um(const any_machine::MachineState& state) const {
+  if (models_reversal() || state.sphere.empty()) return state.sphere_um().max_um;
   const Vec3 first = reversal_at(truth, state.sphere.front());
   double worst = 0.0;
   for (const any_machine::PlaceReading& r : state.sphere)
     worst = std::max(worst, (r.deviation_mm - reversal_at(truth, r) + first).norm());
   return kUmPerMm * worst;
-}
-
-Left Result::predicted() const {
-  return {kUmPerMm * found.volume.rms, kUmPerMm * found.volume.p95, kUmPerMm * found.volume.max};
 }
 
 Result run_self_calibration(const Options& options, const host::Progress& progress) {
@@ -124,6 +162,7 @@ Result run_self_calibration(const Options& options, const host::Progress& progre
   progress(0.85, "the machine compensated");
   result.after =
       verify_machine(planned.machine, result.truth, check, options.make_cell, result.image);
+  predict(result);
   progress(1.0, "done");
   return result;
 }

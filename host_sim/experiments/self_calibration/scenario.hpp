@@ -1,7 +1,7 @@
 #pragma once
 // A simulated machine measures itself: its probe touches spheres, or tracers follow it; the errors
-// identified from that go into its tables, and instruments that took no part in it judge the
-// result.
+// identified from that go into its tables, and the deviations of the simulated machine at other
+// places judge the result.
 
 #include <filesystem>
 #include <map>
@@ -13,7 +13,7 @@
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/measure/identify/identification.hpp"
 #include "host_sim/host/report/progress.hpp"
-#include "host_sim/sim/campaign/plan_readings.hpp"
+#include "host_sim/sim/campaign/simulated_readings.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 
@@ -31,7 +31,7 @@ struct Options {
 };
 
 // Error vectors all over the travel beside their best rigid motion, µm.
-struct Left {
+struct VolumeResidual {
   double rms = 0.0;
   double p95 = 0.0;
   double max = 0.0;
@@ -45,21 +45,25 @@ struct Result {
   std::size_t touches = 0;
   host::identify::Identified found;
   std::vector<std::uint8_t> image;
+  VolumeResidual predicted;  // at the places of the verification, from the covariance
+  std::vector<double> u_um;  // of each of these places
   any_machine::SpherePlan sphere;
   any_machine::MachineState before;
   any_machine::MachineState after;
   std::vector<host::HashedInput> inputs;
 
-  // As measured.
-  [[nodiscard]] Left left(const any_machine::MachineState& state) const;
-  // What the prediction speaks of: where the plan knows nothing of reversal, without what that
-  // adds, the mean of both directions.
-  [[nodiscard]] Left left_of_known(const any_machine::MachineState& state) const;
+  [[nodiscard]] VolumeResidual residual(const any_machine::MachineState& state) const;
+  // The same, but where the plan does not model reversal the mean of both directions, as the
+  // prediction is. Takes the true reversal, which only a simulation has.
+  [[nodiscard]] VolumeResidual without_unmodelled_reversal(
+      const any_machine::MachineState& state) const;
   // Largest distance from the ball on the table, found at the first position; of the same.
-  [[nodiscard]] double sphere_of_known_um(const any_machine::MachineState& state) const;
-  [[nodiscard]] bool knows_reversal() const;
-  // What `after` should be by the uncertainty of the identification.
-  [[nodiscard]] Left predicted() const;
+  [[nodiscard]] double sphere_without_unmodelled_reversal_um(
+      const any_machine::MachineState& state) const;
+  [[nodiscard]] bool models_reversal() const;
+  // The share of the places whose residual after compensation is within twice its predicted
+  // standard uncertainty.
+  [[nodiscard]] double coverage() const;
 };
 
 // Throws UserError.

@@ -1,6 +1,7 @@
 #include "host_sim/experiments/self_calibration/spread.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -67,11 +68,17 @@ std::size_t Spread::good() const {
       std::count_if(drawn.begin(), drawn.end(), [](const Draw& d) { return d.judged.good; }));
 }
 
-std::size_t Spread::covered() const {
-  constexpr double kCoverageFactor = 2.0;
-  return static_cast<std::size_t>(std::count_if(drawn.begin(), drawn.end(), [](const Draw& d) {
-    return d.after.p95 <= kCoverageFactor * d.predicted.p95;
-  }));
+double Spread::coverage() const {
+  return mean_of(*this, [](const Draw& d) { return d.coverage; });
+}
+
+double Spread::coverage_error() const {
+  const double mean = coverage();
+  const auto count = static_cast<double>(drawn.size());
+  const double squares = count * mean_of(*this, [mean](const Draw& d) {
+                           return (d.coverage - mean) * (d.coverage - mean);
+                         });
+  return drawn.size() < 2 ? 0.0 : std::sqrt(squares / (count - 1.0) / count);
 }
 
 Spread run_spread(const Options& options, std::size_t count, std::size_t threads,
@@ -91,9 +98,10 @@ Spread run_spread(const Options& options, std::size_t count, std::size_t threads
     const Result result = run_self_calibration(
         one, [&](double done, const std::string&) { shared.show(i, done, what); });
     spread.drawn[i] = {{judged_figures(result), verdict(result).ok},
-                       result.left_of_known(result.after),
-                       result.predicted(),
-                       misfit(result)};
+                       result.without_unmodelled_reversal(result.after),
+                       result.predicted,
+                       misfit(result),
+                       result.coverage()};
   });
   progress(1.0, "done");
   return spread;
@@ -102,10 +110,11 @@ Spread run_spread(const Options& options, std::size_t count, std::size_t threads
 host::Verdict spread_verdict(const Spread& spread) {
   const auto enough = static_cast<double>(spread.drawn.size()) * kWanted;
   const bool ok = static_cast<double>(spread.good()) >= enough &&
-                  static_cast<double>(spread.covered()) >= enough;
-  return {ok, fmt::format("{} of {} machines are good, of {} the volume keeps within twice its "
-                          "predicted uncertainty (95 % wanted of both).",
-                          spread.good(), spread.drawn.size(), spread.covered())};
+                  spread.coverage() + 2.0 * spread.coverage_error() >= kWanted;
+  return {ok, fmt::format("{} of {} machines are good, {:.1f} ± {:.1f} % of all places are within "
+                          "twice their predicted uncertainty (95 % wanted of both).",
+                          spread.good(), spread.drawn.size(), 100.0 * spread.coverage(),
+                          100.0 * spread.coverage_error())};
 }
 
 json spread_document(const Spread& spread, const host::RunContext& run) {
@@ -133,7 +142,8 @@ json spread_figures(const Spread& spread) {
            {"noise", spread.options.noise},
            {"machines", spread.drawn.size()},
            {"good", spread.good()},
-           {"covered", spread.covered()},
+           {"coverage", spread.coverage()},
+           {"coverage_standard_error", spread.coverage_error()},
            {"mean", means_json(spread)},
            {"figures", host::figures_of_table(any_machine::spread_table(judged(spread), ""))},
            {"ok", spread_verdict(spread).ok},

@@ -1,5 +1,5 @@
 #pragma once
-// A plan on many machines: others errors, other noise, other places each time.
+// A plan on many machines: other errors, other noise, other places each time.
 
 #include <nlohmann/json.hpp>
 
@@ -11,9 +11,10 @@ namespace volcomp::self_calibration {
 
 struct Draw {
   any_machine::JudgedMachine judged;
-  Left after;
-  Left predicted;
+  VolumeResidual after;
+  VolumeResidual predicted;
   double chi2_of_dof = 0.0;
+  double coverage = 0.0;  // share of the places within twice their predicted uncertainty
 };
 
 struct Spread {
@@ -23,8 +24,9 @@ struct Spread {
   std::vector<Draw> drawn;  // seeds options.seed, options.seed + 1, …
 
   [[nodiscard]] std::size_t good() const;
-  // Draws of which 95 % of the volume keep within twice the predicted standard uncertainty.
-  [[nodiscard]] std::size_t covered() const;
+  // Of the places of all machines, and its standard error from machine to machine.
+  [[nodiscard]] double coverage() const;
+  [[nodiscard]] double coverage_error() const;
 };
 
 // `count` machines on up to `threads` threads; the same result for any number of these. Throws
@@ -32,7 +34,8 @@ struct Spread {
 [[nodiscard]] Spread run_spread(const Options& options, std::size_t count, std::size_t threads,
                                 const host::Progress& progress);
 
-// Good: 95 % of the machines are, and as many are covered.
+// Good: 95 % of the machines are, and 95 % of the places, less twice the standard error of that
+// share, are within twice their uncertainty.
 [[nodiscard]] host::Verdict spread_verdict(const Spread& spread);
 [[nodiscard]] nlohmann::json spread_document(const Spread& spread, const host::RunContext& run);
 [[nodiscard]] std::string spread_summary(const Spread& spread);

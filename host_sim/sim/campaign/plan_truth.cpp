@@ -58,7 +58,8 @@ void draw_artefacts(const identify::Problem& problem, const ShopFloor& floor, Dr
     if (!artefact.lengths.empty()) {
       const identify::Length& known = artefact.lengths.front();
       const double nominal = (artefact.spheres[known.b] - artefact.spheres[known.a]).norm();
-      if (artefact.place == identify::kFree && nominal > 0.0) longer = known.length / nominal;
+      if (artefact.place == identify::kFree && nominal > 0.0)
+        longer = (known.length + share * draws.next(known.sigma)) / nominal;
     }
     std::vector<Vec3> spheres;
     for (const Vec3& sphere : artefact.spheres)
@@ -106,9 +107,10 @@ PlanTruth draw_plan_truth(const identify::Problem& problem, const TrueMachine& m
                           const ShopFloor& floor) {
   PlanTruth out;
   out.floor = floor;
-  Draws common(floor, RandomStream::set_up, kCommon);
-  draw_styli(problem, floor, common, out);
-  draw_artefacts(problem, floor, common, out);
+  Draws styli(floor, RandomStream::set_up, kCommon);
+  draw_styli(problem, floor, styli, out);
+  Draws artefacts(floor, RandomStream::set_up, kCommon - 1);
+  draw_artefacts(problem, floor, artefacts, out);
   for (std::size_t k = 0; k < problem.setups.size(); ++k) {
     const auto number = static_cast<std::uint32_t>(k);
     Draws warmth(floor, RandomStream::temperature, number);

@@ -1,6 +1,7 @@
 #pragma once
-// What is true while a plan is carried out and nobody knows: where artefacts and instruments really
-// stand, how long styli really are, how warm the axes are at each set-up.
+// What is true while a plan is carried out and not known: where artefacts and instruments really
+// stand, how long styli really are, how warm the axes are at each set-up. What a plan leaves free
+// without a known length is as the plan has it.
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +13,7 @@ namespace volcomp::sim {
 
 // Standard deviations of what a plan says nothing of, and whether anything scatters at all.
 struct ShopFloor {
-  bool perfect = false;         // instruments; things still stand where nobody knows
+  bool perfect = false;         // instruments; things still stand elsewhere than the plan says
   double growth_K = 0.1;        // of each linear axis between set-ups
   double stylus_mm = 0.02;      // of each coordinate of a tip, after a tool setter
   double pose_mm = 0.3;         // of a placement against the plan

@@ -100,10 +100,9 @@ json value_section(const std::vector<FoundValue>& values,
 
 std::string volume_line(const FoundVolume& v) {
   return fmt::format(
-      "Error of the functional point over the travels, beside the best rigid motion: U (k = 2) "
-      "{:.2f} µm rms; on the average {:.2f} µm are left at 95 % of the places, {:.2f} µm at the "
-      "worst",
-      kCover * kUmPerMm * v.rms, kUmPerMm * v.p95, kUmPerMm * v.max);
+      "Error of the functional point over the travels, beside the best rigid motion: u {:.2f} µm "
+      "rms; on the average {:.2f} µm are left at 95 % of the places, {:.2f} µm at the worst",
+      kUmPerMm * v.rms, kUmPerMm * v.p95, kUmPerMm * v.max);
 }
 
 json volume_json(const FoundVolume& v) {

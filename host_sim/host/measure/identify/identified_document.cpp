@@ -18,10 +18,9 @@ Verdict verdict_of(const Identified& found) {
   const Consistency& c = found.consistency;
   return {c.good(),
           fmt::format("The readings {} each other: chi-square {:.1f} of {} degrees of freedom, "
-                      "99 % limit {:.1f}. Functional point over the travels: U (k = 2) {:.2f} µm "
-                      "rms.",
+                      "99 % limit {:.1f}. Functional point over the travels: u {:.2f} µm rms.",
                       c.good() ? "agree with" : "contradict", c.chi2, c.dof, c.chi2_99,
-                      kCover * kUmPerMm * found.volume.rms)};
+                      kUmPerMm * found.volume.rms)};
 }
 
 json residual_chart(const MeasurementPlan& plan, const Identified& found) {

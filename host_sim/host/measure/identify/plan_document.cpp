@@ -19,11 +19,10 @@ Verdict verdict_of(const PlanPrediction& predicted) {
   if (!predicted.solvable)
     return {false, fmt::format("The plan does not determine everything. Not seen: {}.",
                                fmt::join(predicted.rank.unseen, ", "))};
-  return {true,
-          fmt::format("The plan determines everything. Functional point over the travels: "
-                      "U (k = 2) {:.2f} µm rms; on the average {:.2f} µm are left at 95 % of the "
-                      "places.",
-                      kCover * kUmPerMm * predicted.volume.rms, kUmPerMm * predicted.volume.p95)};
+  return {true, fmt::format("The plan determines everything. Functional point over the travels: "
+                            "u {:.2f} µm rms; on the average {:.2f} µm are left at 95 % of the "
+                            "places.",
+                            kUmPerMm * predicted.volume.rms, kUmPerMm * predicted.volume.p95)};
 }
 
 json order_chart(const MeasurementPlan& plan, const PlanPrediction& predicted) {

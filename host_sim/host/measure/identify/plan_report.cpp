@@ -5,6 +5,7 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/measure/identify/found_report.hpp"
+#include "host_sim/host/measure/identify/planned_spheres.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/text_of.hpp"
@@ -14,8 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-// Five touches a sphere, each of 5 s: approach, touch, retract.
-constexpr std::size_t kTouchesOfSphere = 5;
+// Approach, touch, retract.
 constexpr double kTouch_s = 5.0;
 
 std::size_t planned_spheres(const MeasurementPlan& plan) {

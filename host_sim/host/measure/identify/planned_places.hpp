@@ -12,8 +12,8 @@
 namespace volcomp::host::identify {
 
 struct PlaceChoice {
-  std::size_t count = 0;                           // of a tracer
-  std::vector<std::size_t> tips;                   // in turn; none: the reference stylus
+  std::size_t count = 0;          // of a tracer
+  std::vector<std::size_t> tips;  // one after the other; none: the reference stylus
   std::array<std::vector<double>, kMaxAxes> turn;  // R-test, rad
   std::optional<Vec3> ball;                        // R-test: centre of the ball, work frame
 };

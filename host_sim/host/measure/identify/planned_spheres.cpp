@@ -135,7 +135,7 @@ void add_planned_spheres(MeasurementPlan& plan, const SphereChoice& choice, doub
         fmt::format("{}: no sphere of set-up \"{}\" is within reach", plan.path, setup.name));
 }
 
-std::array<Vec3, 5> touch_directions(const Placement& pose) {
+std::array<Vec3, kTouchesOfSphere> touch_directions(const Placement& pose) {
   const Vec3 x = pose.R.col(0);
   const Vec3 y = pose.R.col(1);
   return {pose.R.col(2), x, y, -x, -y};

@@ -25,7 +25,8 @@ void add_planned_spheres(MeasurementPlan& plan, const SphereChoice& choice, doub
 
 // Ways out of a sphere along which it is touched, work frame: the pole, away from what it stands
 // on, and four round the equator; each at a right angle to the one before.
-[[nodiscard]] std::array<Vec3, 5> touch_directions(const Placement& pose);
+inline constexpr std::size_t kTouchesOfSphere = 5;
+[[nodiscard]] std::array<Vec3, kTouchesOfSphere> touch_directions(const Placement& pose);
 
 // From how far a touch begins, and how far it goes on where there is nothing: mm from the contact.
 inline constexpr double kClearance_mm = 3.0;

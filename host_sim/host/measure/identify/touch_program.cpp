@@ -184,14 +184,6 @@ void require_letters(const MeasurementPlan& plan) {
           fmt::format("{}: a program has no axis {}, only {}", plan.path, axis.letter, kLetters));
 }
 
-// Whether rotary axes stand elsewhere.
-bool turns(const Problem& problem, const Pose& a, const Pose& b) {
-  constexpr double kSameTurn_rad = 1e-7;
-  for (std::size_t axis = 0; axis < problem.machine.chain.axis_count(); ++axis)
-    if (!problem.is_slide(axis) && std::abs(a.at(axis) - b.at(axis)) > kSameTurn_rad) return true;
-  return false;
-}
-
 // The spheres of a set-up, each once for every tip and rotary position, with the tip in its centre;
 // single touches of a sphere stand one after the other.
 SetUp centred(const Problem& problem, const SetUp& s) {
@@ -210,7 +202,7 @@ SetUp centred(const Problem& problem, const SetUp& s) {
             : moved(chain, s.q[i],
                     centre - ideal_geometry(chain, s.q[i]).in_work(problem.styli[stylus].offset));
     const bool again = !out.q.empty() && out.sphere.back() == s.sphere[i] &&
-                       out.stylus.back() == stylus && !turns(problem, out.q.back(), q);
+                       out.stylus.back() == stylus && problem.same_turn(out.q.back(), q);
     if (again) continue;
     out.q.push_back(q);
     out.sphere.push_back(s.sphere[i]);
@@ -225,7 +217,8 @@ std::vector<std::vector<std::size_t>> by_tip(const Problem& problem, const SetUp
   std::vector<std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < s.q.size(); ++i) {
     const auto same = [&](const std::vector<std::size_t>& group) {
-      return s.stylus[group.front()] == s.stylus[i] && !turns(problem, s.q[group.front()], s.q[i]);
+      return s.stylus[group.front()] == s.stylus[i] &&
+             problem.same_turn(s.q[group.front()], s.q[i]);
     };
     const auto found = std::find_if(groups.begin(), groups.end(), same);
     if (found == groups.end()) {

@@ -44,21 +44,22 @@ MatrixXd rigid_motions(const std::vector<Vec3>& points) {
 }
 
 // ∂E/∂x of a point at all places, three rows each; unknowns of the machine alone.
-MatrixXd error_rows(const Equations& equations, const std::vector<Pose>& places,
-                    const Vec3& tool_point, std::vector<Vec3>& points) {
+MatrixXd error_rows(const Equations& equations, const Places& places, const Vec3& tool_point,
+                    std::vector<Vec3>& points) {
   const Unknowns& unknowns = equations.unknowns();
   const MachineChain& chain = equations.problem().machine.chain;
-  MatrixXd L(static_cast<Index>(3 * places.size()), unknowns.size());
+  MatrixXd L(static_cast<Index>(3 * places.q.size()), unknowns.size());
   VectorXd row(unknowns.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const ChainGeometry g = ideal_geometry(chain, places[i]);
+  for (std::size_t i = 0; i < places.q.size(); ++i) {
+    const ChainGeometry g = ideal_geometry(chain, places.q[i]);
     points.push_back(g.in_work(tool_point));
     const Vec3 base = g.tool.apply(tool_point);
     for (Index k = 0; k < 3; ++k) {
       row.setZero();
       for (std::size_t a = 0; a < chain.axis_count(); ++a) {
         const ErrorEffect effect = g.work.R.transpose() * point_effect(g, a, base);
-        unknowns.add_errors(a, places[i].at(a), 0.0, effect.row(k), row);
+        unknowns.add_errors(a, places.q[i].at(a), places.d.empty() ? 0.0 : places.d[i].at(a),
+                            effect.row(k), row);
       }
       L.row(static_cast<Index>(3 * i) + k) = row.transpose();
     }
@@ -100,7 +101,7 @@ std::vector<Vec3> without_rigid(const std::vector<Vec3>& points, const std::vect
 double VolumeUncertainty::rms_rigid() const { return rms_of(rigid); }
 
 VolumeUncertainty volume_uncertainty(const Equations& equations, const Triangle& triangle,
-                                     const std::vector<Pose>& places, const Vec3& tool_point) {
+                                     const Places& places, const Vec3& tool_point) {
   std::vector<Vec3> points;
   const MatrixXd L = error_rows(equations, places, tool_point, points);
   VolumeUncertainty u;
@@ -110,8 +111,8 @@ VolumeUncertainty volume_uncertainty(const Equations& equations, const Triangle&
   return u;
 }
 
-DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle,
-                        const std::vector<Pose>& places, const Vec3& tool_point) {
+DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle, const Places& places,
+                        const Vec3& tool_point) {
   constexpr std::uint32_t kDraws = 200;
   constexpr std::uint64_t kSeed = 1;
   std::vector<Vec3> points;
@@ -125,7 +126,7 @@ DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle,
   MatrixXd e = L * triangle.R().triangularView<Eigen::Upper>().solve(z);
   e -= Q * (Q.transpose() * e);
   DrawnVolume out;
-  std::vector<double> length(places.size());
+  std::vector<double> length(places.q.size());
   const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(length.size())));
   for (Index draw = 0; draw < e.cols(); ++draw) {
     for (std::size_t i = 0; i < length.size(); ++i)

@@ -1,6 +1,7 @@
 #pragma once
 // How well the error of a point is known over a volume, and which set-ups to take for it.
 
+#include <utility>
 #include <vector>
 
 #include "host_sim/host/measure/identify/solution.hpp"
@@ -11,6 +12,17 @@ namespace volcomp::host::identify {
 [[nodiscard]] std::vector<Vec3> without_rigid(const std::vector<Vec3>& points,
                                               const std::vector<Vec3>& errors);
 
+// Where the error of a point is asked for.
+struct Places {
+  std::vector<Pose> q;
+  std::vector<Directions> d = {};  // as many, from where the axes have come; none: the mean of both
+
+  // NOLINTNEXTLINE(google-explicit-constructor): poses are places
+  Places(std::vector<Pose> poses) : q(std::move(poses)) {}
+  Places(std::vector<Pose> poses, std::vector<Directions> directions)
+      : q(std::move(poses)), d(std::move(directions)) {}
+};
+
 // Standard uncertainties of an error vector at each place: root of the trace of its covariance.
 struct VolumeUncertainty {
   std::vector<double> datum;  // in the gauge
@@ -20,8 +32,7 @@ struct VolumeUncertainty {
   [[nodiscard]] double rms_rigid() const;
 };
 [[nodiscard]] VolumeUncertainty volume_uncertainty(const Equations& equations,
-                                                   const Triangle& triangle,
-                                                   const std::vector<Pose>& places,
+                                                   const Triangle& triangle, const Places& places,
                                                    const Vec3& tool_point);
 
 // What such uncertainties come to: error vectors drawn from the covariance, of each draw the 95 %
@@ -31,7 +42,7 @@ struct DrawnVolume {
   double max = 0.0;
 };
 [[nodiscard]] DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle,
-                                      const std::vector<Pose>& places, const Vec3& tool_point);
+                                      const Places& places, const Vec3& tool_point);
 
 // The uncertainty beside the best rigid motion at places of their own, beside the rigid motion that
 // is best over `fitted`.

@@ -1,6 +1,7 @@
 // A plan carried out on simulated machines: on one without errors every reading is what geometry
 // says, and on one with errors every touch is at its ball.
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -9,7 +10,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/measure/identify/chain_geometry.hpp"
 #include "host_sim/host/measure/identify/observation_table.hpp"
-#include "host_sim/sim/campaign/plan_readings.hpp"
+#include "host_sim/sim/campaign/simulated_readings.hpp"
 #include "host_sim/sim/truth/drawn_machine.hpp"
 
 namespace volcomp::sim {
@@ -60,7 +61,7 @@ Vec3 ideal_point(const MeasurementPlan& plan, const Pose& q) {
   return ideal_geometry(plan.problem.machine.chain, q).in_work(plan.problem.styli[0].offset);
 }
 
-TEST(PlanReadings, ATracerReadsDistances) {
+TEST(SimulatedReadings, ATracerReadsDistances) {
   const MeasurementPlan plan = small_plan();
   host::identify::SetUp s = instrument(ObservationKind::tracer, plan);
   s.station = Vec3(-400.0, -100.0, 250.0);
@@ -69,20 +70,32 @@ TEST(PlanReadings, ATracerReadsDistances) {
     EXPECT_NEAR(y[i], (ideal_point(plan, s.q[i]) - *s.station).norm(), 1e-9);
 }
 
-// On the bed a station sees the tool alone: of these axes Z.
-TEST(PlanReadings, AStationOnTheBedSeesTheToolAlone) {
-  const MeasurementPlan plan = small_plan();
+// On the bed a station sees the tool alone: of these axes Z, whatever X and Y do wrong.
+TEST(SimulatedReadings, AStationOnTheBedSeesTheToolAlone) {
+  MeasurementPlan plan = small_plan();
   host::identify::SetUp s = instrument(ObservationKind::tracer, plan);
   s.station = Vec3(-400.0, -100.0, 250.0);
-  s.in_bed = true;
+  s.sigma.assign(s.q.size(), 1e-3);
   for (Pose& q : s.q)
     q.at(plan.machine.axis_index('Z')) = -100.0;
-  const std::vector<double> y = read_on_ideal(plan, s, nothing_unknown());
-  for (const double reading : y)
-    EXPECT_NEAR(reading, y.front(), 1e-9);
+  for (const bool in_bed : {true, false}) {
+    s.in_bed = in_bed;
+    plan.problem.setups = {s};
+    plan.touch_sigma = {0.0};
+    const PlanTruth truth =
+        draw_plan_truth(plan.problem, draw_machine(plan.machine, 3), nothing_unknown());
+    read_instrument(plan, truth, 0, s);
+    double largest = 0.0;
+    for (const double reading : s.y)
+      largest = std::max(largest, std::abs(reading - s.y.front()));
+    if (in_bed)
+      EXPECT_LT(largest, 1e-9);
+    else
+      EXPECT_GT(largest, 1.0);
+  }
 }
 
-TEST(PlanReadings, ADiagonalReadsTheWayAlongItsBeam) {
+TEST(SimulatedReadings, ADiagonalReadsTheWayAlongItsBeam) {
   const MeasurementPlan plan = small_plan();
   host::identify::SetUp s = instrument(ObservationKind::diagonal, plan);
   s.along = Vec3(2.0, -1.0, 2.0) / 3.0;
@@ -94,7 +107,7 @@ TEST(PlanReadings, ADiagonalReadsTheWayAlongItsBeam) {
 
 // A mirror across the beam reads the same; one that is tilted by an angle reads more by what the
 // machine moves across times its tangent.
-TEST(PlanReadings, ATiltedMirrorReadsAcross) {
+TEST(SimulatedReadings, ATiltedMirrorReadsAcross) {
   const MeasurementPlan plan = small_plan();
   host::identify::SetUp s = instrument(ObservationKind::step, plan);
   s.along = Vec3::UnitX();
@@ -108,7 +121,7 @@ TEST(PlanReadings, ATiltedMirrorReadsAcross) {
   }
 }
 
-TEST(PlanReadings, ABarOfItsLengthReadsNothing) {
+TEST(SimulatedReadings, ABarOfItsLengthReadsNothing) {
   const MeasurementPlan plan = small_plan();
   host::identify::SetUp s = instrument(ObservationKind::bar, plan);
   s.q.resize(1);
@@ -122,7 +135,7 @@ TEST(PlanReadings, ABarOfItsLengthReadsNothing) {
 
 // A ball that is found where the tool stands first, and a machine without errors that goes by a
 // known way: the ball is that way behind.
-TEST(PlanReadings, AnRTestReadsWhereTheBallIs) {
+TEST(SimulatedReadings, AnRTestReadsWhereTheBallIs) {
   const MeasurementPlan plan = small_plan();
   const host::identify::SetUp s = instrument(ObservationKind::rtest, plan);
   const std::vector<double> y = read_on_ideal(plan, s, nothing_unknown());
@@ -136,7 +149,7 @@ TEST(PlanReadings, AnRTestReadsWhereTheBallIs) {
 }
 
 // Noise is of the size stated, and the same for the same seed.
-TEST(PlanReadings, ReadingsScatterByWhatThePlanStates) {
+TEST(SimulatedReadings, ReadingsScatterByWhatThePlanStates) {
   const MeasurementPlan plan = small_plan();
   host::identify::SetUp s = instrument(ObservationKind::diagonal, plan);
   s.along = Vec3::UnitX();
@@ -158,7 +171,7 @@ TEST(PlanReadings, ReadingsScatterByWhatThePlanStates) {
   EXPECT_EQ(read, read_on_ideal(plan, s, floor));
 }
 
-TEST(PlanReadings, EveryTouchIsAtItsBall) {
+TEST(SimulatedReadings, EveryTouchIsAtItsBall) {
   const MeasurementPlan plan = small_plan();
   ShopFloor floor;
   floor.perfect = true;
@@ -176,7 +189,7 @@ TEST(PlanReadings, EveryTouchIsAtItsBall) {
 }
 
 // What is written is what is read, to the rounding of the table.
-TEST(PlanReadings, TablesHoldTheTouches) {
+TEST(SimulatedReadings, TablesHoldTheTouches) {
   const MeasurementPlan plan = small_plan();
   const PlanTruth truth = draw_plan_truth(plan.problem, draw_machine(plan.machine, 7), {});
   const std::vector<LatchedTouch> touches = touch_all(plan, truth);

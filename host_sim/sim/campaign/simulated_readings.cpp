@@ -1,4 +1,4 @@
-#include "host_sim/sim/campaign/plan_readings.hpp"
+#include "host_sim/sim/campaign/simulated_readings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -253,6 +253,9 @@ std::map<std::string, std::string> files_of_plan(const MeasurementPlan& plan,
       throw host::UserError(
           fmt::format("{}: \"{}\" is the file of touches and of others", plan.path, name));
   }
+  for (auto& [name, text] : files)
+    text.insert(0, fmt::format("# Simulated: no machine was measured. Seed of the readings {}.\n",
+                               truth.floor.seed));
   return files;
 }
 
