@@ -42,6 +42,7 @@ json bar_chart(const std::string& id, const std::string& title,
                const std::vector<double>& categories, json y, json series,
                const std::string& note) {
   std::vector<std::string> names;
+  names.reserve(categories.size());
   for (const double number : categories)
     names.push_back(fmt::format("{:g}", number));
   return bar_chart(id, title, names, std::move(y), std::move(series), note);

@@ -195,6 +195,7 @@ class Planner {
     const Travel& travel = problem_.machine.travel.at(axis);
     const int count = travel.periodic ? kOfTurn : kOther;
     std::vector<double> out;
+    out.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
       out.push_back(travel.lo +
                     (travel.hi - travel.lo) * i / (travel.periodic ? count : count - 1));

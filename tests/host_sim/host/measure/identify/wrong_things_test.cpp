@@ -161,7 +161,8 @@ TEST(WrongThings, PositionsOfTouchesInAWrongUnitAreRefused) {
   MeasurementPlan plan = empty_plan();
   const VectorXd truth = errors_of(plan, 4);
   touch_all(plan, plan.problem, truth);
-  const Unknowns unknowns(empty_plan().problem, true);
+  const MeasurementPlan empty = empty_plan();
+  const Unknowns unknowns(empty.problem, true);
   std::vector<TipTouch> touches = touches_of(plan.problem, unknowns, truth, placements().front());
   for (TipTouch& touch : touches)
     for (double& q : touch.q)

@@ -1,0 +1,13 @@
+// Eigen's functions that take memory, as they are where this is allowed. A linker keeps the first
+// of several inline functions of one name: linked before the libraries in which Eigen asserts that
+// no memory is taken, this one is it.
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace {
+
+[[gnu::used]] void* (*const allocate)(std::size_t) = &Eigen::internal::aligned_malloc;
+
+}  // namespace
