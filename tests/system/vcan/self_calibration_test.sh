@@ -19,4 +19,5 @@ wait_for 'the node listens' node_listens
 
 touch_balls --can vcan0 --json "$work/vcan.json" > "$work/vcan_run.txt" 2>&1 || fail 'touching over vcan0'
 
-expect 'vcan0 and loopback give the same figures' "$python" "$same_figures" "$work/vcan.json" "$work/loopback.json" 0
+# A latch that differs changes figures by 1e-4 um. In a virtual machine the C library rounds sines otherwise, by 1e-15.
+expect 'vcan0 and loopback give the same figures' "$python" "$same_figures" "$work/vcan.json" "$work/loopback.json" 1e-9
