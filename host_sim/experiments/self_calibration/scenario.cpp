@@ -74,7 +74,7 @@ void predict(Result& result) {
   const identify::Equations equations(problem, true);
   const identify::Triangle triangle = identify::triangle_at(equations, equations.start(), {});
   const Vec3 tool = problem.machine.chain.tool_point();
-  identify::Places places({});
+  identify::VolumePlaces places({});
   for (const any_machine::PlaceReading& r : result.after.place) {
     places.q.push_back(r.pose);
     if (result.models_reversal()) places.d.push_back(r.approach);

@@ -44,7 +44,7 @@ MatrixXd rigid_motions(const std::vector<Vec3>& points) {
 }
 
 // ∂E/∂x of a point at all places, three rows each; unknowns of the machine alone.
-MatrixXd error_rows(const Equations& equations, const Places& places, const Vec3& tool_point,
+MatrixXd error_rows(const Equations& equations, const VolumePlaces& places, const Vec3& tool_point,
                     std::vector<Vec3>& points) {
   const Unknowns& unknowns = equations.unknowns();
   const MachineChain& chain = equations.problem().machine.chain;
@@ -101,7 +101,7 @@ std::vector<Vec3> without_rigid(const std::vector<Vec3>& points, const std::vect
 double VolumeUncertainty::rms_rigid() const { return rms_of(rigid); }
 
 VolumeUncertainty volume_uncertainty(const Equations& equations, const Triangle& triangle,
-                                     const Places& places, const Vec3& tool_point) {
+                                     const VolumePlaces& places, const Vec3& tool_point) {
   std::vector<Vec3> points;
   const MatrixXd L = error_rows(equations, places, tool_point, points);
   VolumeUncertainty u;
@@ -111,8 +111,8 @@ VolumeUncertainty volume_uncertainty(const Equations& equations, const Triangle&
   return u;
 }
 
-DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle, const Places& places,
-                        const Vec3& tool_point) {
+DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle,
+                        const VolumePlaces& places, const Vec3& tool_point) {
   constexpr std::uint32_t kDraws = 200;
   constexpr std::uint64_t kSeed = 1;
   std::vector<Vec3> points;

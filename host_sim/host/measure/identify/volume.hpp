@@ -13,13 +13,13 @@ namespace volcomp::host::identify {
                                               const std::vector<Vec3>& errors);
 
 // Where the error of a point is asked for.
-struct Places {
+struct VolumePlaces {
   std::vector<Pose> q;
   std::vector<Directions> d = {};  // as many, from where the axes have come; none: the mean of both
 
   // NOLINTNEXTLINE(google-explicit-constructor): poses are places
-  Places(std::vector<Pose> poses) : q(std::move(poses)) {}
-  Places(std::vector<Pose> poses, std::vector<Directions> directions)
+  VolumePlaces(std::vector<Pose> poses) : q(std::move(poses)) {}
+  VolumePlaces(std::vector<Pose> poses, std::vector<Directions> directions)
       : q(std::move(poses)), d(std::move(directions)) {}
 };
 
@@ -32,7 +32,8 @@ struct VolumeUncertainty {
   [[nodiscard]] double rms_rigid() const;
 };
 [[nodiscard]] VolumeUncertainty volume_uncertainty(const Equations& equations,
-                                                   const Triangle& triangle, const Places& places,
+                                                   const Triangle& triangle,
+                                                   const VolumePlaces& places,
                                                    const Vec3& tool_point);
 
 // What such uncertainties come to: error vectors drawn from the covariance, of each draw the 95 %
@@ -42,7 +43,7 @@ struct DrawnVolume {
   double max = 0.0;
 };
 [[nodiscard]] DrawnVolume draw_volume(const Equations& equations, const Triangle& triangle,
-                                      const Places& places, const Vec3& tool_point);
+                                      const VolumePlaces& places, const Vec3& tool_point);
 
 // The uncertainty beside the best rigid motion at places of their own, beside the rigid motion that
 // is best over `fitted`.
