@@ -4,9 +4,12 @@
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 readonly volcomp=$build/host_sim/volcomp same_figures=tests/system/vcan/same_figures.py
+# Of nine balls those in the corners and the middle.
+sed -e '/\[0\.0, 120\.0\|\[240\.0, 120\.0\|\[120\.0, 0\.0\|\[120\.0, 240\.0/d' \
+  -e "s#../../host_sim#$PWD/host_sim#" tests/data/plan_small.toml > "$work/plan.toml"
 # The slower the cycle, the fewer there are; what is compared does not depend on it. Ends with 1: so small a plan leaves
 # too much.
-touching=("$volcomp" run self-calibration --plan tests/data/plan_small.toml --places 10 --cycle-hz 50)
+touching=("$volcomp" run self-calibration --plan "$work/plan.toml" --places 10 --cycle-hz 50)
 touch_balls() {
   "${touching[@]}" "$@" || [ $? -le 1 ]
 }
