@@ -92,7 +92,7 @@ void add_self_calibration_command(CLI::App& run, const std::string& command, int
   CLI::App* calibration = run.add_subcommand(
       "self-calibration",
       "A machine identifies its own errors: its probe touches spheres, or tracers follow it; "
-      "tables, and independent verification");
+      "tables of them, and what these leave at other places");
   auto a = std::make_shared<SelfCalibrationArguments>();
   a->command = command;
   a->node.cycle_hz = sim::kBusCycleOfFive_hz;

@@ -78,7 +78,7 @@ void FaceStation::believe(const Frame& mounting) {
 }
 
 // The scale does not resolve the true position of the table.
-void FaceStation::turn_to(int slot) {
+void FaceStation::arrive_at(int slot) {
   table_ = path().table_at(slot);
   gear_.turn_table(random_.uniform(-0.5, 0.5) * kScaleStep_rad);
 }
@@ -102,7 +102,7 @@ FaceStationTouch FaceStation::touch(const FlankName& flank, const SurfacePoint& 
                                     std::size_t column, TouchFrom away) {
   if (flank.slot != last_flank_.slot || flank.side != last_flank_.side) {
     retract();
-    if (flank.slot != last_flank_.slot) turn_to(flank.slot);
+    if (flank.slot != last_flank_.slot) arrive_at(flank.slot);
   }
   const double radius = hall_.file.probe->radius_mm;
   const FacePath way = path();

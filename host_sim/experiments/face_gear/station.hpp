@@ -80,7 +80,7 @@ class FaceStation {
 
  private:
   [[nodiscard]] FacePath path() const { return {chain_, hall_.gear, believed_}; }
-  void turn_to(int slot);
+  void arrive_at(int slot);
   void approach(const FlankName& flank, const Pose& from);
 
   const FaceHall& hall_;

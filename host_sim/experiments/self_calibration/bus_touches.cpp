@@ -17,7 +17,8 @@ namespace {
 using namespace host::identify;
 
 constexpr sim::ProbingFeeds kFeeds{50.0, 5.0, 20.0};
-// Clear of a sphere by more than that nothing is in the way.
+// From the place before a touch to where the tip travels between spheres. Only the sphere that is
+// touched is simulated: others are not in the way.
 constexpr double kClear_mm = 25.0;
 
 MachineDescription with_tip(const MachineChain& chain, const Vec3& tip) {
@@ -75,13 +76,13 @@ class TouchingMachine {
     mount(pole, first);
     for (std::size_t i = first; i < first + count; ++i) {
       if (i > first) go(corner(moves[i - 1], moves[i]));
-      turn(moves[i].from);
-      turn(moves[i].beyond);
+      arrive(moves[i].from);
+      arrive(moves[i].beyond);
       const sim::NodePoint point =
           prober().touch(moves[i].from, moves[i].beyond, Vec3::Zero(), kFeeds);
       require_nominal(point, moves[i]);
       out.push_back({moves[i].setup, moves[i].sphere, moves[i].stylus, point.latched, directions_});
-      turn(moves[i].from);
+      arrive(moves[i].from);
     }
     // Back over the pole.
     go(corner(moves[first + count - 1], pole));
@@ -95,13 +96,13 @@ class TouchingMachine {
     return *prober_;
   }
 
-  void turn(const Pose& to) {
-    turn_to(at_, to, directions_);
+  void arrive(const Pose& to) {
+    arrive_at(at_, to, directions_);
     at_ = to;
   }
   void go(const Pose& to) {
     cell_->move_to(to, kFeeds.rapid);
-    turn(to);
+    arrive(to);
   }
 
   [[nodiscard]] Pose within_travel(Pose q) const {

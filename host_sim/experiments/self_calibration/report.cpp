@@ -43,7 +43,7 @@ json before_after(const Result& r) {
       fmt::format("Volume: error vectors at {} places all over the travel, beside their best rigid "
                   "motion, which clamping and aligning a part takes out. By its covariance the "
                   "identification should leave {:.2f} um at 95 % of the places, {:.2f} um at the "
-                  "worst{}. Read of the simulated machine itself, without noise.",
+                  "worst{}. Taken from the simulated machine itself, without noise.",
                   r.before.place.size(), predicted.p95, predicted.max,
                   r.models_reversal() ? ""
                                       : "; reversal is not modelled and not in that, and the "

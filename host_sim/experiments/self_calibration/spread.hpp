@@ -34,8 +34,7 @@ struct Spread {
 [[nodiscard]] Spread run_spread(const Options& options, std::size_t count, std::size_t threads,
                                 const host::Progress& progress);
 
-// Good: 95 % of the machines are, and 95 % of the places, less twice the standard error of that
-// share, are within twice their uncertainty.
+// Good: 95 % of the machines are, and 95 % of the places are within twice their uncertainty.
 [[nodiscard]] host::Verdict spread_verdict(const Spread& spread);
 [[nodiscard]] nlohmann::json spread_document(const Spread& spread, const host::RunContext& run);
 [[nodiscard]] std::string spread_summary(const Spread& spread);

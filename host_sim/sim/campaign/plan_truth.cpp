@@ -1,7 +1,5 @@
 #include "host_sim/sim/campaign/plan_truth.hpp"
 
-#include <algorithm>
-
 #include "comp/metrology/statistics/random_stream.hpp"
 #include "host_sim/host/measure/identify/chain_geometry.hpp"
 
@@ -17,8 +15,7 @@ class Draws {
       : floor_(floor), stream_(stream), setup_(setup) {}
 
   double next(double sigma) {
-    return sigma * normal(floor_.seed,
-                          {static_cast<std::uint32_t>(stream_), floor_.draw, setup_, number_++});
+    return sigma * normal(floor_.seed, {static_cast<std::uint32_t>(stream_), 0, setup_, number_++});
   }
   Vec3 next3(double sigma) {
     Vec3 v;

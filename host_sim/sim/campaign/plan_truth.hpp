@@ -23,7 +23,6 @@ struct ShopFloor {
   double mirror_rad = 1e-4;     // tilt of a mirror
 
   std::uint64_t seed = 1;
-  std::uint32_t draw = 0;
 };
 
 struct TrueSetUp {
@@ -44,7 +43,7 @@ struct PlanTruth {
   std::vector<TrueSetUp> setup;
 };
 
-// The same for the same seed and draw.
+// The same for the same seed.
 [[nodiscard]] PlanTruth draw_plan_truth(const host::identify::Problem& problem,
                                         const TrueMachine& machine, const ShopFloor& floor);
 

@@ -20,7 +20,7 @@ using namespace host::identify;
 double noise(const PlanTruth& truth, RandomStream stream, std::size_t setup, std::uint32_t reading,
              double sigma) {
   if (truth.floor.perfect) return 0.0;
-  return sigma * normal(truth.floor.seed, {static_cast<std::uint32_t>(stream), truth.floor.draw,
+  return sigma * normal(truth.floor.seed, {static_cast<std::uint32_t>(stream), 0,
                                            static_cast<std::uint32_t>(setup), reading});
 }
 
@@ -128,7 +128,7 @@ double scatter_of_touch(const MeasurementPlan& plan, const PlanTruth& truth, std
 
 LatchedTouch touch_sphere(const MeasurementPlan& plan, const PlanTruth& truth,
                           const TouchMove& move, double scatter_mm, Directions& d) {
-  turn_to(move.from, move.beyond, d);
+  arrive_at(move.from, move.beyond, d);
   const TrueSetUp& t = truth.setup[move.setup];
   const std::size_t artefact = *plan.problem.setups[move.setup].artefact;
   const Vec3 centre = t.pose.R * truth.sphere[artefact][move.sphere] + t.pose.t;
@@ -169,11 +169,11 @@ std::vector<LatchedTouch> touch_all(const MeasurementPlan& plan, const PlanTruth
     const Pose* last = nullptr;
     const std::vector<TouchMove> moves = touch_moves(plan, k);
     for (const TouchMove& move : moves) {
-      if (last != nullptr) turn_to(*last, move.from, d);
+      if (last != nullptr) arrive_at(*last, move.from, d);
       touches.push_back(
           touch_sphere(plan, truth, move, scatter_of_touch(plan, truth, k, number++), d));
       // Back the way it came.
-      turn_to(move.beyond, move.from, d);
+      arrive_at(move.beyond, move.from, d);
       last = &move.from;
     }
   }

@@ -17,7 +17,8 @@ namespace volcomp::sim {
 [[nodiscard]] Vec3 true_point(const TrueMachine& machine, const Pose& q,
                               const host::identify::Directions& d, const Vec3& tip);
 
-// How much too far a touch trips, mm: probe and machine together; another number for each touch.
+// Scatter of a touch, probe and machine together: distance outside the nominal contact, mm; another
+// number for each touch.
 [[nodiscard]] double scatter_of_touch(const host::identify::MeasurementPlan& plan,
                                       const PlanTruth& truth, std::size_t setup,
                                       std::uint32_t touch);

@@ -62,7 +62,7 @@ class Planner {
 
   void stand(const Pose& q) {
     Directions d = setup_.d.empty() ? first_directions() : setup_.d.back();
-    if (!setup_.q.empty()) turn_to(setup_.q.back(), q, d);
+    if (!setup_.q.empty()) arrive_at(setup_.q.back(), q, d);
     if (tip_) setup_.stylus.push_back(*tip_);
     setup_.q.push_back(q);
     setup_.d.push_back(d);

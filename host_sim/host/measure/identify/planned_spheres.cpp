@@ -171,7 +171,7 @@ std::vector<TouchMove> touch_moves(const MeasurementPlan& plan, std::size_t setu
   return moves;
 }
 
-void turn_to(const Pose& from, const Pose& to, Directions& d) {
+void arrive_at(const Pose& from, const Pose& to, Directions& d) {
   constexpr double kMoves = 1e-3;  // mm, rad: less is no side
   for (std::size_t a = 0; a < kMaxAxes; ++a)
     if (std::abs(to.at(a) - from.at(a)) > kMoves) d.at(a) = to.at(a) > from.at(a) ? 1.0 : -1.0;

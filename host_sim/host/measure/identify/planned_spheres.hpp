@@ -44,6 +44,6 @@ struct TouchMove {
 [[nodiscard]] std::vector<TouchMove> touch_moves(const MeasurementPlan& plan, std::size_t setup);
 
 // Sides from which the axes have arrived after one more straight move.
-void turn_to(const Pose& from, const Pose& to, Directions& d);
+void arrive_at(const Pose& from, const Pose& to, Directions& d);
 
 }  // namespace volcomp::host::identify
