@@ -17,17 +17,14 @@
 namespace volcomp::cli {
 namespace {
 
-// What the ball bar goes along to find squareness.
-enum class Functional : std::uint8_t { lines, circles };
-
 struct XyfzArguments : RunArguments {
   xyfz::XyfzOptions options;
   std::size_t knots = kDefaultKnots;
   bool noise_free = false;
   bool one_diagonal = false;
   bool paper_figures = false;
-  Functional squareness = Functional::lines;
-  std::string shard;  // empty: all draws
+  std::optional<xyfz::Functional> squareness;  // of all campaigns
+  std::string shard;                           // empty: all draws
 };
 
 xyfz::XyfzOptions options_of(RunPlace& place, const XyfzArguments& arguments) {
@@ -37,7 +34,9 @@ xyfz::XyfzOptions options_of(RunPlace& place, const XyfzArguments& arguments) {
   options.make_cell = place.cells(options.machine);
   options.threads = place.threads();
   if (arguments.noise_free) options.draws = 0;
-  if (arguments.squareness == Functional::circles) options.circle_radius = xyfz::kBallBar_mm;
+  // What the paper shows besides is of its machine, too.
+  if (arguments.paper_figures) options.noisy = xyfz::Functional::lines;
+  if (arguments.squareness) options.noise_free = options.noisy = *arguments.squareness;
   if (!arguments.shard.empty()) options.shard = part_to_write(arguments, arguments.shard);
   if (!arguments.report_folder.empty())
     options.campaign = std::filesystem::path(arguments.report_folder) / "campaign";
@@ -98,10 +97,14 @@ void add_plan_options(CLI::App& xyfz, XyfzArguments& a) {
                   "Random places behind the figure of the volume")
       ->check(CLI::Range(10, 100000))
       ->capture_default_str();
-  add_choice<Functional>(xyfz, "--squareness", a.squareness,
-                         {{"lines", Functional::lines}, {"circles", Functional::circles}},
-                         "How the ball bar finds squareness: along three lines, with an error "
-                         "stated for the angle, or by circles of 100 mm with all its own errors");
+  const std::map<std::string, xyfz::Functional> functionals{{"lines", xyfz::Functional::lines},
+                                                            {"circles", xyfz::Functional::circles}};
+  xyfz.add_option("--squareness", a.squareness,
+                  "How the ball bar finds squareness: along three lines, with an error stated for "
+                  "the angle, or by circles of 100 mm with all its own errors (default: circles "
+                  "in noisy campaigns; lines without noise and with --paper-figures, as the "
+                  "machine is tuned)")
+      ->transform(CLI::Transformer(functionals, CLI::ignore_case).description("{circles,lines}"));
   xyfz.add_option("--knots", a.knots,
                   "Most knots of a table (default: what the node has room for, up to 128)")
       ->check(CLI::Range(std::size_t{2}, kDefaultKnots));

@@ -1,13 +1,16 @@
 #include "host_sim/experiments/xyfz/bench.hpp"
 
-#include <utility>
-
 namespace volcomp::xyfz {
 namespace {
 
 host::MachineFile read_first(const XyfzOptions& options, const host::Progress& progress) {
   host::MachineFile machine = host::read_machine_file(options.machine);
   progress(0.0, "tuning the simulated machine");
+  return machine;
+}
+
+host::MachineFile with_functional(host::MachineFile machine, Functional functional) {
+  if (functional == Functional::circles) machine.squareness->circle_radius = kBallBar_mm;
   return machine;
 }
 
@@ -19,15 +22,13 @@ Bench::Bench(const XyfzOptions& chosen, const host::Progress& progress)
 Bench::Bench(const XyfzOptions& chosen, const host::MachineFile& file)
     : Bench(chosen, file, tune_xyfz(file, chosen.machine_seed)) {}
 
-Bench::Bench(const XyfzOptions& chosen, host::MachineFile file, const XyfzTuning& found)
+Bench::Bench(const XyfzOptions& chosen, const host::MachineFile& file, const XyfzTuning& found)
     : options(chosen),
-      machine(std::move(file)),
+      machine(with_functional(file, chosen.noise_free)),
+      noisy_machine(with_functional(file, chosen.noisy)),
       tuning(found),
-      truth(make_xyfz_truth(machine, chosen.machine_seed, tuning)),
-      box(sim::travel_box(machine)) {
-  // The machine is the same one, whichever way it is measured.
-  if (options.circle_radius) machine.squareness->circle_radius = options.circle_radius;
-}
+      truth(make_xyfz_truth(file, chosen.machine_seed, tuning)),
+      box(sim::travel_box(machine)) {}
 
 std::unique_ptr<sim::MotionCell> Bench::cell(const sim::TrueMachine& of,
                                              const std::vector<std::uint8_t>& image) const {

@@ -7,7 +7,8 @@ namespace volcomp::xyfz {
 
 struct Bench {
   XyfzOptions options;
-  host::MachineFile machine;
+  host::MachineFile machine;        // with the functional of the noise-free campaign
+  host::MachineFile noisy_machine;  // the same with that of the noisy ones
   XyfzTuning tuning;
   sim::TrueMachine truth;
   DiagonalBox box;
@@ -16,7 +17,7 @@ struct Bench {
   Bench(const XyfzOptions& chosen, const host::Progress& progress);
   Bench(const XyfzOptions& chosen, const host::MachineFile& file);
   // For a tuning that is known. Throws UserError.
-  Bench(const XyfzOptions& chosen, host::MachineFile file, const XyfzTuning& found);
+  Bench(const XyfzOptions& chosen, const host::MachineFile& file, const XyfzTuning& found);
 
   // The machine with these tables, at a corner of its travel; `of` must outlive it.
   [[nodiscard]] std::unique_ptr<sim::MotionCell> cell(const sim::TrueMachine& of,

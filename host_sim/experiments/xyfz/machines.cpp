@@ -97,7 +97,9 @@ json settings_of(const MachinesResult& r) {
           {"draws", o.draws},
           {"runs", o.runs},
           {"knots", o.knots},
-          {"circle_radius_mm", o.circle_radius ? json(*o.circle_radius) : json()}};
+          {"squareness",
+           {{"noise_free", kFunctionalNames.at(static_cast<std::size_t>(o.noise_free))},
+            {"noisy", kFunctionalNames.at(static_cast<std::size_t>(o.noisy))}}}};
 }
 
 json draw_json(const DrawResult& d) {

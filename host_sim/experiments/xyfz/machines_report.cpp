@@ -44,7 +44,7 @@ json models_of_machines(const MachinesResult& r) {
                    host::column("campaigns: median", "%", 2, "campaigns/median"),
                    host::column("5 % quantile", "%", 2, "campaigns/p05"),
                    host::plain_column(fmt::format("machines that reach {} %", kPaperRate),
-                                      "machines_reaching_8707")});
+                                      "machines_reaching_paper")});
   json table = host::table_section(fmt::format("The models on {} machines", r.machine.size()),
                                    std::move(columns), std::move(rows));
   table["name"] = "models";
@@ -84,7 +84,7 @@ json table_of_machines(const MachinesResult& r) {
                            host::column("closed: median", "%", 2, "abbe_closed/median"),
                            host::column("closed: 5 %", "%", 2, "abbe_closed/p05"),
                            host::column(fmt::format("campaigns that reach {} %", kPaperRate), "%",
-                                        0, "abbe_closed/percent_reaching_8707"),
+                                        0, "abbe_closed/percent_reaching_paper"),
                            host::hidden_column("noise_free_residual_um"),
                            host::hidden_column("angle_scale"), host::hidden_column("scale_error")},
                           machine_rows(r));

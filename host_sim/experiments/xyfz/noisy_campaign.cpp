@@ -32,7 +32,7 @@ MeasuredCampaign noisy_campaign(const Bench& bench, const std::filesystem::path&
   const sim::NoiseClasses classes;
   sim::Random random(draw_seed(bench.options.seed, draw));
   const sim::Campaign measured =
-      sim::measure_machine(bench.truth, bench.machine, classes, bench.options.runs, random);
+      sim::measure_machine(bench.truth, bench.noisy_machine, classes, bench.options.runs, random);
   sim::TrueMachine at_check = bench.truth;
   at_check.temperature_offset_K = random.normal(classes.temperature_K);
   const sim::InterferometerSetup setup{random.normal(classes.interferometer),

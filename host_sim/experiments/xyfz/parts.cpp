@@ -21,7 +21,9 @@ json run_of(const XyfzResult& r) {
           {"runs", o.runs},
           {"knots", o.knots},
           {"volume_points", o.volume_points},
-          {"circle_radius_mm", o.circle_radius ? json(*o.circle_radius) : json()},
+          {"squareness",
+           {{"noise_free", kFunctionalNames.at(static_cast<std::size_t>(o.noise_free))},
+            {"noisy", kFunctionalNames.at(static_cast<std::size_t>(o.noisy))}}},
           {"noise_free_text", noise_free_verdict(r).text},
           {"noise_free_ok", noise_free_verdict(r).ok}};
 }

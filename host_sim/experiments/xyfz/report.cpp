@@ -104,15 +104,15 @@ json limits_table(const XyfzResult& r) {
                                     rows)));
 }
 
-std::string ball_bar(const sim::NoiseClasses& n, const std::optional<double>& radius) {
-  if (!radius)
+std::string ball_bar(const sim::NoiseClasses& n, Functional functional) {
+  if (functional == Functional::lines)
     return fmt::format("ball bar for squareness along lines: {:g} µrad",
                        host::kUradPerRad * n.ball_bar_rad);
   const sim::BallBarClass bar;
   return fmt::format(
       "ball bar for squareness, two circles each way of {:g} mm: reading {:g} µm, socket {:g} µm, "
       "start {:g} mrad, length {:g} µm, sensor ± {:g} µm",
-      *radius, kUmPerMm * bar.reading, kUmPerMm * bar.centre, 1e3 * bar.start_angle,
+      kBallBar_mm, kUmPerMm * bar.reading, kUmPerMm * bar.centre, 1e3 * bar.start_angle,
       kUmPerMm * bar.length, kUmPerMm * bar.sensor);
 }
 
@@ -153,7 +153,7 @@ std::vector<std::string> instruments_of(const XyfzOptions& options) {
                   "and {:g} µrad, scale {:g} µm/m, roll {:g} µrad, levers known to {:g} mm",
                   runs, kUmPerMm * n.repeatability_mm, host::kUradPerRad * n.repeatability_rad,
                   host::kUradPerRad * n.scale, host::kUradPerRad * n.roll_rad, n.arm_mm),
-      ball_bar(n, options.circle_radius),
+      ball_bar(n, options.noisy),
       fmt::format("interferometer along diagonals: scale {:g} µm/m; {:g} K between measuring "
                   "and checking",
                   host::kUradPerRad * n.interferometer, n.temperature_K)};
@@ -170,12 +170,13 @@ host::Verdict noise_free_verdict(const XyfzResult& r) {
 
 void add_draw_verdict(const XyfzResult& r, host::Verdict& v) {
   if (r.draws.empty()) return;
-  const double reached = r.draws_reaching(kPaperRate);
-  v.ok = v.ok && reached >= 0.95;
+  const double median = r.draw_quantile(2, 0.5);
+  v.ok = v.ok && median >= kPaperRate;
   v.text += fmt::format(
-      " With realistic instruments {:.1f} % (median of {}), the paper's {} % reached in "
-      "{:.0f} %.",
-      r.draw_quantile(2, 0.5), r.draws.size(), kPaperRate, 100.0 * reached);
+      " With realistic instruments {:.1f} % (median of {}; 5 % of them below {:.1f} %), the "
+      "paper's {} % reached in {:.0f} %.",
+      median, r.draws.size(), r.draw_quantile(2, 0.05), kPaperRate,
+      100.0 * r.draws_reaching(kPaperRate));
 }
 
 host::Verdict xyfz_verdict(const XyfzResult& r) {
@@ -190,7 +191,7 @@ void add_draw_figures(const XyfzResult& r, json& figures) {
     figures["draws"]["rate"][kModeNames[m]] = {{"median", r.draw_quantile(m - 1, 0.5)},
                                                {"p05", r.draw_quantile(m - 1, 0.05)}};
   figures["draws"]["count"] = r.draws.size();
-  figures["draws"]["abbe_closed_reaching_8707"] = r.draws_reaching(kPaperRate);
+  figures["draws"]["abbe_closed_reaching_paper"] = r.draws_reaching(kPaperRate);
 }
 
 json xyfz_figures(const XyfzResult& r) {

@@ -24,6 +24,12 @@ namespace volcomp::xyfz {
 // diagonals it does not.
 inline constexpr std::uint64_t kXyfzMachineSeed = 14;
 
+// What the ball bar goes along to find squareness: three lines, with an error stated for the angle,
+// or circles of kBallBar_mm, with all errors of its own.
+enum class Functional : std::uint8_t { lines, circles };
+inline constexpr std::array<const char*, 2> kFunctionalNames{"lines", "circles"};
+inline constexpr double kBallBar_mm = 100.0;
+
 struct XyfzOptions {
   std::filesystem::path machine;  // machine file
   std::filesystem::path
@@ -38,12 +44,11 @@ struct XyfzOptions {
   sim::CellFactory make_cell = sim::make_integrated_cell;  // what drives the machine
   std::size_t threads = 1;   // for the noisy campaigns; 1 where machines share a bus
   std::size_t machines = 1;  // of machine_seed and the seeds after it: run_machines()
-  // Of the circles by which the ball bar finds squareness, mm; none: along the lines of the file.
-  std::optional<double> circle_radius;
+  // The paper's figures, to which the machine is tuned, are those of a perfect bar along lines.
+  Functional noise_free = Functional::lines;
+  Functional noisy = Functional::circles;
   host::Shard shard{};  // which of the noisy campaigns
 };
-
-inline constexpr double kBallBar_mm = 100.0;
 
 // 0 = uncompensated, then the three models in the order of ModelKind.
 inline constexpr std::array<const char*, 4> kModeNames{"uncompensated", "naive", "abbe",
