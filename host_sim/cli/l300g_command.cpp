@@ -95,6 +95,18 @@ void add_probe_options(CLI::App& l300g, L300gArguments& a) {
       "Gaussian filter of ISO 1328-1:2013 before profile and lead are evaluated (default where "
       "touches scatter)");
   l300g.add_flag("--no-filter", a.no_filter, "Traces are evaluated as they are")->excludes(filter);
+  l300g
+      .add_option("--teeth", a.options.rules.traces.teeth,
+                  "Teeth whose profile and lead are measured, evenly round the gear: the worst "
+                  "counts, the mean and the mean trace stand beside it")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  l300g
+      .add_option("--points", a.options.rules.traces.points,
+                  "Points of a profile or lead within its evaluation range (71 or more: the "
+                  "filter spans a thirtieth of it)")
+      ->check(CLI::Range(71, 1001))
+      ->capture_default_str();
   CLI::Option* tracker =
       l300g
           .add_option("--tracker-um", a.options.tracker_um,

@@ -22,6 +22,9 @@ expect 2 'draw 1 is the first' "$volcomp" collect "$work/part-2.json"
 expect 2 'no part of a run' "$volcomp" collect "$work/all.json"
 expect 2 'give --json FILE' "$volcomp" run xyfz --shard 1/2
 expect 2 'a page needs the whole run' "$volcomp" run xyfz --shard 1/2 --serve 0 --json "$work/none.json"
+expect 0 'worst of 2 teeth' "$volcomp" run l300g --cycle-hz 50 --seeds 2 --teeth 2 --points 71
+expect 2 'the gear has 31' "$volcomp" run l300g --teeth 32
+expect 2 '--points' "$volcomp" run l300g --points 5
 expect 2 'one measurement' "$volcomp" run l300g --seeds 2 --gcode "$work/g"
 expect 2 'give K/N' "$volcomp" run xyfz --shard 3/2 --json "$work/none.json"
 

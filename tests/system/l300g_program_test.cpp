@@ -105,7 +105,8 @@ TEST(L300gProgram, HasTheWordsOfATouchAndNoOthers) {
   const InvoluteGear& gear = p8.setup.gear;
   std::size_t planned = 0;
   for (const FlankSide side : l300g::kSides)
-    planned += l300g::profile_touches(gear, side).size() + l300g::lead_touches(gear, side).size() +
+    planned += l300g::profile_touches(gear, {side, 0}).size() +
+               l300g::lead_touches(gear, {side, 0}).size() +
                l300g::pitch_touches(gear, side).size();
   EXPECT_EQ(touches, planned);
 }

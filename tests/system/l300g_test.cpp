@@ -200,6 +200,40 @@ TEST(L300g, IdentificationIsExactAndThePrintedProcedureIsNot) {
 
 // --- the path of the points
 
+// A total deviation is a largest difference of a filtered trace, so it is convex in the trace: of
+// the mean trace it is at most the mean of those of the teeth, and that at most the largest.
+TEST(L300g, OfSeveralTeethTheMeanLiesBetweenThatOfTheMeanTraceAndTheWorst) {
+  l300g::L300gOptions options;
+  options.machine = host::bundled_machine("l300g");
+  options.cycle_hz = 50.0;
+  options.probe = 2;
+  options.rules = {1, true, {3, 71}};
+  const l300g::GearInspection found =
+      l300g::run_l300g(options, [](double, const std::string&) {}).after;
+  for (std::size_t side = 0; side < l300g::kSides.size(); ++side) {
+    EXPECT_LT(found.profile_teeth[side].of_mean_trace, found.profile_teeth[side].mean);
+    EXPECT_LT(found.profile_teeth[side].mean, found.profile[side].figures.total);
+    EXPECT_LT(found.lead_teeth[side].of_mean_trace, found.lead_teeth[side].mean);
+    EXPECT_LT(found.lead_teeth[side].mean, found.lead[side].figures.total);
+    EXPECT_GT(found.profile_teeth[side].of_mean_trace, 4.5);  // the gear has 5.59
+  }
+}
+
+TEST(L300g, TeethAreSpreadEvenlyAndPointsAreAsManyAsAsked) {
+  const InvoluteGear gear = l300g::master_gear();  // 31 teeth
+  EXPECT_EQ(l300g::traced_teeth(gear, {1, 101}), std::vector<int>{0});
+  EXPECT_EQ(l300g::traced_teeth(gear, {4, 101}), (std::vector<int>{0, 7, 15, 23}));
+  const EvaluationRange range = host::profile_range(gear, 0.92);
+  for (const std::size_t points : {71U, 101U, 201U}) {
+    std::size_t within = 0;
+    for (const FlankTouch& touch : l300g::profile_touches(gear, {FlankSide::left, 3}, points)) {
+      EXPECT_EQ(touch.flank.tooth, 3);
+      if (touch.roll_length > range.low - 1e-9 && touch.roll_length < range.high + 1e-9) ++within;
+    }
+    EXPECT_EQ(within, points);
+  }
+}
+
 TEST(L300g, PointsDoNotDependOnTheFeed) {
   EXPECT_LE(p8().feeds.corrected_spread_nm(), 10.0);
   // From 10 to 1000 mm/min at 16 µm from contact to latch of B: 264 nm along Z, less along the

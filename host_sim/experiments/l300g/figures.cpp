@@ -23,8 +23,11 @@ constexpr double kLobing_um = 0.2;
 
 json or_null(const std::optional<int>& grade) { return grade ? json(*grade) : json(nullptr); }
 
-json trace_figures(const host::FlankTrace& trace) {
+// Of the worst tooth; F also as the mean of the teeth and of their mean trace.
+json trace_figures(const host::FlankTrace& trace, const SeveralTeeth& teeth) {
   return {{"F", trace.figures.total},
+          {"F_mean", teeth.mean},
+          {"F_of_mean_trace", teeth.of_mean_trace},
           {"ff", trace.figures.form},
           {"fH", trace.figures.slope},
           {"grade1995", or_null(trace.grade_1995)},
@@ -39,8 +42,8 @@ json gear_figures(const L300gResult& r) {
   for (const auto& [when, gear] : found) {
     for (std::size_t side = 0; side < kSides.size(); ++side) {
       const char* const name = kSideNames[side];
-      j["profile"][when][name] = trace_figures(gear->profile[side]);
-      j["lead"][when][name] = trace_figures(gear->lead[side]);
+      j["profile"][when][name] = trace_figures(gear->profile[side], gear->profile_teeth[side]);
+      j["lead"][when][name] = trace_figures(gear->lead[side], gear->lead_teeth[side]);
       j["pitch"][when][name] = {{"Fp", gear->pitch[side].figures.total},
                                 {"fpt", gear->pitch[side].figures.single}};
     }
@@ -161,7 +164,9 @@ json l300g_figures(const L300gResult& r) {
   j["scatter"] = {{"probe", sim::kProbeClasses.at(r.options.probe).name},
                   {"target_um", r.options.target_um()},
                   {"touches", r.options.rules.touches},
-                  {"filter", r.options.rules.filter}};
+                  {"filter", r.options.rules.filter},
+                  {"teeth", r.options.rules.traces.teeth},
+                  {"points", r.options.rules.traces.points}};
   j["version"] = host::kVersion;
   return j;
 }

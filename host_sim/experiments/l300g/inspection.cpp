@@ -1,28 +1,66 @@
 #include "host_sim/experiments/l300g/inspection.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::l300g {
+namespace {
+
+// Point by point: all were touched at the same nominal places.
+host::FlankTrace mean_of(const std::vector<host::FlankTrace>& teeth) {
+  const auto share = 1.0 / static_cast<double>(teeth.size());
+  host::FlankTrace mean;
+  mean.at.assign(teeth.front().at.size(), 0.0);
+  mean.deviation = mean.at;
+  for (const host::FlankTrace& tooth : teeth) {
+    for (std::size_t i = 0; i < mean.at.size(); ++i) {
+      mean.at[i] += share * tooth.at[i];
+      mean.deviation[i] += share * tooth.deviation[i];
+    }
+  }
+  return mean;
+}
+
+// The worst of them, and what all give together. `evaluate(trace)`.
+template <class Evaluate>
+host::FlankTrace judge(std::vector<host::FlankTrace> teeth, SeveralTeeth& together,
+                       const Evaluate& evaluate) {
+  host::FlankTrace mean = mean_of(teeth);
+  evaluate(mean);
+  together = {0.0, mean.figures.total};
+  for (host::FlankTrace& tooth : teeth) {
+    evaluate(tooth);
+    together.mean += tooth.figures.total / static_cast<double>(teeth.size());
+  }
+  return *std::max_element(teeth.begin(), teeth.end(), [](const auto& a, const auto& b) {
+    return a.figures.total < b.figures.total;
+  });
+}
+
+}  // namespace
 
 GearInspection true_gear(const InvoluteGear& gear) {
   GearInspection truth;
   const OwnDeviation own(gear);
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     host::FlankTrace& profile = truth.profile[side];
-    for (const FlankTouch& touch : profile_touches(gear, kSides[side])) {
+    for (const FlankTouch& touch : profile_touches(gear, {kSides[side], 0})) {
       profile.at.push_back(touch.roll_length);
       profile.deviation.push_back(kUmPerMm * own(touch.roll_length, 0.0));
     }
     host::grade_profile(gear, "true profile", profile);
     host::FlankTrace& lead = truth.lead[side];
-    for (const FlankTouch& touch : lead_touches(gear, kSides[side])) {
+    for (const FlankTouch& touch : lead_touches(gear, {kSides[side], 0})) {
       lead.at.push_back(touch.x);
       lead.deviation.push_back(kUmPerMm * own(touch.roll_length, touch.x));
     }
     host::grade_lead(gear, "true lead", lead);
+    truth.profile_teeth[side] = {profile.figures.total, profile.figures.total};
+    truth.lead_teeth[side] = {lead.figures.total, lead.figures.total};
     truth.pitch[side].position.assign(static_cast<std::size_t>(gear.teeth), 0.0);
     host::grade_pitch(gear, "true pitch", truth.pitch[side]);
   }
@@ -75,29 +113,37 @@ Vec3 GearInspector::mean_point(const FlankTouch& wanted) {
   return sum / static_cast<double>(rules_.touches);
 }
 
-host::FlankTrace GearInspector::profile(FlankSide side) {
+host::FlankTrace GearInspector::profile(const Flank& flank) {
   host::FlankTrace trace;
-  for (const FlankTouch& wanted : profile_touches(setup_.gear, side)) {
+  for (const FlankTouch& wanted : profile_touches(setup_.gear, flank, setup_.traces.points)) {
     const Deviation d = deviation(wanted.flank, mean_point(wanted));
     trace.at.push_back(d.roll_length);
     trace.deviation.push_back(kUmPerMm * d.mm);
   }
-  if (rules_.filter)
-    host::filter_as_2013(trace, host::profile_range(setup_.gear, host::kRollUsed1995), "profile");
-  host::grade_profile(setup_.gear, "profile", trace);
+  retract();
   return trace;
 }
 
-host::FlankTrace GearInspector::lead(FlankSide side) {
+void GearInspector::evaluate_profile(host::FlankTrace& trace) const {
+  if (rules_.filter)
+    host::filter_as_2013(trace, host::profile_range(setup_.gear, host::kRollUsed1995), "profile");
+  host::grade_profile(setup_.gear, "profile", trace);
+}
+
+host::FlankTrace GearInspector::lead(const Flank& flank) {
   host::FlankTrace trace;
-  for (const FlankTouch& wanted : lead_touches(setup_.gear, side)) {
+  for (const FlankTouch& wanted : lead_touches(setup_.gear, flank, setup_.traces.points)) {
     const Vec3 point = mean_point(wanted);
     trace.at.push_back(point.x());
     trace.deviation.push_back(kUmPerMm * deviation(wanted.flank, point).mm);
   }
+  retract();
+  return trace;
+}
+
+void GearInspector::evaluate_lead(host::FlankTrace& trace) const {
   if (rules_.filter) host::filter_as_2013(trace, host::lead_range(setup_.gear), "lead");
   host::grade_lead(setup_.gear, "lead", trace);
-  return trace;
 }
 
 host::PitchRound GearInspector::pitch(FlankSide side) {
@@ -115,10 +161,16 @@ host::PitchRound GearInspector::pitch(FlankSide side) {
 GearInspection GearInspector::inspect() {
   GearInspection result;
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    result.profile[side] = profile(kSides[side]);
-    retract();
-    result.lead[side] = lead(kSides[side]);
-    retract();
+    std::vector<host::FlankTrace> profiles;
+    std::vector<host::FlankTrace> leads;
+    for (const int tooth : traced_teeth(setup_.gear, setup_.traces)) {
+      profiles.push_back(profile({kSides[side], tooth}));
+      leads.push_back(lead({kSides[side], tooth}));
+    }
+    result.profile[side] = judge(std::move(profiles), result.profile_teeth[side],
+                                 [this](host::FlankTrace& t) { evaluate_profile(t); });
+    result.lead[side] = judge(std::move(leads), result.lead_teeth[side],
+                              [this](host::FlankTrace& t) { evaluate_lead(t); });
     result.pitch[side] = pitch(kSides[side]);
   }
   return result;

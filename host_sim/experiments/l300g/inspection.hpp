@@ -1,6 +1,6 @@
 #pragma once
-// Inspecting the master gear: profile and lead of tooth 0, pitch of all teeth, both flanks, from
-// points of the node (docs/papers/l300g.md, "What we do").
+// Inspecting the master gear: profile and lead of one tooth or several, pitch of all teeth, both
+// flanks, from points of the node (docs/papers/l300g.md, "What we do").
 
 #include "host_sim/experiments/l300g/inspection_plan.hpp"
 #include "host_sim/host/measure/gear_inspection.hpp"
@@ -11,12 +11,22 @@ namespace volcomp::l300g {
 struct InspectionRules {
   std::size_t touches = 1;  // of a point; their mean counts
   bool filter = false;  // low-pass before evaluation (trace_filter.hpp), as ISO 1328-1:2013 asks
+  TracePlan traces{};
 };
 
-// Traces by kSides.
+// Total deviation of several teeth, beside that of the worst; µm. With one tooth all are alike.
+struct SeveralTeeth {
+  double mean = 0.0;           // what gear centres print
+  double of_mean_trace = 0.0;  // hides what differs between teeth
+};
+
+// By kSides.
 struct GearInspection {
+  // Of the tooth with the largest total deviation, which a grade is about.
   std::array<host::FlankTrace, 2> profile;
   std::array<host::FlankTrace, 2> lead;
+  std::array<SeveralTeeth, 2> profile_teeth{};
+  std::array<SeveralTeeth, 2> lead_teeth{};
   std::array<host::PitchRound, 2> pitch;
   std::string program;  // that does the same (inspection_program.hpp); empty where nothing moved
 };
@@ -51,8 +61,12 @@ class GearInspector {
   void retract();
 
  private:
-  [[nodiscard]] host::FlankTrace profile(FlankSide side);
-  [[nodiscard]] host::FlankTrace lead(FlankSide side);
+  // As touched.
+  [[nodiscard]] host::FlankTrace profile(const Flank& flank);
+  [[nodiscard]] host::FlankTrace lead(const Flank& flank);
+  // Filtered where the rules say so, evaluated and graded.
+  void evaluate_profile(host::FlankTrace& trace) const;
+  void evaluate_lead(host::FlankTrace& trace) const;
   [[nodiscard]] host::PitchRound pitch(FlankSide side);
   [[nodiscard]] Vec3 mean_point(const FlankTouch& wanted);
   void approach(const Pose& from);

@@ -10,16 +10,19 @@
 namespace volcomp::l300g {
 namespace {
 
-constexpr int kPoints = 100;  // steps of the range of 1995
-constexpr int kBefore = 3;    // steps before it: errors of the machine shift the foot of a normal
-constexpr int kBeyond = 4;    // steps behind it, as far as the edition of 2013 goes
+// Besides the range of 1995, in hundredths of it: before it, as errors of the machine shift the
+// foot of a normal; behind it as far as the edition of 2013 goes.
+constexpr int kBefore = 3;
+constexpr int kBeyond = 4;
 constexpr double kPast_mm = 0.2;       // how far a touch may be late
 constexpr double kClearance_mm = 3.0;  // between the gear and the ball beside it
 
-std::vector<double> places(const EvaluationRange& range) {
+std::vector<double> places(const EvaluationRange& range, std::size_t points) {
+  const int steps = static_cast<int>(points) - 1;
+  const auto beside = [steps](int hundredths) { return (hundredths * steps + 99) / 100; };
   std::vector<double> at;
-  for (int i = -kBefore; i <= kPoints + kBeyond; ++i)
-    at.push_back(range.low + i * (range.high - range.low) / kPoints);
+  for (int i = -beside(kBefore); i <= steps + beside(kBeyond); ++i)
+    at.push_back(range.low + i * (range.high - range.low) / steps);
   return at;
 }
 
@@ -27,18 +30,27 @@ std::vector<double> places(const EvaluationRange& range) {
 
 double pitch_roll(const InvoluteGear& gear) { return gear.r * std::sin(gear.pressure_angle); }
 
-std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, FlankSide side) {
+std::vector<int> traced_teeth(const InvoluteGear& gear, const TracePlan& plan) {
+  std::vector<int> teeth;
+  for (std::size_t k = 0; k < plan.teeth; ++k)
+    teeth.push_back(static_cast<int>(k * static_cast<std::size_t>(gear.teeth) / plan.teeth));
+  return teeth;
+}
+
+std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, const Flank& flank,
+                                        std::size_t points) {
   std::vector<FlankTouch> touches;
-  for (const double s : places(host::profile_range(gear, 0.92)))
-    touches.push_back({{side, 0}, s, 0.0});
+  for (const double s : places(host::profile_range(gear, 0.92), points))
+    touches.push_back({flank, s, 0.0});
   return touches;
 }
 
 // A lead ends with the gear.
-std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, FlankSide side) {
+std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, const Flank& flank,
+                                     std::size_t points) {
   std::vector<FlankTouch> touches;
-  for (const double x : places(host::lead_range(gear))) {
-    if (x >= 0.0 && x <= gear.width) touches.push_back({{side, 0}, pitch_roll(gear), x});
+  for (const double x : places(host::lead_range(gear), points)) {
+    if (x >= 0.0 && x <= gear.width) touches.push_back({flank, pitch_roll(gear), x});
   }
   return touches;
 }
@@ -53,7 +65,7 @@ std::vector<FlankTouch> pitch_touches(const InvoluteGear& gear, FlankSide side) 
 
 void require_ball_fits(const InvoluteGear& gear, double ball_radius, const std::string& name) {
   constexpr double kClear_mm = 0.5;
-  const FlankTouch deepest = profile_touches(gear, FlankSide::left).front();
+  const FlankTouch deepest = profile_touches(gear, {FlankSide::left, 0}).front();
   const Transverse centre = ball_centre_at(gear, deepest.flank, deepest.roll_length, ball_radius);
   FlankDistance other;
   const bool beyond = distance_from_flank(gear, {FlankSide::right, 1}, centre, 0.0, other).ok();

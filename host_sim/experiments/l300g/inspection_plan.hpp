@@ -17,9 +17,18 @@ inline constexpr std::array<const char*, 2> kSideNames{"left", "right"};
 // Roll length of the middle of the flank, where pitch and lead are taken.
 [[nodiscard]] double pitch_roll(const InvoluteGear& gear);
 
-// Tooth 0, from root to tip; along the width; every tooth once.
-[[nodiscard]] std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, FlankSide side);
-[[nodiscard]] std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, FlankSide side);
+// What profile and lead are taken of.
+struct TracePlan {
+  std::size_t teeth = 1;     // spread evenly round the gear, from tooth 0 on
+  std::size_t points = 101;  // within the evaluation range of ISO 1328-1:1995, both ends included
+};
+[[nodiscard]] std::vector<int> traced_teeth(const InvoluteGear& gear, const TracePlan& plan);
+
+// From root to tip; along the width; every tooth once.
+[[nodiscard]] std::vector<FlankTouch> profile_touches(const InvoluteGear& gear, const Flank& flank,
+                                                      std::size_t points = TracePlan{}.points);
+[[nodiscard]] std::vector<FlankTouch> lead_touches(const InvoluteGear& gear, const Flank& flank,
+                                                   std::size_t points = TracePlan{}.points);
 [[nodiscard]] std::vector<FlankTouch> pitch_touches(const InvoluteGear& gear, FlankSide side);
 
 // Throws UserError with `name` where a ball of this radius, mm, on one flank of a tooth space is
@@ -32,6 +41,7 @@ struct InspectionSetup {
   InvoluteGear gear;
   PathStyle style = PathStyle::fixed_a;
   double ball_radius = 0.0;  // effective, mm
+  TracePlan traces{};
 
   // Y with the ball beside the gear.
   [[nodiscard]] double beside() const;

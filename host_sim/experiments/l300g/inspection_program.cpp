@@ -97,8 +97,13 @@ std::string inspection_program(const InspectionSetup& setup, const std::string& 
   Program program(setup, title, offset_for);
   for (std::size_t side = 0; side < kSides.size(); ++side) {
     const std::string flank = std::string(kSideNames[side]) + " flank, ";
-    program.trace(flank + "profile", profile_touches(setup.gear, kSides[side]), false);
-    program.trace(flank + "lead", lead_touches(setup.gear, kSides[side]), false);
+    const std::size_t points = setup.traces.points;
+    for (const int number : traced_teeth(setup.gear, setup.traces)) {
+      const Flank tooth{kSides[side], number};
+      const std::string of = fmt::format(" of tooth {}", number);
+      program.trace(flank + "profile" + of, profile_touches(setup.gear, tooth, points), false);
+      program.trace(flank + "lead" + of, lead_touches(setup.gear, tooth, points), false);
+    }
     program.trace(flank + "pitch", pitch_touches(setup.gear, kSides[side]), true);
   }
   return program.end();

@@ -19,7 +19,7 @@ using OffsetFor = std::function<Pose(const Pose&)>;
 // Δq of the correcting axes with Δq = −J⁺ E(q + Δq). Throws UserError where they cannot act.
 [[nodiscard]] Pose compensation_at(const VolumetricModel& model, const Pose& pose);
 
-// Profile and lead of tooth 0 and the pitch of all teeth, left flanks, then right ones. mm,
+// Profile and lead as planned and the pitch of all teeth, left flanks, then right ones. mm,
 // degrees, mm/min; feeds of blocks that move only B are in degrees per minute. All blocks of a
 // touch have the offset of its contact. `title`: one line, for the comment at the beginning.
 [[nodiscard]] std::string inspection_program(const InspectionSetup& setup, const std::string& title,

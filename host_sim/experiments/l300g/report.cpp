@@ -162,13 +162,16 @@ json before_after(const L300gResult& r) {
   const auto grade = [](const std::optional<int>& g) {
     return grade_text(g, GearStandard::iso1328_1995);
   };
+  const std::size_t teeth = r.options.rules.traces.teeth;
+  const std::string worst = teeth > 1 ? fmt::format(" (worst of {} teeth)", teeth) : "";
   const auto traces = [&](const char* what, auto member) {
     for (std::size_t side = 0; side < kSides.size(); ++side) {
       const host::FlankTrace& before = (r.before.*member)[side];
       const host::FlankTrace& after = (r.after.*member)[side];
-      lines.push_back({fmt::format("{}, {} flank", what, kSideNames[side]), before.figures.total,
-                       after.figures.total, (r.truth.*member)[side].figures.total,
-                       grade(before.grade_1995), grade(after.grade_1995)});
+      lines.push_back({fmt::format("{}{}, {} flank", what, worst, kSideNames[side]),
+                       before.figures.total, after.figures.total,
+                       (r.truth.*member)[side].figures.total, grade(before.grade_1995),
+                       grade(after.grade_1995)});
     }
   };
   traces("profile F_α", &GearInspection::profile);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 #include "host_sim/experiments/l300g/inspection_program.hpp"
@@ -105,7 +107,8 @@ GearInspection inspect(const Inspection& run, host::TableKind kind, FeedCheck* f
   grinder.mount(run.gear,
                 kind == host::TableKind::none ? Mounted::gear_before : Mounted::gear_after);
   grinder.prober().configure(probe_of(run.hall.file, run.rc));
-  const InspectionSetup setup{grinder.geometry(), run.involute, run.options.path, run.rc};
+  const InspectionSetup setup{grinder.geometry(), run.involute, run.options.path, run.rc,
+                              run.options.rules.traces};
   GearInspector inspector(grinder, setup, run.options.rules);
   GearInspection result = inspector.inspect();
   result.program = program(run, kind, setup, grinder.chain());
@@ -151,6 +154,8 @@ L300gResult run_l300g(const L300gOptions& options, const host::Progress& progres
   if (result.machine.probe)
     require_ball_fits(result.gear, result.machine.probe->radius_mm,
                       options.gear.empty() ? "master gear" : options.gear.string());
+  if (options.rules.traces.teeth > static_cast<std::size_t>(result.gear.teeth))
+    throw host::UserError(fmt::format("--teeth: the gear has {}", result.gear.teeth));
   const GrinderHall hall{
       result.machine,
       make_l300g_truth(result.machine, grinder_errors(options.errors), options.seed),

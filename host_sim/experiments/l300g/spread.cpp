@@ -45,24 +45,58 @@ MeasuredOnce figures_of(const L300gResult& r) {
                      worse(r.before.lead[side].grade_1995, r.truth.lead[side].grade_1995);
   }
   m.own_grades = same_grades(r.after, r.truth);
+  m.profile_teeth = r.after.profile_teeth;
+  m.lead_teeth = r.after.lead_teeth;
   return m;
+}
+
+std::string filter_text(const InspectionRules& rules) {
+  constexpr std::size_t kWanted = 150;
+  if (!rules.filter) return "no filter";
+  return fmt::format(
+      "Gaussian filter of ISO 1328-1:2013, a thirtieth of the range and at least 0.25 mm{}",
+      rules.traces.points < kWanted ? fmt::format(" (that edition asks for {} points)", kWanted)
+                                    : "");
+}
+
+json teeth_of(const std::array<SeveralTeeth, 2>& teeth) {
+  return {{"mean_um", {teeth[0].mean, teeth[1].mean}},
+          {"of_mean_trace_um", {teeth[0].of_mean_trace, teeth[1].of_mean_trace}}};
+}
+
+std::array<SeveralTeeth, 2> teeth_from(const json& j) {
+  const auto mean = host::numbers_of<2>(j.at("mean_um"), "mean_um");
+  const auto of_mean = host::numbers_of<2>(j.at("of_mean_trace_um"), "of_mean_trace_um");
+  return {{{mean[0], of_mean[0]}, {mean[1], of_mean[1]}}};
 }
 
 // One row a deviation and flank.
 json table(const SpreadResult& r) {
   json rows = json::array();
-  const auto add = [&](const char* what, std::size_t side, double own, auto value) {
+  const std::size_t teeth = r.options.rules.traces.teeth;
+  const auto add = [&](const std::string& what, std::size_t side, double own, auto value) {
     std::vector<double> values;
     for (const MeasuredOnce& m : r.measurement)
       values.push_back(value(m));
     const host::RangeOfDraws range = host::range_of_draws(values);
     rows.push_back({what, kSideNames.at(side), own, range.median, range.least, range.most});
   };
+  // Of several teeth the worst, the mean of their figures, and the figure of their mean trace.
+  const auto add_trace = [&](const std::string& what, std::size_t side, double own, auto worst,
+                             auto several) {
+    const auto mean = [&](const MeasuredOnce& m) { return (m.*several)[side].mean; };
+    const auto of_mean = [&](const MeasuredOnce& m) { return (m.*several)[side].of_mean_trace; };
+    add(teeth > 1 ? fmt::format("{}, worst of {} teeth", what, teeth) : what, side, own,
+        [&](const MeasuredOnce& m) { return (m.*worst)[side]; });
+    if (teeth == 1) return;
+    add(what + ", mean of them", side, own, mean);
+    add(what + " of the mean trace", side, own, of_mean);
+  };
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    add("F_alpha", side, r.truth.profile[side].figures.total,
-        [side](const MeasuredOnce& m) { return m.profile[side]; });
-    add("F_beta", side, r.truth.lead[side].figures.total,
-        [side](const MeasuredOnce& m) { return m.lead[side]; });
+    add_trace("F_alpha", side, r.truth.profile[side].figures.total, &MeasuredOnce::profile,
+              &MeasuredOnce::profile_teeth);
+    add_trace("F_beta", side, r.truth.lead[side].figures.total, &MeasuredOnce::lead,
+              &MeasuredOnce::lead_teeth);
     add("F_p", side, r.truth.pitch[side].figures.total,
         [side](const MeasuredOnce& m) { return m.pitch[side]; });
   }
@@ -75,16 +109,14 @@ json table(const SpreadResult& r) {
   made["name"] = "spread";
   return host::in_summary(host::with_id(
       "spread", std::move(made),
-      fmt::format("Probe {}: 2σ = {:g} µm in one direction; {} touch{} of a point, {}. Targets of "
-                  "the identification scatter by {:.2g} µm in each direction.",
-                  sim::kProbeClasses.at(r.options.probe).name,
-                  sim::kProbeClasses.at(r.options.probe).repeatability_2s_um,
-                  r.options.rules.touches, r.options.rules.touches == 1 ? "" : "es",
-                  r.options.rules.filter
-                      ? "Gaussian filter of ISO 1328-1:2013, a thirtieth of the range and at "
-                        "least 0.25 mm, on 101 points where that edition asks for 150"
-                      : "no filter",
-                  r.options.target_um())));
+      fmt::format(
+          "Probe {}: 2σ = {:g} µm in one direction; {} touch{} of a point, {} points within "
+          "a range, {}. Targets of the identification scatter by {:.2g} µm in each "
+          "direction.",
+          sim::kProbeClasses.at(r.options.probe).name,
+          sim::kProbeClasses.at(r.options.probe).repeatability_2s_um, r.options.rules.touches,
+          r.options.rules.touches == 1 ? "" : "es", r.options.rules.traces.points,
+          filter_text(r.options.rules), r.options.target_um())));
 }
 
 json histogram(const SpreadResult& r) {
@@ -133,7 +165,9 @@ json settings_of(const L300gOptions& o, const std::vector<host::HashedInput>& in
           {"probe", sim::kProbeClasses.at(o.probe).name},
           {"target_um", o.target_um()},
           {"touches", o.rules.touches},
-          {"filter", o.rules.filter}};
+          {"filter", o.rules.filter},
+          {"teeth", o.rules.traces.teeth},
+          {"points", o.rules.traces.points}};
 }
 
 std::size_t probe_named(const std::string& name) {
@@ -184,7 +218,9 @@ host::PartialRun part_of_spread(const SpreadResult& r, const SpreadPlan& plan) {
                          {"lead_um", m.lead},
                          {"pitch_um", m.pitch},
                          {"before_worse", m.before_worse},
-                         {"own_grades", m.own_grades}};
+                         {"own_grades", m.own_grades},
+                         {"profile_teeth", teeth_of(m.profile_teeth)},
+                         {"lead_teeth", teeth_of(m.lead_teeth)}};
   }
   return part;
 }
@@ -197,13 +233,17 @@ SpreadResult collect_spread(const host::PartialRun& all) {
   r.options.seed = all.run.at("seed").get<std::uint64_t>();
   r.options.probe = probe_named(all.run.at("probe").get<std::string>());
   r.options.tracker_um = all.run.at("target_um").get<double>();
-  r.options.rules = {all.run.at("touches").get<std::size_t>(), all.run.at("filter").get<bool>()};
+  r.options.rules = {
+      all.run.at("touches").get<std::size_t>(),
+      all.run.at("filter").get<bool>(),
+      {all.run.at("teeth").get<std::size_t>(), all.run.at("points").get<std::size_t>()}};
   if (all.draws == 0) throw host::UserError("the parts are of a run without measurements");
   for (const auto& [number, m] : all.draw)
     r.measurement.push_back({host::numbers_of<2>(m.at("profile_um"), "profile_um"),
                              host::numbers_of<2>(m.at("lead_um"), "lead_um"),
                              host::numbers_of<2>(m.at("pitch_um"), "pitch_um"),
-                             m.at("before_worse").get<bool>(), m.at("own_grades").get<bool>()});
+                             m.at("before_worse").get<bool>(), m.at("own_grades").get<bool>(),
+                             teeth_from(m.at("profile_teeth")), teeth_from(m.at("lead_teeth"))});
   return r;
 }
 

@@ -9,11 +9,13 @@ namespace volcomp::l300g {
 
 // One measurement after compensation, by kSides; µm.
 struct MeasuredOnce {
-  std::array<double, 2> profile{};  // F_α
-  std::array<double, 2> lead{};     // F_β
+  std::array<double, 2> profile{};  // F_α, of the worst tooth
+  std::array<double, 2> lead{};     // F_β, likewise
   std::array<double, 2> pitch{};    // F_p
   bool before_worse = false;        // a profile or lead had a worse grade uncompensated
   bool own_grades = false;          // profile and lead have the grades of the gear
+  std::array<SeveralTeeth, 2> profile_teeth{};
+  std::array<SeveralTeeth, 2> lead_teeth{};
 };
 
 struct SpreadResult {
