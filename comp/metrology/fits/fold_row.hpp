@@ -13,13 +13,15 @@ namespace volcomp {
 template <int N>
 void fold_row(Eigen::Matrix<double, N, N>& triangle, Eigen::Matrix<double, 1, N> row) {
   for (Eigen::Index i = 0; i < N; ++i) {
+    if (!(std::abs(row(i)) > 0.0)) continue;
     const double length = std::hypot(triangle(i, i), row(i));
-    if (!(length > 0.0)) continue;
     const double c = triangle(i, i) / length;
     const double s = row(i) / length;
-    const Eigen::Matrix<double, 1, N> kept = triangle.row(i);
-    triangle.row(i) = c * kept + s * row;
-    row = c * row - s * kept;
+    for (Eigen::Index j = i; j < N; ++j) {
+      const double kept = triangle(i, j);
+      triangle(i, j) = c * kept + s * row(j);
+      row(j) = c * row(j) - s * kept;
+    }
   }
 }
 

@@ -42,24 +42,36 @@ class Circles {
         bar_(bar),
         draw_(draw),
         xyz_(xyz),
-        setup_(set_up(plan, bar, draw)) {}
+        setup_(set_up(plan, bar, draw)) {
+    for (std::size_t direction = 0; direction < path_.size(); ++direction)
+      for (std::size_t i = 0; i < plan.readings; ++i)
+        path_.at(direction).push_back(radial(angle(direction, i), sense(direction)));
+  }
 
   [[nodiscard]] host::BallBarCircle go_round(std::size_t direction, std::size_t run) {
-    const double sense = direction == 0 ? 1.0 : -1.0;
     host::BallBarCircle circle;
     circle.run = static_cast<long>(run) + 1;
-    const auto n = static_cast<double>(plan_.readings);
     for (std::size_t i = 0; i < plan_.readings; ++i) {
-      // Clockwise from the same angle, so that both directions are read at the same ones.
-      const double theta = sense * 2.0 * kPi * static_cast<double>(i) / n;
-      circle.theta.push_back(theta);
-      circle.radial.push_back(read(theta, sense));
+      circle.theta.push_back(angle(direction, i));
+      circle.radial.push_back(path_.at(direction)[i] + noise());
     }
     return circle;
   }
 
  private:
-  [[nodiscard]] double read(double theta, double sense) {
+  static double sense(std::size_t direction) { return direction == 0 ? 1.0 : -1.0; }
+  // Clockwise from the same angle, so that both directions are read at the same ones.
+  [[nodiscard]] double angle(std::size_t direction, std::size_t i) const {
+    return sense(direction) * 2.0 * kPi * static_cast<double>(i) /
+           static_cast<double>(plan_.readings);
+  }
+  [[nodiscard]] double noise() {
+    return bar_.reading * normal(draw_.seed, {static_cast<std::uint32_t>(RandomStream::ball_bar),
+                                              draw_.draw, draw_.setup, reading_++});
+  }
+
+  // Without the noise of a reading: the same in every run.
+  [[nodiscard]] double radial(double theta, double sense) const {
     const auto a = static_cast<Eigen::Index>(plan_.first);
     const auto b = static_cast<Eigen::Index>(plan_.second);
     const double at = theta + setup_.start_angle;
@@ -75,9 +87,7 @@ class Circles {
     socket(3 - a - b) += setup_.socket(2);
     const double length = (p + error(p, approach) - socket).norm() + setup_.length;
     return length - plan_.radius + setup_.sensor[0] * std::cos(2.0 * theta) +
-           setup_.sensor[1] * std::sin(2.0 * theta) +
-           bar_.reading * normal(draw_.seed, {static_cast<std::uint32_t>(RandomStream::ball_bar),
-                                              draw_.draw, draw_.setup, reading_++});
+           setup_.sensor[1] * std::sin(2.0 * theta);
   }
 
   [[nodiscard]] Vec3 error(const Vec3& p, const Approach& approach) const {
@@ -94,6 +104,7 @@ class Circles {
   BallBarDraw draw_;
   std::array<std::size_t, 3> xyz_;
   BarSetup setup_;
+  std::array<std::vector<double>, 2> path_;  // radial, by direction
   std::uint32_t reading_ = 0;
 };
 

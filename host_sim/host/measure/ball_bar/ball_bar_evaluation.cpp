@@ -56,6 +56,8 @@ class Evaluation {
 
   BallBarEvaluation run() {
     decompose();
+    for (auto& path : e_.path)
+      if (path) path->spikes = circle_spikes(path->theta, path->residual);
     take_figures();
     e_.u_squareness = std::max(e_.decomposition.u.squareness, spread_of_squareness());
     e_.sensor_squareness = 2.0 * kBallBarSensor / *test_.radius;
@@ -81,8 +83,6 @@ class Evaluation {
     if (!std::isfinite(e_.decomposition.value.squareness) ||
         !std::isfinite(e_.decomposition.u.squareness))
       throw UserError(test_.name + ": the readings do not determine the parts of the form");
-    for (auto& path : e_.path)
-      if (path) path->spikes = circle_spikes(path->theta, path->residual);
     return e_.decomposition;
   }
 
