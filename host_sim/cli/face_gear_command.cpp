@@ -6,6 +6,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
+#include "host_sim/cli/probe_option.hpp"
 #include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/face_gear/figures.hpp"
@@ -24,9 +25,10 @@ struct FaceGearArguments : RunArguments {
   std::string map_folder;    // empty: none
   std::string gcode_folder;  // empty: none
   bool noise_free = false;
-  bool repeatability = false;    // the experiments of section 3.3 in place of a gear
-  face_gear::SpreadPlan spread;  // measurements, each of another machine and gear
-  std::string shard;             // empty: all of them
+  std::optional<std::size_t> probe;  // of sim::kProbeClasses; empty: as the machine file says
+  bool repeatability = false;        // the experiments of section 3.3 in place of a gear
+  face_gear::SpreadPlan spread;      // measurements, each of another machine and gear
+  std::string shard;                 // empty: all of them
 };
 
 // Several measurements: each has a bus of its own, in this process.
@@ -43,14 +45,13 @@ void check(const FaceGearArguments& a) {
     throw host::UserError("--repeatability: --shard is for measurements of a gear");
 }
 
-// The probe of the paper's machine is an LP2 (its Table 2).
-constexpr std::size_t kUsualProbe = 2;  // of sim::kProbeClasses
 constexpr int kUsualTouches = 2;
 
 face_gear::FaceGearOptions options_of(const FaceGearArguments& arguments) {
   face_gear::FaceGearOptions options = arguments.options;
   options.machine = machine_of(arguments, "yk7280");
   options.cycle_hz = arguments.node.cycle_hz;
+  options.probe = arguments.probe.value_or(probe_class_of(options.machine));
   if (arguments.noise_free) {
     options.probe = 0;
     options.touches = 1;
@@ -115,9 +116,11 @@ RunOutcome face_gear_outcome(RunPlace& place, const FaceGearArguments& arguments
 // How touches and targets scatter, and what is done against it.
 void add_scatter_options(CLI::App& face_gear, FaceGearArguments& a) {
   std::vector<CLI::Option*> noise;
-  noise.push_back(add_choice<std::size_t>(face_gear, "--probe", a.options.probe,
-                                          {{"none", 0}, {"rmp600", 1}, {"lp2", 2}},
-                                          "How far touches scatter: not, 2σ = 0.5 µm, 2σ = 1 µm"));
+  noise.push_back(add_probe_class(face_gear, a.probe));
+  noise.push_back(add_choice<bool>(
+      face_gear, "--radius", a.options.map_radius, {{"mapped", true}, {"file", false}},
+      "Effective radius of the ball: by direction, mapped on a sphere, or the one of the machine "
+      "file"));
   noise.push_back(
       face_gear
           .add_option("--touches", a.options.touches, "Touches of each point; their mean counts")
@@ -163,7 +166,6 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
   a->node.can = "loopback";
   a->node.cycle_hz = sim::kBusCycleOfFive_hz;
   face_gear::FaceGearOptions& options = a->options;
-  options.probe = kUsualProbe;
   options.touches = kUsualTouches;
   face_gear
       ->add_option("--gear", options.gear,

@@ -7,6 +7,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
+#include "host_sim/cli/probe_option.hpp"
 #include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/l300g/figures.hpp"
@@ -18,15 +19,13 @@
 namespace volcomp::cli {
 namespace {
 
-// Of the paper: a Renishaw LP2H.
-constexpr std::size_t kDefaultProbe = 2;
-
 struct L300gArguments : RunArguments {
   l300g::L300gOptions options;
   std::string gcode_folder;  // empty: none
   l300g::SpreadPlan spread;  // measurements, each with random numbers of its own
   std::string shard;         // empty: all of them
   bool noise_free = false;
+  std::optional<std::size_t> probe;    // of sim::kProbeClasses; empty: as the machine file says
   std::optional<std::size_t> touches;  // of a point
   bool filter = false;
   bool no_filter = false;
@@ -80,9 +79,11 @@ RunOutcome l300g_outcome(RunPlace& place, const L300gArguments& arguments,
 
 // How touches scatter, and what is done against it.
 void add_probe_options(CLI::App& l300g, L300gArguments& a) {
-  CLI::Option* probe = add_choice<std::size_t>(
-      l300g, "--probe", a.options.probe, {{"none", 0}, {"rmp600", 1}, {"lp2", 2}},
-      "How far touches scatter: not, 2σ = 0.5 µm, 2σ = 1 µm");
+  CLI::Option* probe = add_probe_class(l300g, a.probe);
+  CLI::Option* radius = add_choice<bool>(
+      l300g, "--radius", a.options.map_radius, {{"mapped", true}, {"mandrel", false}},
+      "What the node takes for the effective radius of the ball: by direction, mapped on a "
+      "sphere, or the one that the mandrel gives, as in the paper");
   CLI::Option* touches =
       l300g
           .add_option(
@@ -131,6 +132,7 @@ void add_probe_options(CLI::App& l300g, L300gArguments& a) {
   l300g
       .add_flag("--noise-free", a.noise_free, "Nothing scatters: what the mathematics alone can do")
       ->excludes(probe)
+      ->excludes(radius)
       ->excludes(touches)
       ->excludes(target_touches)
       ->excludes(tracker)
@@ -140,7 +142,7 @@ void add_probe_options(CLI::App& l300g, L300gArguments& a) {
 // What was not said follows the probe.
 void settle(L300gArguments& a) {
   l300g::L300gOptions& o = a.options;
-  if (a.noise_free) o.probe = 0;
+  o.probe = a.noise_free ? 0 : a.probe.value_or(probe_class_of(machine_of(a, "l300g")));
   o.rules.touches = a.touches.value_or(l300g::kLeastTouches.at(o.probe));
   o.rules.filter = a.filter || (o.probe != 0 && !a.no_filter);
 }
@@ -155,7 +157,6 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
   a->node.can = "loopback";
   a->node.cycle_hz = sim::kBusCycleOfFive_hz;
   l300g::L300gOptions& options = a->options;
-  options.probe = kDefaultProbe;
   add_choice<PathStyle>(*l300g, "--path", options.path,
                         {{"fixed-a", PathStyle::fixed_a}, {"generate", PathStyle::generate}},
                         "How a flank is followed");

@@ -100,10 +100,11 @@ std::string scatter_text(const FaceGearOptions& o) {
                                               o.targets.touches, kUmPerMm * target_sigma_mm(o));
   const FaceScatter scatter = scatter_of(o);
   return fmt::format(
-      "Probe {}: 2σ = {:g} µm in one direction, scales of the slides read to {:g} µm: {:.2f} µm "
-      "(1σ) a touch, {} touch{} of a point. Targets that identify the axes: found {} in each "
+      "Probe {}: {}; its radius {}; scales of the slides read to {:g} µm: {:.2f} µm (1σ) a touch, "
+      "{} touch{} of a point. Targets that identify the axes: found {} in each "
       "coordinate (1σ).",
-      sim::kProbeClasses.at(o.probe).name, sim::kProbeClasses.at(o.probe).repeatability_2s_um,
+      sim::kProbeClasses.at(o.probe).name, sim::probe_text(sim::kProbeClasses.at(o.probe)),
+      o.map_radius ? "mapped on a sphere" : "as the machine file has it",
       kUmPerMm * scatter.slide_step_mm, kUmPerMm * scatter.sigma_mm(), o.touches,
       o.touches == 1 ? "" : "es", found);
 }

@@ -43,10 +43,10 @@ FaceStationTouch FaceInspector::touch(const PlannedTouch& planned) {
     const FaceStationTouch one =
         station_.touch(name, {node.point, node.normal}, row, column,
                        k == 0 ? TouchFrom::beside : TouchFrom::where_it_was);
-    const FaceTouch here = judge_touch(gear_, flank, {radius_, kGate_mm}, one.ball);
+    const FaceTouch here = judge_touch(gear_, flank, {one.radius, kGate_mm}, one.ball);
     agree(here, one.judgement);
     if (k == 0 || one.judgement.verdict != Reason::ok) mean.judgement = one.judgement;
-    mean.ball += one.ball / rules_.touches;
+    mean.ball += one.centre_of(radius_) / rules_.touches;
     if (here.foot.reason != Reason::ok) continue;  // no distance
     least = std::min(least, here.distance);
     most = std::max(most, here.distance);

@@ -132,12 +132,11 @@ FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStag
 
 }  // namespace
 
-FaceScatter scatter_of(const FaceGearOptions& options) {
+FaceScatter scatter_of(const FaceGearOptions& options, const Vec3& stylus) {
   FaceScatter scatter;
   scatter.seed = options.seed;
   if (options.probe == 0) return scatter;
-  scatter.noise.repeatability_2s =
-      sim::kProbeClasses.at(options.probe).repeatability_2s_um / kUmPerMm;
+  scatter.probe = {sim::touch_noise(sim::kProbeClasses.at(options.probe), options.seed), stylus};
   scatter.slide_step_mm = kSlideStep_mm;
   return scatter;
 }
@@ -145,6 +144,16 @@ FaceScatter scatter_of(const FaceGearOptions& options) {
 double target_sigma_mm(const FaceGearOptions& options) {
   if (options.targets.tracker_um > 0.0) return options.targets.tracker_um / kUmPerMm;
   return scatter_of(options).sigma_mm() / std::sqrt(static_cast<double>(options.targets.touches));
+}
+
+std::optional<LobingMap> calibrated(const FaceGearResult& run, const FaceScatter& scatter) {
+  if (run.options.probe == 0) return std::nullopt;
+  const double stated = run.machine.probe->radius_mm;
+  if (run.options.map_radius)
+    return sim::calibrated_on_sphere(scatter.probe, stated, {run.options.seed, 0});
+  LobingMap constant;
+  constant.coefficient[0] = stated;
+  return constant;
 }
 
 FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progress& progress) {
@@ -165,6 +174,7 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progres
   run.worked_example_deg = worked_example_deg(run.gear);
   run.kernel_ns = measure_kernel_ns(run.gear, run.grid);
 
+  const FaceScatter scatter = scatter_of(options, run.machine.probe->stylus);
   const FaceHall hall{run.machine,
                       make_yk7280_truth(run.machine, options.seed),
                       run.gear,
@@ -173,7 +183,8 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progres
                       options.make_axes,
                       options.cycle_hz,
                       options.seed,
-                      scatter_of(options)};
+                      scatter,
+                      calibrated(run, scatter)};
   progress(0.0, "identification of the machine");
   const host::Identification identification =
       sim::identify_axes(hall.truth, run.machine, {target_sigma_mm(options), options.seed, 0})

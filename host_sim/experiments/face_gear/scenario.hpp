@@ -32,6 +32,7 @@ struct FaceGearOptions {
   FormTruth form = FormTruth::tables;
   std::uint64_t seed = 1;  // of the errors of machine and gear, and of all scatter
   std::size_t probe = 0;   // of sim::kProbeClasses; with none the scales have no steps either
+  bool map_radius = true;  // by direction, from a sphere; else the one radius of the file counts
   int touches = 1;         // of each point; their mean counts
   TargetReading targets{};
   std::size_t knots = kDefaultKnots;
@@ -40,7 +41,9 @@ struct FaceGearOptions {
 };
 
 // What a touch scatters by, from the class of the probe and the scales of the slides.
-[[nodiscard]] FaceScatter scatter_of(const FaceGearOptions& options);
+// `stylus`: its axis in the tool frame.
+[[nodiscard]] FaceScatter scatter_of(const FaceGearOptions& options,
+                                     const Vec3& stylus = Vec3::UnitZ());
 // Standard deviation of a coordinate of a target, mm.
 [[nodiscard]] double target_sigma_mm(const FaceGearOptions& options);
 

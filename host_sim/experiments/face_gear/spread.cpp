@@ -100,6 +100,7 @@ json settings_of(const FaceGearOptions& o, const std::vector<host::HashedInput>&
           {"seed", o.seed},
           {"cycle_hz", o.cycle_hz},
           {"probe", sim::kProbeClasses.at(o.probe).name},
+          {"radius", o.map_radius ? "mapped" : "file"},
           {"touches", o.touches},
           {"target_touches", o.targets.touches},
           {"tracker_um", o.targets.tracker_um}};

@@ -15,10 +15,15 @@ namespace {
 constexpr std::uint32_t kDeployments = 1000;  // more than any station sees
 constexpr sim::ProbingFeeds kFeeds{50.0, 5.0, 20.0};
 
+// The slides X, Y, Z lie along the axes of base.
+Vec3 along(const Pose& from, const Pose& to) {
+  return Vec3(to[0] - from[0], to[1] - from[1], to[2] - from[2]).normalized();
+}
+
 }  // namespace
 
 double FaceScatter::sigma_mm() const {
-  return std::hypot(noise.sigma(), slide_step_mm / std::sqrt(12.0));
+  return std::hypot(probe.noise.sigma(), slide_step_mm / std::sqrt(12.0));
 }
 
 std::function<double(std::uint32_t)> FaceScatter::of_set_up(std::uint32_t set_up) const {
@@ -28,7 +33,7 @@ std::function<double(std::uint32_t)> FaceScatter::of_set_up(std::uint32_t set_up
       return RandomIndex{static_cast<std::uint32_t>(stream), 0, set_up, touch};
     };
     const double in_step = uniforms(scatter.seed, index(RandomStream::repeatability)).u - 0.5;
-    return scatter.noise.sigma() * normal(scatter.seed, index(RandomStream::probe)) +
+    return scatter.probe.noise.sigma() * normal(scatter.seed, index(RandomStream::probe)) +
            scatter.slide_step_mm * in_step;
   };
 }
@@ -64,6 +69,7 @@ void FaceStation::deploy_arm() {
   probe.radius_mm = described.radius.coefficient[0];
   probe.delay_ns = std::llround(1e3 * described.delay_us);
   ++deployments_;
+  if (hall_.radius) hall_.scatter.probe.give_to(probe);
   probe.scatter_mm = hall_.scatter.of_set_up(kDeployments * placement_ + deployments_);
   axes_->mount(sim::TouchProbe(truth_, gear_, probe));
 }
@@ -81,6 +87,11 @@ void FaceStation::believe(const Frame& mounting) {
 void FaceStation::arrive_at(int slot) {
   table_ = path().table_at(slot);
   gear_.turn_table(random_.uniform(-0.5, 0.5) * kScaleStep_rad);
+}
+
+double FaceStation::effective_radius(const Pose& at, const Vec3& normal) const {
+  if (!hall_.radius) return hall_.file.probe->radius_mm;
+  return hall_.radius->radius(chain_.ideal(chain_.tool(), at).R.transpose() * normal);
 }
 
 void FaceStation::retract() {
@@ -107,12 +118,16 @@ FaceStationTouch FaceStation::touch(const FlankName& flank, const SurfacePoint& 
   const double radius = hall_.file.probe->radius_mm;
   const FacePath way = path();
   const auto off = [&](double mm) { return way.ball_at(flank, at, mm, table_); };
+  const Vec3 normal = along(off(0.0), off(1.0));
+  const double effective = effective_radius(off(radius), normal);
   const Pose from = off(radius + (away == TouchFrom::beside ? kStandOff_mm : kAgain_mm));
   approach(flank, from);
-  const sim::FlankFeature feature{kGearId, flank.side, flank.slot, row, column, radius, kGate_mm};
+  const sim::FlankFeature feature{kGearId, flank.side, flank.slot, row,
+                                  column,  effective,  kGate_mm};
   const sim::NodePoint point = prober_->touch(from, off(radius - kOverTravel_mm), feature, kFeeds);
   last_ = from;
-  return {point.workpiece, point.flank};
+  const Mat3 from_base = (chain_.ideal(chain_.work(), from) * believed_).R.transpose();
+  return {point.workpiece, point.flank, effective, from_base * normal};
 }
 
 }  // namespace volcomp::face_gear

@@ -3,19 +3,20 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "comp/tables/machine_tables.hpp"
 #include "host_sim/experiments/face_gear/face_path.hpp"
 #include "host_sim/sim/artefacts/face_gear.hpp"
 #include "host_sim/sim/controller/prober.hpp"
-#include "host_sim/sim/instruments/touch_noise.hpp"
+#include "host_sim/sim/instruments/probe_signature.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 
 namespace volcomp::face_gear {
 
-// How far touches scatter, and which random numbers they take.
+// What touches do besides touching, and which random numbers they take.
 struct FaceScatter {
-  sim::TouchNoise noise;       // of it only the repeatability; none by default
+  sim::ProbeSignature probe;   // none by default
   double slide_step_mm = 0.0;  // of the scales of the slides: a reading lies anywhere in a step
   std::uint64_t seed = 1;
 
@@ -38,6 +39,7 @@ struct FaceHall {
   double cycle_hz = sim::kBusCycleOfFive_hz;
   std::uint64_t seed = 1;
   FaceScatter scatter{};
+  std::optional<LobingMap> radius{};  // as calibrated; none: the one of the machine file
 };
 
 // Limits the paper gives (docs/papers/face-gear.md, "The machine").
@@ -51,6 +53,11 @@ inline constexpr double kGate_mm = 0.25;     // more than a frame is off before 
 struct FaceStationTouch {
   Vec3 ball = Vec3::Zero();  // centre, in the assumed gear frame
   sim::FlankJudgement judgement;
+  double radius = 0.0;         // effective in the direction of the touch, mm
+  Vec3 normal = Vec3::Zero();  // of the part there, in that frame
+
+  // Where the centre of a ball of another radius would have been.
+  [[nodiscard]] Vec3 centre_of(double other) const { return ball + (other - radius) * normal; }
 };
 
 enum class TouchFrom : std::uint8_t { beside, where_it_was };
@@ -80,6 +87,8 @@ class FaceStation {
 
  private:
   [[nodiscard]] FacePath path() const { return {chain_, hall_.gear, believed_}; }
+  // Effective radius where the part pushes the ball along `normal` (base), mm.
+  [[nodiscard]] double effective_radius(const Pose& at, const Vec3& normal) const;
   void arrive_at(int slot);
   void approach(const FlankName& flank, const Pose& from);
 

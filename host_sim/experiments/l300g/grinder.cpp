@@ -44,13 +44,13 @@ void Grinder::mount(const sim::Artefact& artefact, Mounted as,
   const host::NodeProbe described = host::node_probe(hall_.file);
   sim::TouchProbe::Settings probe;
   probe.radius_mm = described.radius.coefficient[0];
-  probe.lobing_mm = std::move(lobing_mm);
+  probe.lobing_mm = lobing_mm;
   probe.delay_ns = std::llround(1e3 * described.delay_us);
   const ProbeScatter& scatter = hall_.scatter;
-  if (scatter.noise.sigma() > 0.0) {
-    probe.scatter_mm = [scatter, as](std::uint32_t touch) {
-      return scatter.noise.sigma() *
-             normal(scatter.seed, {static_cast<std::uint32_t>(RandomStream::probe), scatter.draw,
+  if (const double sigma = scatter.probe.noise.sigma(); sigma > 0.0) {
+    if (!lobing_mm) scatter.probe.give_to(probe);
+    probe.scatter_mm = [sigma, seed = scatter.seed, draw = scatter.draw, as](std::uint32_t touch) {
+      return sigma * normal(seed, {static_cast<std::uint32_t>(RandomStream::probe), draw,
                                    static_cast<std::uint32_t>(as), touch});
     };
   }

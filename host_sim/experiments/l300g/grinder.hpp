@@ -8,7 +8,7 @@
 #include "comp/tables/machine_tables.hpp"
 #include "host_sim/experiments/l300g/truth.hpp"
 #include "host_sim/sim/controller/prober.hpp"
-#include "host_sim/sim/instruments/touch_noise.hpp"
+#include "host_sim/sim/instruments/probe_signature.hpp"
 
 namespace volcomp::l300g {
 
@@ -22,9 +22,9 @@ struct GrinderGeometry {
 // The same machine with the axis of A where the probe has found it, mm.
 [[nodiscard]] MachineDescription with_origin(const MachineChain& chain, double y0, double z0);
 
-// How far the touches of a probe scatter: which class, and which random numbers.
+// What the touches of a probe do, none by default, and which random numbers they take.
 struct ProbeScatter {
-  sim::TouchNoise noise;  // of it only the repeatability; none by default
+  sim::ProbeSignature probe;
   std::uint64_t seed = 1;
   std::uint32_t draw = 0;  // one of several measurements of everything
 };

@@ -196,8 +196,9 @@ json before_after(const L300gResult& r) {
 std::string scatter_text(const L300gOptions& o) {
   const sim::ProbeClass& probe = sim::kProbeClasses.at(o.probe);
   if (o.probe == 0) return "; its touches do not scatter";
-  return fmt::format("; touches scatter with 2σ = {:g} µm ({}), {} of each point{}",
-                     probe.repeatability_2s_um, probe.name, o.rules.touches,
+  return fmt::format("; class {}: {}; radius {}; {} touches of each point{}", probe.name,
+                     sim::probe_text(probe),
+                     o.map_radius ? "mapped on a sphere" : "that of the mandrel", o.rules.touches,
                      o.rules.filter ? ", filtered" : "");
 }
 

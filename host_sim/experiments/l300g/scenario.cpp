@@ -62,9 +62,14 @@ MachineTables tables_at(const Inspection& run, host::TableKind kind,
   return host::tables_of(run.identification, run.hall.file, machine, kind, run.options.knots);
 }
 
-host::NodeProbe probe_of(const host::MachineFile& file, double rc) {
-  host::NodeProbe probe = host::node_probe(file);
-  probe.radius.coefficient[0] = rc;
+// A probe that gives way by direction is calibrated on a sphere, too.
+host::NodeProbe probe_of(const Inspection& run) {
+  const ProbeScatter& scatter = run.hall.scatter;
+  host::NodeProbe probe = host::node_probe(run.hall.file);
+  const double stated = probe.radius.coefficient[0];
+  probe.radius.coefficient[0] = run.rc;
+  if (run.options.probe != 0 && run.options.map_radius)
+    probe.radius = sim::calibrated_on_sphere(scatter.probe, stated, {scatter.seed, scatter.draw});
   return probe;
 }
 
@@ -106,7 +111,7 @@ GearInspection inspect(const Inspection& run, host::TableKind kind, FeedCheck* f
   Grinder grinder(run.hall, tables_at(run, kind, machine));
   grinder.mount(run.gear,
                 kind == host::TableKind::none ? Mounted::gear_before : Mounted::gear_after);
-  grinder.prober().configure(probe_of(run.hall.file, run.rc));
+  grinder.prober().configure(probe_of(run));
   const InspectionSetup setup{grinder.geometry(), run.involute, run.options.path, run.rc,
                               run.options.rules.traces};
   GearInspector inspector(grinder, setup, run.options.rules);
@@ -116,10 +121,10 @@ GearInspection inspect(const Inspection& run, host::TableKind kind, FeedCheck* f
   return result;
 }
 
-ProbeScatter scatter_of(const L300gOptions& options) {
+ProbeScatter scatter_of(const L300gOptions& options, const Vec3& stylus) {
   ProbeScatter scatter;
-  scatter.noise.repeatability_2s =
-      sim::kProbeClasses.at(options.probe).repeatability_2s_um / kUmPerMm;
+  if (options.probe != 0)
+    scatter.probe = {sim::touch_noise(sim::kProbeClasses.at(options.probe), options.seed), stylus};
   scatter.seed = options.seed;
   scatter.draw = options.draw;
   return scatter;
@@ -159,7 +164,9 @@ L300gResult run_l300g(const L300gOptions& options, const host::Progress& progres
   const GrinderHall hall{
       result.machine,
       make_l300g_truth(result.machine, grinder_errors(options.errors), options.seed),
-      options.make_axes, options.cycle_hz, scatter_of(options)};
+      options.make_axes, options.cycle_hz,
+      scatter_of(options,
+                 result.machine.probe ? result.machine.probe->stylus : Vec3(Vec3::UnitZ()))};
   const sim::Gear gear(result.gear, [own = OwnDeviation(result.gear)](
                                         const Flank&, double s, double x) { return own(s, x); });
 

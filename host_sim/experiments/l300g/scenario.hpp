@@ -51,7 +51,8 @@ struct L300gOptions {
   std::size_t knots = kDefaultKnots;                     // per table: what the node has room for
   double cycle_hz = sim::kBusCycleOfFive_hz;
   sim::BusAxesFactory make_axes = sim::loopback_axes();
-  std::size_t probe = 0;  // of sim::kProbeClasses
+  std::size_t probe = 0;   // of sim::kProbeClasses
+  bool map_radius = true;  // by direction, from a sphere; else the one radius of the mandrel counts
   // Standard deviation of each coordinate of a target where an instrument beside the machine reads
   // them; none: its own probe finds them, as in section 2.2 of the paper.
   std::optional<double> tracker_um;

@@ -107,16 +107,17 @@ json table(const SpreadResult& r) {
        host::column("least", "µm", 2, "least_um"), host::column("most", "µm", 2, "most_um")},
       rows);
   made["name"] = "spread";
-  return host::in_summary(host::with_id(
-      "spread", std::move(made),
-      fmt::format(
-          "Probe {}: 2σ = {:g} µm in one direction; {} touch{} of a point, {} points within "
-          "a range, {}. Targets of the identification scatter by {:.2g} µm in each "
-          "direction.",
-          sim::kProbeClasses.at(r.options.probe).name,
-          sim::kProbeClasses.at(r.options.probe).repeatability_2s_um, r.options.rules.touches,
-          r.options.rules.touches == 1 ? "" : "es", r.options.rules.traces.points,
-          filter_text(r.options.rules), r.options.target_um())));
+  return host::in_summary(
+      host::with_id("spread", std::move(made),
+                    fmt::format("Probe {}: {}; radius {}; {} touch{} of a point, {} points within "
+                                "a range, {}. Targets of "
+                                "the identification scatter by {:.2g} µm in each direction.",
+                                sim::kProbeClasses.at(r.options.probe).name,
+                                sim::probe_text(sim::kProbeClasses.at(r.options.probe)),
+                                r.options.map_radius ? "mapped on a sphere" : "that of the mandrel",
+                                r.options.rules.touches, r.options.rules.touches == 1 ? "" : "es",
+                                r.options.rules.traces.points, filter_text(r.options.rules),
+                                r.options.target_um())));
 }
 
 json histogram(const SpreadResult& r) {
@@ -163,6 +164,7 @@ json settings_of(const L300gOptions& o, const std::vector<host::HashedInput>& in
           {"seed", o.seed},
           {"cycle_hz", o.cycle_hz},
           {"probe", sim::kProbeClasses.at(o.probe).name},
+          {"radius", o.map_radius ? "mapped" : "mandrel"},
           {"target_um", o.target_um()},
           {"touches", o.rules.touches},
           {"filter", o.rules.filter},
@@ -232,6 +234,7 @@ SpreadResult collect_spread(const host::PartialRun& all) {
   r.options.errors = all.run.at("errors").get<std::string>();
   r.options.seed = all.run.at("seed").get<std::uint64_t>();
   r.options.probe = probe_named(all.run.at("probe").get<std::string>());
+  r.options.map_radius = all.run.at("radius").get<std::string>() == "mapped";
   r.options.tracker_um = all.run.at("target_um").get<double>();
   r.options.rules = {
       all.run.at("touches").get<std::size_t>(),

@@ -72,6 +72,9 @@ struct AxisFile {
 struct ProbeFile {
   double radius_mm = 0.0;  // effective, of the ball
   double delay_us = 0.0;   // from the contact to the edge at the drives
+  // For simulations: of kProbeClassNames; none: as the experiment has it.
+  std::optional<std::size_t> probe_class;
+  Vec3 stylus = Vec3::UnitZ();  // its axis, tool frame
 };
 
 // Squareness measured at a place: by circles of a ball bar about a point, or along three lines

@@ -10,6 +10,7 @@
 #include "comp/metrology/tables/plausibility.hpp"
 #include "comp/probe/probe_rule.hpp"
 #include "comp/tick/offset_units.hpp"
+#include "host_sim/host/machine/probe_class_names.hpp"
 
 namespace volcomp::host {
 
@@ -140,13 +141,17 @@ double read_delay_us(const TomlSection& s, const std::string& key) {
 }
 
 ProbeFile read_probe(const TomlSection& s) {
-  s.allow_only({"radius_mm", "delay_us"});
+  s.allow_only({"radius_mm", "delay_us", "class", "stylus"});
   ProbeFile probe;
   probe.radius_mm = s.number("radius_mm");
   constexpr double kMost_mm = kMaxBallRadius_nm / kNmPerMm;
   if (!(probe.radius_mm > 0.0 && probe.radius_mm <= kMost_mm))
     s.complain("radius_mm", fmt::format("'radius_mm' must be above 0 and at most {}", kMost_mm));
   probe.delay_us = read_delay_us(s, "delay_us");
+  if (s.has("class"))
+    probe.probe_class = s.choice("class", {kProbeClassNames.begin(), kProbeClassNames.end()});
+  if (s.has("stylus"))
+    probe.stylus = Vec3::Unit(static_cast<Eigen::Index>(s.choice("stylus", {"X", "Y", "Z"})));
   return probe;
 }
 

@@ -35,11 +35,17 @@ Vec3 TouchProbe::ball_centre(const Stance& at) const {
 double TouchProbe::margin_mm(const Stance& at) const {
   const Gap gap = artefact_.gap(ball_centre(at), settings_.radius_mm);
   if (!settings_.lobing_mm) return gap.mm - scatter_;
-  // Lobing changes over degrees: the errors of the machine do not matter for the direction.
+  const Vec3 normal = in_tool(at, gap.normal);
+  return gap.mm - scatter_ - settings_.lobing_mm(normal) -
+         0.5 * settings_.hysteresis_mm * normal.dot(before_);
+}
+
+// What depends on the direction changes over degrees: the errors of the machine do not matter.
+Vec3 TouchProbe::in_tool(const Stance& at, const Vec3& normal) const {
   const MachineChain& chain = machine_.chain;
   const Mat3 work = chain.ideal(chain.work(), at.position).R;
   const Mat3 tool = chain.ideal(chain.tool(), at.position).R;
-  return gap.mm - scatter_ - settings_.lobing_mm(tool.transpose() * (work * gap.normal));
+  return tool.transpose() * (work * normal);
 }
 
 std::vector<ProbeEdge> TouchProbe::travel(const Stance& from, const Stance& to,
@@ -50,6 +56,7 @@ std::vector<ProbeEdge> TouchProbe::travel(const Stance& from, const Stance& to,
   constexpr double kClear_mm = 0.02;
   if (left_ && margin_mm(from) > kClear_mm) {
     draw_scatter();
+    before_ = touching_;
     left_ = false;
   }
   const bool trips = margin_mm(to) <= 0.0;
@@ -57,6 +64,7 @@ std::vector<ProbeEdge> TouchProbe::travel(const Stance& from, const Stance& to,
     const std::int64_t out_ns = crossing_ns(from, to, period_ns) + settings_.delay_ns;
     if (trips) {
       touched(out_ns);
+      touching_ = in_tool(to, artefact_.gap(ball_centre(to), settings_.radius_mm).normal);
     } else {
       coming_.push_back({false, out_ns});
       ++touch_;

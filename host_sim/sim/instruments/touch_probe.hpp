@@ -37,6 +37,9 @@ class TouchProbe {
     // What each touch adds besides, by its number from 0: positive trips early, as excess material
     // would; empty: nothing.
     std::function<double(std::uint32_t touch)> scatter_mm = {};
+    // Between touches from opposite sides: half of it, positive where the touch before came from
+    // the same side, by the cosine between the two normals; the first one has none.
+    double hysteresis_mm = 0.0;
   };
 
   // Machine and artefact must outlive the probe.
@@ -59,6 +62,7 @@ class TouchProbe {
   void touched(std::int64_t time_ns);
   [[nodiscard]] std::vector<ProbeEdge> due(std::int64_t period_ns);
   void draw_scatter();
+  [[nodiscard]] Vec3 in_tool(const Stance& at, const Vec3& normal) const;
 
   const TrueMachine& machine_;
   const Artefact& artefact_;
@@ -66,9 +70,11 @@ class TouchProbe {
   std::vector<ProbeEdge> coming_;  // out of the electronics, in order
   bool seen_ = false;              // tripped_ is valid
   bool tripped_ = false;
-  std::uint32_t touch_ = 0;  // the next or present one
-  double scatter_ = 0.0;     // mm, of it; of the last one until the ball is clear
-  bool left_ = false;        // the artefact, and not clear of it yet
+  std::uint32_t touch_ = 0;       // the next or present one
+  double scatter_ = 0.0;          // mm, of it; of the last one until the ball is clear
+  Vec3 before_ = Vec3::Zero();    // normal of the touch before in the tool frame; none yet: zero
+  Vec3 touching_ = Vec3::Zero();  // of this one
+  bool left_ = false;             // the artefact, and not clear of it yet
 };
 
 }  // namespace volcomp::sim

@@ -145,5 +145,26 @@ TEST_F(Probe, ScattersFromTouchToTouch) {
   EXPECT_NEAR(tripped_mm[1], 62.0 - 61.4935 - 0.010, 1e-6);
 }
 
+// Half of the hysteresis is excess where the touch before came from the same side; the first touch
+// has none before it.
+TEST_F(Probe, RemembersFromWhereItWasTouchedBefore) {
+  TouchProbe::Settings settings;
+  settings.radius_mm = kTip;
+  settings.lobing_mm = [](const Vec3&) { return 0.0; };
+  settings.hysteresis_mm = 0.006;
+  TouchProbe probe(truth, wall, settings);
+  std::vector<double> tripped_mm;
+  constexpr int kThere = 12;
+  for (int k = 0; k < 3; ++k) {
+    const auto edges = touch(probe, 62.0, kThere, kThere);
+    ASSERT_EQ(edges.size(), 2U);
+    tripped_mm.push_back(kSpeed_mm_s * 1e-9 *
+                         static_cast<double>(edges[0].time_ns - settings.delay_ns));
+  }
+  EXPECT_NEAR(tripped_mm[0], 62.0 - 61.4935, 1e-6);
+  EXPECT_NEAR(tripped_mm[1], 62.0 - 61.4935 - 0.003, 1e-6);
+  EXPECT_NEAR(tripped_mm[2], 62.0 - 61.4935 - 0.003, 1e-6);
+}
+
 }  // namespace
 }  // namespace volcomp::sim
