@@ -9,6 +9,7 @@
 #include "host_sim/experiments/any_machine/figures.hpp"
 #include "host_sim/experiments/any_machine/report.hpp"
 #include "host_sim/sim/campaign/any_axes.hpp"
+#include "host_sim/sim/campaign/located_runs.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 #include "host_sim/sim/truth/drawn_machine.hpp"
 #include "tests/host_sim/host/measure/picture_of_volume.hpp"
@@ -287,6 +288,20 @@ TEST(MachineRun, DecimalDegreesLeaveWhatTheirRoundingDoes) {
 
 // --- the campaign
 
+// Measured without noise, its rotary axes located.
+Campaign located(const TrueMachine& truth, const host::MachineFile& file) {
+  host::BuildOptions how = host::tables_only(host::ModelKind::abbe_closed);
+  how.slope = SlopeFit::keep;
+  Random unused(0);
+  Campaign campaign = sim::measure_any_machine(truth, file, no_noise(), 1, unused);
+  sim::forget_places(campaign);
+  const auto tables = host::build_tables(campaign.machine, campaign.runs, how);
+  const sim::RotaryLocations found =
+      sim::locate_rotary_axes(truth, campaign.machine, tables->model, {true, 1});
+  sim::put_in_place(found.place, campaign);
+  return campaign;
+}
+
 // However the values are meant, the tables are the same.
 TEST(MachineRun, ConventionAndSideOfTheFileChangeNoTable) {
   const TrueMachine truth = sim::draw_machine(trunnion(), 1);
@@ -298,8 +313,7 @@ TEST(MachineRun, ConventionAndSideOfTheFileChangeNoTable) {
       host::MachineFile file = trunnion();
       file.convention = convention;
       file.side = side;
-      Random unused(0);
-      const Campaign campaign = sim::measure_any_machine(truth, file, no_noise(), 1, unused);
+      const Campaign campaign = located(truth, file);
       auto tables = host::build_tables(campaign.machine, campaign.runs, how);
       if (!first) {
         first = std::move(tables);
@@ -321,12 +335,10 @@ TEST(MachineRun, ConventionAndSideOfTheFileChangeNoTable) {
 }
 
 TEST(MachineRun, AFileWithItsErrorsAtTheReferenceHoldsThePlaceOfARotaryAxis) {
-  Random unused(0);
-  const Campaign campaign = sim::measure_any_machine(with_location('C', only(1, 0.012)), trunnion(),
-                                                     no_noise(), 1, unused);
-  EXPECT_NEAR(campaign.machine.axes[4].at_reference(1), 0.012, 1e-9);
-  EXPECT_NEAR(campaign.machine.axes[4].at_reference(0), 0.0, 1e-9);
-  EXPECT_NEAR(campaign.machine.axes[3].at_reference.norm(), 0.0, 1e-9);
+  const Campaign campaign = located(with_location('C', only(1, 0.012)), trunnion());
+  EXPECT_NEAR(campaign.machine.axes[4].at_reference(1), 0.012, kNm);
+  EXPECT_NEAR(campaign.machine.axes[4].at_reference(0), 0.0, kNm);
+  EXPECT_NEAR(campaign.machine.axes[3].at_reference.norm(), 0.0, kNm);
 }
 
 }  // namespace

@@ -63,6 +63,17 @@ json sphere_json(const MachineResult& r) {
           {"after", volume_json(r.after.sphere_um())}};
 }
 
+// By name, each in µm or µrad; body values (docs/conventions.md).
+json locations_json(const sim::RotaryLocations& locations) {
+  json found = json::object();
+  for (const sim::LocationValue& v : locations.found) {
+    const double unit = v.angular ? host::kUradPerRad : kUmPerMm;
+    const std::string suffix = v.angular ? "urad" : "um";
+    found[v.name] = {{suffix, unit * v.found}, {"u_" + suffix, unit * v.u}};
+  }
+  return {{"found", found}, {"misfit", locations.misfit}, {"not_measured", locations.assumed}};
+}
+
 }  // namespace
 
 std::string correcting_letters(const host::MachineFile& machine) {
@@ -94,6 +105,7 @@ json machine_figures(const MachineResult& r) {
                {"warnings", r.warnings},
                {"ok", machine_verdict(r).ok}};
   if (!r.before.sphere.empty()) figures["sphere"] = sphere_json(r);
+  if (!r.locations.found.empty()) figures["locations"] = locations_json(r.locations);
   return figures;
 }
 

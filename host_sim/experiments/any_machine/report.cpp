@@ -54,6 +54,28 @@ json before_after(const MachineResult& r) {
   return host::before_after_table(lines, note);
 }
 
+// How the places of the rotary axes were found, if there are any.
+std::string locations_text(const sim::RotaryLocations& locations) {
+  double mm = 0.0;
+  double rad = 0.0;
+  for (const sim::LocationValue& v : locations.found) {
+    double& largest = v.angular ? rad : mm;
+    largest = std::max(largest, v.u);
+  }
+  std::string text = fmt::format(
+      "{} location errors of rotary axes found by a tracer at four stations, standard uncertainty "
+      "of "
+      "its readings alone up to {:.2f} µm and {:.2f} µrad; runs leave {:.1f} times what these "
+      "scatter by",
+      locations.found.size(), kUmPerMm * mm, host::kUradPerRad * rad, locations.misfit);
+  if (!locations.assumed.empty())
+    text += fmt::format(
+        "; location not measured: {}, assumed from the machine file, as no place of the "
+        "tool tells it from the others",
+        fmt::join(locations.assumed, " "));
+  return text;
+}
+
 // What the figures are of, in words.
 json measured_text(const MachineResult& r) {
   const std::string machine = fmt::format(
@@ -68,8 +90,10 @@ json measured_text(const MachineResult& r) {
                          b.z(), r.sphere.poses.size());
     if (r.sphere.left_out > 0) sphere += fmt::format(", {} out of reach", r.sphere.left_out);
   }
+  std::vector<std::string> texts{machine, sphere};
+  if (!r.locations.found.empty()) texts.push_back(locations_text(r.locations));
   return host::in_summary(
-      host::with_id("measured", host::text_section("What was measured", {machine, sphere})));
+      host::with_id("measured", host::text_section("What was measured", texts)));
 }
 
 host::Origins origins(const MachineResult& r) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host_sim/sim/campaign/any_axes.hpp"
+#include "host_sim/sim/campaign/located_runs.hpp"
 #include "host_sim/sim/truth/drawn_machine.hpp"
 #include "host_sim/sim/truth/seeds.hpp"
 
@@ -17,6 +18,22 @@ std::unique_ptr<host::BuiltTables> build(const sim::Campaign& campaign,
   host::BuildOptions how = host::tables_only(host::ModelKind::abbe_closed, options.knots);
   how.slope = SlopeFit::keep;
   return host::build_tables(campaign.machine, campaign.runs, how);
+}
+
+// After the axes and their squareness the places of the rotary axes: what is already known of the
+// machine is taken off what the instrument reads.
+std::unique_ptr<host::BuiltTables> measure(const sim::TrueMachine& truth, sim::Random& random,
+                                           MachineResult& result) {
+  const MachineOptions& options = result.options;
+  const sim::NoiseClasses classes = options.noise ? sim::NoiseClasses{} : sim::no_noise();
+  sim::Campaign campaign = sim::measure_any_machine(truth, result.machine, classes,
+                                                    options.noise ? options.runs : 1, random);
+  sim::forget_places(campaign);
+  result.locations =
+      sim::locate_rotary_axes(truth, campaign.machine, build(campaign, options)->model,
+                              {!options.noise, sim::seed_of(options.seed, sim::SeedOf::locations)});
+  sim::put_in_place(result.locations.place, campaign);
+  return build(campaign, options);
 }
 
 }  // namespace
@@ -40,17 +57,17 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
       plan_verification(file, options.places, sim::seed_of(options.seed, sim::SeedOf::places));
   result.sphere = verification.sphere;
 
-  const sim::NoiseClasses classes = options.noise ? sim::NoiseClasses{} : sim::no_noise();
+  // A constant of what an axis carries is no error of the machine: it is where the work lies.
+  const sim::TrueMachine machine = sim::counted_from_references(truth, file);
   sim::Random random(sim::seed_of(options.seed, sim::SeedOf::instruments));
-  const sim::Campaign campaign =
-      sim::measure_any_machine(truth, file, classes, options.noise ? options.runs : 1, random);
-  const auto tables = build(campaign, options);
+  const auto tables = measure(machine, random, result);
   result.warnings = tables->warnings;
   const std::vector<std::uint8_t> image = host::make_image(tables->tables);
   result.inputs = {host::hashed_bytes("table image made for it", "tables.vct", image)};
 
-  sim::TrueMachine at_check = truth;
-  at_check.temperature_offset_K = random.normal(classes.temperature_K);
+  sim::TrueMachine at_check = machine;
+  if (options.noise)
+    at_check.temperature_offset_K = random.normal(sim::NoiseClasses{}.temperature_K);
   progress(0.1, "the machine as it is");
   result.before = verify_machine(file, at_check, verification, options.make_cell, {});
   progress(0.55, "the machine compensated");

@@ -11,6 +11,7 @@
 #include "host_sim/host/machine/machine_facts.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/rotary_locations.hpp"
 #include "host_sim/sim/controller/integrated_axes.hpp"
 
 namespace volcomp::any_machine {
@@ -31,6 +32,7 @@ struct MachineResult {
   host::MachineFile machine;
   SpherePlan sphere;
   host::LeastAuthority authority;
+  sim::RotaryLocations locations;  // as measured
   MachineState before;
   MachineState after;
   std::vector<std::string> warnings;  // of the tables

@@ -8,10 +8,6 @@
 namespace volcomp::sim {
 namespace {
 
-// What sphere tests with two balls leave of the place of a rotary axis, 1 sigma. Assumed.
-constexpr double kLocation_mm = 1e-3;
-constexpr double kLocation_rad = 3e-6;
-
 ErrorMotion true_value(const TrueMachine& truth, const host::MachineFile& file, std::size_t a,
                        double q, double approach) {
   Pose pose{};
@@ -33,16 +29,6 @@ host::RunsFile measure_axis(const TrueMachine& truth, const host::MachineFile& f
   });
 }
 
-void locate_axis(const TrueMachine& truth, const NoiseClasses& classes, std::size_t a,
-                 host::MachineFile& file, Random& random) {
-  host::AxisFile& axis = file.axes[a];
-  axis.reference = axis.target(axis.reference_target());
-  axis.at_reference = true_value(truth, file, a, axis.reference, 0.0);
-  if (!axis.rotary || classes.repeatability_mm <= 0.0) return;
-  for (Eigen::Index c = 0; c < 6; ++c)
-    axis.at_reference(c) += random.normal(c < 3 ? kLocation_mm : kLocation_rad);
-}
-
 }  // namespace
 
 ErrorMotion in_file_terms(const ErrorMotion& internal, const host::MachineFile& file, std::size_t a,
@@ -59,7 +45,8 @@ Campaign measure_any_machine(const TrueMachine& truth, const host::MachineFile& 
   Campaign campaign{file, {}};
   for (std::size_t a = 0; a < file.axes.size(); ++a) {
     campaign.runs.push_back(measure_axis(truth, file, a, classes, runs, random));
-    locate_axis(truth, classes, a, campaign.machine, random);
+    host::AxisFile& axis = campaign.machine.axes[a];
+    axis.reference = axis.target(axis.reference_target());
   }
   if (!file.squareness) return campaign;
   campaign.machine.squareness->measured =

@@ -1,6 +1,5 @@
 #pragma once
-// Measuring a machine of any axes: six error motions of each, where its rotary axes are, and its
-// squareness.
+// Measuring a machine of any axes: six error motions of each, and its squareness.
 
 #include "host_sim/sim/campaign/campaign.hpp"
 
@@ -12,7 +11,9 @@ namespace volcomp::sim {
 
 // `runs` bidirectional runs per axis at the equally spaced targets of the machine file, with the
 // convention, on the side and at the sensed points it states. The machine file that comes back has
-// its squareness as measured, its references at targets, and the errors there.
+// its squareness as measured and its references at targets. What is constant there stays as the
+// file states it: no run shows it. Of a linear axis that is where the machine counts from; of a
+// rotary one it is found by other means (rotary_locations.hpp).
 [[nodiscard]] Campaign measure_any_machine(const TrueMachine& truth, const host::MachineFile& file,
                                            const NoiseClasses& classes, std::size_t runs,
                                            Random& random);

@@ -9,7 +9,7 @@
 namespace volcomp::sim {
 
 // The errors of a machine have the seed of the run itself.
-enum class SeedOf : std::uint32_t { gear = 1, arm = 2, instruments = 3, places = 4 };
+enum class SeedOf : std::uint32_t { gear = 1, arm = 2, instruments = 3, places = 4, locations = 5 };
 
 [[nodiscard]] inline std::uint64_t seed_of(std::uint64_t seed, SeedOf what) {
   constexpr std::uint32_t kSeeds = 65;  // no RandomStream has this number

@@ -18,6 +18,9 @@ Circumstances Equations::circumstances(std::size_t setup, std::size_t i, const E
   Circumstances at;
   at.q = s.q[i];
   at.errors = unknowns_.errors(s.q[i], s.d[i], e.x);
+  if (!s.known.empty())
+    for (std::size_t a = 0; a < problem_.machine.chain.axis_count(); ++a)
+      at.errors.at(a) += s.known[i].at(a);
   at.tip = problem_.machine.chain.tool_point();
   if (const auto stylus = problem_.stylus_of(s, i)) {
     at.tip = problem_.styli[*stylus].offset;

@@ -115,7 +115,7 @@ class PlanReader {
     if (model.has("reversal_channels"))
       read_channels(model, "reversal_channels",
                     [&](std::size_t a, const Channels& c) { m.functions.at(a).reversal = c; });
-    take_standard_constants();
+    ask_for_locations(plan_.problem);
     for (const char* key : {"location", "constant"}) {
       auto& where = std::string(key) == "location" ? m.location : m.constant;
       if (!model.has(key)) continue;
@@ -142,33 +142,6 @@ class PlanReader {
       AxisFunctions& f = plan_.problem.model.functions.at(a);
       f.segments = static_cast<std::size_t>(segments.integer(entry.first, least, kMostSegments));
       f.channels = {0, 1, 2, 3, 4, 5};
-    }
-  }
-
-  // All that can be told of where a rotary axis is: of one with the work, or with the tool where
-  // the work turns, too, two displacements across it and two tilts. Of a last one with the tool
-  // alone the displacements are where the tip stands against it.
-  void take_standard_constants() {
-    const MachineChain& chain = plan_.problem.machine.chain;
-    bool work_turns = false;
-    for (std::size_t a = 0; a < chain.axis_count(); ++a)
-      work_turns = work_turns || (chain.axis(a).kind == JointKind::rotary &&
-                                  chain.axis(a).branch == Branch::work);
-    for (std::size_t a = 0; a < chain.axis_count(); ++a) {
-      const Joint& joint = chain.axis(a);
-      if (joint.kind != JointKind::rotary) continue;
-      Channels places;
-      Channels tilts;
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (c == index(joint.axis)) continue;
-        places.push_back(c);
-        tilts.push_back(c + 3);
-      }
-      const bool with_tool_alone = joint.branch == Branch::tool && !work_turns;
-      auto& location = plan_.problem.model.location.at(a);
-      location = with_tool_alone ? Channels{} : places;
-      location.insert(location.end(), tilts.begin(), tilts.end());
-      if (with_tool_alone) plan_.problem.model.constant.at(a) = places;
     }
   }
 

@@ -52,6 +52,29 @@ std::optional<Range> Problem::range_of(std::size_t axis) const {
   return range;
 }
 
+void ask_for_locations(Problem& problem) {
+  const MachineChain& chain = problem.machine.chain;
+  bool work_turns = false;
+  for (std::size_t a = 0; a < chain.axis_count(); ++a)
+    work_turns = work_turns || (!problem.is_slide(a) && chain.axis(a).branch == Branch::work);
+  for (std::size_t a = 0; a < chain.axis_count(); ++a) {
+    if (problem.is_slide(a)) continue;
+    const Joint& joint = chain.axis(a);
+    Channels places;
+    Channels tilts;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (c == index(joint.axis)) continue;
+      places.push_back(c);
+      tilts.push_back(c + 3);
+    }
+    const bool with_tool_alone = joint.branch == Branch::tool && !work_turns;
+    Channels& location = problem.model.location.at(a);
+    location = with_tool_alone ? Channels{} : places;
+    location.insert(location.end(), tilts.begin(), tilts.end());
+    if (with_tool_alone) problem.model.constant.at(a) = places;
+  }
+}
+
 std::array<Vec3, 2> across(const Vec3& n) {
   Eigen::Index least = 0;
   for (Eigen::Index k = 1; k < 3; ++k)

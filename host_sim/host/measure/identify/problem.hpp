@@ -118,6 +118,7 @@ struct SetUp {
   ObservationKind kind = ObservationKind::tracer;
   std::vector<Pose> q;
   std::vector<Directions> d;        // as many as q
+  std::vector<ErrorSet> known;      // errors that tables hold already, as many as q; empty: none
   std::vector<double> y;            // by observation, then component; a plan has none
   std::vector<double> sigma;        // as y
   Prior scale;                      // of its lengths
@@ -171,6 +172,11 @@ struct Problem {
     return machine.chain.axis(axis).kind == JointKind::prismatic;
   }
 };
+
+// Asks for all that can be told of where the rotary axes are: of one with the work, or with the
+// tool where the work turns, too, two displacements across it and two tilts. Of a last one with the
+// tool alone the displacements are where the tip stands against it.
+void ask_for_locations(Problem& problem);
 
 // Unit vectors across a unit vector: the first turned from the coordinate axis least along it.
 [[nodiscard]] std::array<Vec3, 2> across(const Vec3& n);

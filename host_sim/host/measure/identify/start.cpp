@@ -104,6 +104,7 @@ Problem Equations::made_consistent(const Problem& problem) {
   for (std::size_t k = 0; k < out.setups.size(); ++k) {
     SetUp& s = out.setups[k];
     s.y.clear();
+    s.known.clear();
     if (!s.has_pose() && s.kind != ObservationKind::rtest) continue;
     const Placement pose = s.pose         ? *s.pose
                            : s.has_pose() ? measured_placement(problem, problem.setups[k])
