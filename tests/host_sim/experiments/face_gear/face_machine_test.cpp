@@ -125,7 +125,7 @@ TEST(FaceScatter, IsThatOfTheProbeAndOfTheScales) {
 // The number of a touch is that of measurement.md, section 1.1: a function of what it is for alone.
 TEST(FaceScatter, TakesTheNumberOfItsTouch) {
   FaceScatter scatter;
-  scatter.noise.repeatability_2s = 2e-3;
+  scatter.probe.noise.repeatability_2s = 2e-3;
   scatter.seed = 5;
   const auto touch = scatter.of_set_up(7);
   for (const std::uint32_t k : {3U, 0U, 3U})
