@@ -28,6 +28,7 @@ class WholeWay {
     const MeasuredCampaign& found = campaign_.nominal();
     nominal_errors_ =
         outputs_.errors(build_tables(found.machine, found.runs, settings_.build)->model);
+    settings_.build.drawn = true;
     nominal_ = numbers_of(nominal_errors_);
   }
 
