@@ -13,6 +13,14 @@ ask=("${of[@]}" --runs "$work"/runs/runs_*.csv)
 printf 'X [mm],Y [mm],Z [mm]\n-100,-100,-100\n-200,-100,-100\n-200,-200,-100\n-200,-200,-200\n-300,-200,-200\n' >"$work/task.csv"
 printf '[campaign]\nscale_um_per_m = 0.25\nsquareness_urad = 3\n' >"$work/campaign.toml"
 
+# What a user can mend: one sentence.
+refused() {
+  local text=$1
+  shift
+  expect 2 "$text" "$@"
+  one_line "$@"
+}
+
 # number FILE PATH…: what the JSON has there.
 number() {
   /usr/bin/python3 -c 'import json, sys
@@ -65,13 +73,23 @@ expect 0 'CRC-32' "$volcomp" build-tables --machine "$turning" --runs "$work"/tu
 expect 0 'X -150 mm, C 90 deg' "$volcomp" uncertainty "$work/turning.vct" --machine "$turning" --runs "$work"/turning/runs_*.csv \
   --draws 100 --point=-150,90
 
+of_turning=("$volcomp" uncertainty "$work/turning.vct" --machine "$turning" --runs "$work"/turning/runs_*.csv --draws 100)
+expect 0 'location of rotary axes' "${of_turning[@]}" --location-um 1 --location-urad 3 --point=-150,90
+expect 0 'not stated, drawn as 0: zero of rotary axes (zero_urad)' "${of_turning[@]}" --point=-150,90
+
+# Squareness by circles of a ball bar, and by nothing but circles: 10 µrad at Z = 200 mm are 2 µm again.
+sed -e 's/^at_mm = \[-250.0/circle_radius_mm = 100.0\n&/' -e '/^[xyz]_mm = /d' "$machine" >"$work/circles.toml"
+expect 0 'CRC-32' "$volcomp" build-tables --machine "$work/circles.toml" --runs "$work"/perfect/runs_*.csv --out "$work/circles.vct"
+expect 0 'squareness' "$volcomp" uncertainty "$work/circles.vct" --machine "$work/circles.toml" --runs "$work"/perfect/runs_*.csv --draws 100 \
+  --squareness-urad 10 --point=-250,-150,-200 --json "$work/circles.json"
+awk -v u="$(number "$work/circles.json" places 0 EX first_order_um)" 'BEGIN { exit !(u > 1.9999 && u < 2.0001) }' ||
+  { echo 'FAILED: 10 µrad at Z = 200 mm are 2 µm, by circles, too'; failed=1; }
+refused 'not made from these runs: the squareness differs' "$volcomp" uncertainty "$work/perfect.vct" --machine "$work/circles.toml" \
+  --runs "$work"/perfect/runs_*.csv --squareness-urad 10 --point=-250,-150,-200
+refused 'location_um: ' "${ask[@]}" --point=0,0,0 --location-um 1
+refused 'has no [squareness]' "${of_turning[@]}" --point=-150,90 --squareness-urad 3
+
 # --- refused
-refused() {
-  local text=$1
-  shift
-  expect 2 "$text" "$@"
-  one_line "$@"
-}
 refused 'no places: give --task, --point or --line' "${ask[@]}"
 refused '--point -600,0,0: X -600 mm is outside the travel -500 … 0 mm' "${ask[@]}" --point=-600,0,0
 printf 'X [mm],Y [mm],Z [mm]\n0,0,0\n0,0,1\n' >"$work/beyond.csv"

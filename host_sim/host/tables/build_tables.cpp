@@ -71,13 +71,13 @@ TurnGap gap_between(const ErrorMotion& forward, const ErrorMotion& backward) {
 // has drifted meanwhile. That is no error of the axis: it is taken out as if it had grown evenly,
 // of each direction by itself. The reference keeps its value.
 std::optional<TurnGap> close_turn(const RunsFile& runs, const AxisFile& axis, const Joint& joint,
-                                  ErrorTable& table) {
+                                  const BuildOptions& options, ErrorTable& table) {
   if (!is_full_turn(table, joint)) return std::nullopt;
   const std::size_t last = table.knots - 1;
   const ErrorMotion forward = table.forward[last] - table.forward[0];
   const ErrorMotion backward = table.backward[last] - table.backward[0];
   const TurnGap gap = gap_between(forward, backward);
-  if (gap.mm > kMostDrift.mm || gap.rad > kMostDrift.rad) {
+  if (!options.drawn && (gap.mm > kMostDrift.mm || gap.rad > kMostDrift.rad)) {
     throw UserError(fmt::format(
         "{}: the ends of the turn of {} differ by {:.2f} um and {:.2f} urad, more than "
         "drift explains [{}]",
@@ -130,7 +130,7 @@ void build_axis(const MachineFile& machine, const RunsFile& runs, std::size_t a,
                     "the nearest end is used",
                     runs.name, axis.letter));
   }
-  out.gaps.push_back(close_turn(runs, axis, joint, *out.refined[a]));
+  out.gaps.push_back(close_turn(runs, axis, joint, options, *out.refined[a]));
   add_at_reference(axis.at_reference, *out.refined[a]);
   convert_to_internal(joint, machine.convention, machine.side, *out.refined[a]);
 }
@@ -262,7 +262,7 @@ std::unique_ptr<BuiltTables> tables_of_errors(const MachineFile& machine,
 std::unique_ptr<BuiltTables> build_tables(const MachineFile& machine,
                                           const std::vector<RunsFile>& runs,
                                           const BuildOptions& options) {
-  require_authority(machine);
+  if (!options.drawn) require_authority(machine);
   auto out = std::make_unique<BuiltTables>();
   out->chain = options.model == ModelKind::naive ? naive_chain(machine) : machine.chain;
   out->model.chain = out->chain;

@@ -29,6 +29,9 @@ struct BuildOptions {
   std::size_t refine = 0;             // 0: that of the machine file
   std::size_t knots = kDefaultKnots;  // per table: what the node has room for; refines less
   bool bound = true;                  // compute model_bound_nm: dearer than all the rest together
+  // One of many campaigns drawn about one that was accepted. What depends on the machine alone is
+  // not looked at again, and the ends of a turn may be apart: their noise is no lost count.
+  bool drawn = false;
 };
 
 // For callers that need only the tables of a model.

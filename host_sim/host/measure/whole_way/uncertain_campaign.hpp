@@ -15,6 +15,8 @@
 
 namespace volcomp::host {
 
+inline constexpr double kPerMillion = 1e-6;  // µrad, µm/m as stated
+
 // One uncertain number. Its unit is that of what it acts on: mm, rad, mm/mm, parts of a gain.
 struct UncertainInput {
   std::string group;       // what it belongs to: "readings of X", "scale"
@@ -31,8 +33,8 @@ struct MeasuredCampaign {
 
 class UncertainCampaign {
  public:
-  // `runs`: one file per axis, which build_tables() accepts with this machine. Throws UserError for
-  // a statement that lacks its other half or is about something the machine file does not state.
+  // `runs`: one file per axis, which build_tables() accepts with this machine. Throws UserError as
+  // require_fitting().
   UncertainCampaign(const MachineFile& machine, const std::vector<RunsFile>& runs,
                     const CampaignStatement& stated);
 
@@ -68,13 +70,21 @@ class UncertainCampaign {
     RandomIndex at;
     double cosine = 0.0;  // limit of the angle, rad; 0: normal
   };
+  // An input that adds itself to a component of the error of an axis at its reference.
+  struct Location {
+    std::size_t input = 0;
+    std::size_t axis = 0;
+    Eigen::Index component = 0;
+  };
   // An axis that a linear instrument measures: what its columns are.
   struct LinearAxis;
 
   void add_readings();
   void add_instrument(const CampaignStatement& stated);
+  void add_set_ups(const CampaignStatement& stated);
   void add_set_up(const CampaignStatement& stated, const LinearAxis& axis);
   void add_wave(double amplitude, const LinearAxis& axis, std::size_t channel);
+  void add_locations(const CampaignStatement& stated);
   void add_levers(const CampaignStatement& stated);
   void add_squareness(const CampaignStatement& stated);
   void note_missing(const CampaignStatement& stated);
@@ -89,6 +99,7 @@ class UncertainCampaign {
   std::vector<Channel> channels_;
   std::vector<Shift> shifts_;
   std::vector<Drawn> drawn_;
+  std::vector<Location> locations_;
   std::vector<std::pair<std::size_t, std::size_t>> levers_;  // first of three inputs, axis
   std::size_t squareness_ = SIZE_MAX;                        // first of three inputs
 };

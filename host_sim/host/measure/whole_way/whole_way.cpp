@@ -7,8 +7,8 @@
 
 #include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/measure/intervals/volume_interval.hpp"
 #include "host_sim/host/measure/whole_way/task_outputs.hpp"
+#include "host_sim/host/measure/whole_way/true_figures.hpp"
 #include "host_sim/host/measure/whole_way/uncertain_campaign.hpp"
 #include "host_sim/host/report/shared_progress.hpp"
 
@@ -16,9 +16,6 @@ namespace volcomp::host {
 namespace {
 
 constexpr std::size_t kBlock = 25;  // campaigns that share their memory, one after the other
-
-// All numbers of a campaign: three of each place, then the figures.
-using Outputs = std::vector<double>;
 
 class WholeWay {
  public:
@@ -31,6 +28,7 @@ class WholeWay {
     const MeasuredCampaign& found = campaign_.nominal();
     nominal_errors_ =
         outputs_.errors(build_tables(found.machine, found.runs, settings_.build)->model);
+    settings_.build.drawn = true;
     nominal_ = numbers_of(nominal_errors_);
   }
 
@@ -143,89 +141,6 @@ double first_order_of(const std::vector<Outputs>& effects, std::size_t k) {
     squares += effect[k] * effect[k];
   return std::sqrt(squares);
 }
-
-// The draws about their mean are the noise of the nominal errors: intervals of true extremes, as of
-// any figure that is one (host/measure/intervals).
-class TrueFigures {
- public:
-  TrueFigures(const Outputs& nominal, const std::vector<Outputs>& draws,
-              const std::vector<PlaceUncertainty>& places)
-      : nominal_(nominal),
-        draws_(draws),
-        places_(places),
-        count_(affordable_draws(places.size(), draws.size())) {}
-
-  [[nodiscard]] std::optional<FigureInterval> largest() const {
-    if (count_ < kFewestDraws || nothing_differs()) return std::nullopt;
-    NoisyDraws<NormValues> d;
-    d.data = {3, {nominal_.begin(), nominal_.begin() + three()}};
-    for (const PlaceUncertainty& p : places_) {
-      double squares = 0.0;
-      for (const DrawnNumber& e : p.error)
-        squares += e.deviation * e.deviation / 3.0;
-      d.u.push_back(std::sqrt(squares));
-    }
-    for (std::size_t k = 0; k < count_; ++k) {
-      NormValues noise{3, {}};
-      for (std::size_t i = 0; i < 3 * places_.size(); ++i)
-        noise.y.push_back(noise_of(k, i));
-      d.low.push_back(noise);
-    }
-    d.high = d.low;
-    d.u_selection = d.u;
-    return interval_of(d);
-  }
-
-  [[nodiscard]] std::optional<FigureInterval> range_along(const Vec3& direction) const {
-    if (count_ < kFewestDraws || nothing_differs()) return std::nullopt;
-    const auto along = [&](const auto& component) {
-      std::vector<double> values;
-      for (std::size_t p = 0; p < places_.size(); ++p) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < 3; ++c)
-          sum += direction(static_cast<Eigen::Index>(c)) * component(3 * p + c);
-        values.push_back(sum);
-      }
-      return values;
-    };
-    NoisyDraws<SpanValues> d;
-    const std::vector<double> data = along([&](std::size_t i) { return nominal_[i]; });
-    d.data = {data, data};
-    std::vector<double> squares(places_.size(), 0.0);
-    for (std::size_t k = 0; k < count_; ++k) {
-      const std::vector<double> noise = along([&](std::size_t i) { return noise_of(k, i); });
-      for (std::size_t p = 0; p < noise.size(); ++p)
-        squares[p] += noise[p] * noise[p];
-      d.low.push_back({noise, noise});
-    }
-    for (const double s : squares)
-      d.u.push_back(std::sqrt(s / static_cast<double>(count_)));
-    d.high = d.low;
-    d.u_selection = d.u;
-    return interval_of(d);
-  }
-
- private:
-  // An interval needs noise somewhere.
-  [[nodiscard]] bool nothing_differs() const {
-    return std::all_of(places_.begin(), places_.end(), [](const PlaceUncertainty& p) {
-      return std::all_of(p.error.begin(), p.error.end(),
-                         [](const DrawnNumber& e) { return !(e.deviation > 0.0); });
-    });
-  }
-
-  [[nodiscard]] std::ptrdiff_t three() const {
-    return static_cast<std::ptrdiff_t>(3 * places_.size());
-  }
-  [[nodiscard]] double noise_of(std::size_t draw, std::size_t i) const {
-    return draws_[draw][i] - places_[i / 3].error.at(i % 3).mean;
-  }
-
-  const Outputs& nominal_;
-  const std::vector<Outputs>& draws_;
-  const std::vector<PlaceUncertainty>& places_;
-  std::size_t count_;
-};
 
 double squared_deviation(const PlaceUncertainty& place) {
   double sum = 0.0;

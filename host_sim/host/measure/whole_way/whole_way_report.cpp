@@ -1,14 +1,13 @@
 #include "host_sim/host/measure/whole_way/whole_way_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/version.hpp"
-#include "host_sim/host/report/charts.hpp"
+#include "host_sim/host/measure/whole_way/whole_way_charts.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
 namespace volcomp::host {
@@ -16,7 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<const char*, 3> kComponents{"EX", "EY", "EZ"};
 constexpr std::size_t kMostFullPlaces = 4;  // whose every figure a terminal shows
 
 double in_um(double mm) { return kUmPerMm * mm; }
@@ -83,7 +81,8 @@ json full_table(const WholeWayQuestion& q, const TaskUncertainty& u) {
   json rows = json::array();
   for (const PlaceUncertainty& place : u.places) {
     for (std::size_t c = 0; c < 3; ++c) {
-      json row = json::array({c == 0 ? place_text(place.at, q.machine) : "", kComponents.at(c)});
+      json row =
+          json::array({c == 0 ? place_text(place.at, q.machine) : "", kErrorComponents.at(c)});
       add_number(row, place.error.at(c));
       rows.push_back(std::move(row));
     }
@@ -106,9 +105,9 @@ json farthest_ratio(const PlaceUncertainty& place) {
 
 json short_table(const WholeWayQuestion& q, const TaskUncertainty& u) {
   json columns = json::array({plain_column("place")});
-  for (const char* component : kComponents)
+  for (const char* component : kErrorComponents)
     columns.push_back(column(fmt::format("sd {}", component), "µm", 3));
-  for (const char* component : kComponents)
+  for (const char* component : kErrorComponents)
     columns.push_back(column(fmt::format("first order {}", component), "µm", 3));
   columns.push_back(column("ratio farthest from 1", "", 3));
   json rows = json::array();
@@ -163,7 +162,7 @@ json shares_section(const WholeWayQuestion& q, const TaskUncertainty& u) {
   for (const GroupShare& share : u.shares)
     rows.push_back({share.group, in_um(share.u(0)), in_um(share.u(1)), in_um(share.u(2))});
   json columns = json::array({plain_column("from")});
-  for (const char* component : kComponents)
+  for (const char* component : kErrorComponents)
     columns.push_back(column(component, "µm", 3));
   return with_id("shares",
                  table_section(fmt::format("Where it comes from, at {}",
@@ -177,76 +176,6 @@ json not_stated_section(const TaskUncertainty& u) {
   for (const std::string& name : u.drawn_as_zero)
     lines.push_back(fmt::format("not stated, drawn as 0: {}", name));
   return text_section("", lines);
-}
-
-// Distance along a line; else the number of the place.
-std::vector<double> along_task(const WholeWayQuestion& q) {
-  const std::vector<Pose>& places = q.task.places;
-  bool turns = false;
-  std::vector<double> way;
-  for (const Pose& place : places) {
-    double squares = 0.0;
-    for (std::size_t a = 0; a < q.machine.axes.size(); ++a) {
-      const double step = place[a] - places.front()[a];
-      if (q.machine.axes[a].rotary) turns = turns || std::abs(step) > 0.0;
-      squares += step * step;
-    }
-    way.push_back(std::sqrt(squares));
-  }
-  return q.task.kind == TaskKind::line && !turns ? way : counted(places.size());
-}
-
-json task_charts(const WholeWayQuestion& q, const TaskUncertainty& u) {
-  const std::vector<double> x = along_task(q);
-  const bool in_mm =
-      q.task.kind == TaskKind::line && std::abs(x.back() - x.front()) > 0.0 && !(x.front() > 0.0);
-  const json axis = in_mm ? axis_label("distance", "mm") : axis_label("place", "");
-  json errors = json::array();
-  json spread = json::array();
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::vector<double> e;
-    std::vector<double> low;
-    std::vector<double> high;
-    std::vector<double> sd;
-    std::vector<double> first;
-    for (const PlaceUncertainty& place : u.places) {
-      const DrawnNumber& n = place.error.at(c);
-      e.push_back(in_um(n.nominal));
-      low.push_back(in_um(n.low));
-      high.push_back(in_um(n.high));
-      sd.push_back(in_um(n.deviation));
-      first.push_back(in_um(n.first_order.value_or(0.0)));
-    }
-    json series = series_of(kComponents.at(c), x, e);
-    series["band"] = {{"lo", low}, {"hi", high}};
-    errors.push_back(std::move(series));
-    spread.push_back(series_of(kComponents.at(c), x, sd));
-    json dashed = series_of(fmt::format("{} first order", kComponents.at(c)).c_str(), x, first);
-    dashed["style"] = "dashed";
-    spread.push_back(std::move(dashed));
-  }
-  return {lines_chart("errors", "Error that the tables predict, with 95 % of the draws", axis,
-                      axis_label("E", "µm"), errors),
-          lines_chart("uncertainty", "Standard uncertainty: draws and first order", axis,
-                      axis_label("u", "µm"), spread)};
-}
-
-json share_bars(const TaskUncertainty& u) {
-  json names = json::array();
-  json series = json::array();
-  for (const GroupShare& share : u.shares)
-    names.push_back(share.group);
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::vector<double> values;
-    for (const GroupShare& share : u.shares)
-      values.push_back(in_um(share.u(static_cast<Eigen::Index>(c))));
-    series.push_back(bars_of(kComponents.at(c), values));
-  }
-  return with_id("share-bars", {{"type", "bars"},
-                                {"title", "Where it comes from, to first order"},
-                                {"categories", names},
-                                {"y", axis_label("u", "µm")},
-                                {"series", series}});
 }
 
 std::string runs_in_words(const RunsFile& runs) {
@@ -269,7 +198,7 @@ json uncertainty_json(const WholeWayQuestion& q, const TaskUncertainty& u) {
   for (const PlaceUncertainty& place : u.places) {
     json one{{"at", place_json(place.at, q.machine)}};
     for (std::size_t c = 0; c < 3; ++c)
-      one[kComponents.at(c)] = number_json(place.error.at(c));
+      one[kErrorComponents.at(c)] = number_json(place.error.at(c));
     places.push_back(std::move(one));
   }
   json figures = json::object();

@@ -1,12 +1,17 @@
 #pragma once
 // The uncertainty of a task as text, as JSON and as a page with it drawn along the task.
 
+#include <array>
+
 #include <nlohmann/json.hpp>
 
 #include "host_sim/host/measure/whole_way/whole_way.hpp"
 #include "host_sim/host/report/provenance.hpp"
 
 namespace volcomp::host {
+
+// The error of the tool point in base, in the order of PlaceUncertainty.
+inline constexpr std::array<const char*, 3> kErrorComponents{"EX", "EY", "EZ"};
 
 // What was asked, and of what.
 struct WholeWayQuestion {

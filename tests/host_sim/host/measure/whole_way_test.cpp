@@ -14,6 +14,7 @@
 #include "host_sim/sim/campaign/campaign.hpp"
 #include "host_sim/sim/truth/drawn_machine.hpp"
 #include "tests/complaint.hpp"
+#include "tests/host_sim/host/measure/drawn_deviation.hpp"
 
 namespace volcomp::host {
 namespace {
@@ -68,25 +69,9 @@ Task places_of_slide(const std::vector<double>& x) {
   return task;
 }
 
-void no_progress(double /*done*/, const std::string& /*what*/) {}
-
-WholeWaySettings with_draws(std::size_t draws) {
-  WholeWaySettings settings;
-  settings.draws = draws;
-  settings.threads = 2;
-  return settings;
-}
-
 TaskUncertainty of_slide(const RunsFile& runs, const CampaignStatement& stated, const Task& task,
                          const WholeWaySettings& settings) {
   return uncertainty_of_task(one_slide(), {runs}, stated, task, settings, no_progress);
-}
-
-// Both ways of computing it: by first order exactly, by draws as far as their number allows.
-void expect_deviation(const DrawnNumber& n, double deviation, std::size_t draws) {
-  ASSERT_TRUE(n.first_order.has_value());
-  EXPECT_NEAR(*n.first_order, deviation, 1e-6 * deviation + 1e-12);
-  EXPECT_NEAR(n.deviation, deviation, TaskUncertainty::ratio_band(draws) * deviation + 1e-12);
 }
 
 // n readings of 0.7 µm in each direction. The mean of both directions has σ/√2n, and its value at
