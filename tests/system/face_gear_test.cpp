@@ -276,7 +276,7 @@ struct ScatteredGear {
              gear, face_gear::nominal_mounting(),
              {},   loopback_axes(),
              50.0} {
-    hall.scatter.noise.repeatability_2s = 2.0 * sigma_mm;
+    hall.scatter.probe.noise.repeatability_2s = 2.0 * sigma_mm;
   }
   // `judge`: by the scatter of a touch that outliers are told by.
   face_gear::FaceInspection map(int touches, double judge_mm) const {
