@@ -109,7 +109,7 @@ bool whole_ways_hold(const CoverageOptions& options) {
   const KnownMachine known;
   std::vector<Coverage> each(2 * kComponents + 2);
   count_held(
-      "", options.whole_campaigns,
+      "one of them", options.whole_campaigns,
       [&](std::size_t k) { return held_of(known, measured(known, options, k)); }, each);
   bool good = true;
   const auto print = [&](const char* name, std::size_t from, std::size_t to) {

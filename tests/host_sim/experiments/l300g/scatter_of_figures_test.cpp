@@ -22,7 +22,11 @@
 namespace volcomp::l300g {
 namespace {
 
+#ifdef VOLCOMP_SANITIZED
+constexpr std::uint32_t kDraws = 200;
+#else
 constexpr std::uint32_t kDraws = 2000;
+#endif
 constexpr double kDrawsOfReference = 4000.0;
 constexpr double kDigit_um = 0.005;
 constexpr double kDigit_share = 0.005;
