@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "comp/metrology/fits/effective_radius.hpp"
 #include "host_sim/host/io/user_error.hpp"
@@ -19,18 +20,7 @@ constexpr double kStandOff_mm = 1.0;
 
 double square(double x) { return x * x; }
 
-// Where the ball centre is in the touches: first those above the mandrel, outwards, then those
-// below, inwards.
-std::vector<Transverse> constellation() {
-  const double radius = kMandrelRadius_mm + kEffectiveBall_mm;
-  std::vector<Transverse> centres;
-  centres.reserve(std::size_t{2} * kSteps);
-  for (int k = 0; k < kSteps; ++k)
-    centres.push_back({k * kStep_mm, std::sqrt(square(radius) - square(k * kStep_mm))});
-  for (int k = kSteps - 1; k >= 0; --k)
-    centres.push_back({k * kStep_mm, -centres[static_cast<std::size_t>(k)].z});
-  return centres;
-}
+using Readings = std::pair<std::vector<double>, std::vector<double>>;  // y, z
 
 // --- touching
 
@@ -42,12 +32,13 @@ Pose pose_at(const GrinderGeometry& g, double y, double z) {
   return q;
 }
 
-void touch_all(Grinder& grinder, MandrelCalibration& result) {
+Readings touch_all(Grinder& grinder) {
+  Readings readings;
   const GrinderGeometry& g = grinder.geometry();
   const double probing = 5.0 / g.arm.length;
   const sim::ProbingFeeds feeds{50.0, probing, 4.0 * probing};
   bool above = true;
-  for (const Transverse& centre : constellation()) {
+  for (const Transverse& centre : mandrel_centres()) {
     const double outwards = centre.z > 0.0 ? 1.0 : -1.0;
     if (above && outwards < 0.0) {
       grinder.go(pose_at(g, kAround_mm, centre.z), feeds.rapid);
@@ -58,11 +49,12 @@ void touch_all(Grinder& grinder, MandrelCalibration& result) {
     Pose swung = beyond;  // B alone moves
     swung[0] = from[0];
     const sim::NodePoint point = grinder.prober().touch(from, swung, Vec3::Zero(), feeds);
-    result.y.push_back(g.datum.y + point.workpiece.y());
-    result.z.push_back(point.workpiece.z());
+    readings.first.push_back(g.datum.y + point.workpiece.y());
+    readings.second.push_back(point.workpiece.z());
   }
   grinder.go(pose_at(g, kAround_mm, -kMandrelRadius_mm), feeds.rapid);
   grinder.go(grinder.clear_of_work(kFarAway_mm), feeds.rapid);
+  return readings;
 }
 
 // Section 3, "Uncertainty". The square of the height enters R_c; about zero it is the square of the
@@ -82,7 +74,7 @@ using BelievedHeight = std::function<double(double true_z)>;
 MandrelEffect effect_on_fit(const BelievedHeight& believed) {
   std::vector<double> y;
   std::vector<double> z;
-  for (const Transverse& centre : constellation()) {
+  for (const Transverse& centre : mandrel_centres()) {
     y.push_back(centre.y);
     z.push_back(believed(centre.z));
   }
@@ -93,6 +85,17 @@ MandrelEffect effect_on_fit(const BelievedHeight& believed) {
 }
 
 }  // namespace
+
+std::vector<Transverse> mandrel_centres() {
+  const double radius = kMandrelRadius_mm + kEffectiveBall_mm;
+  std::vector<Transverse> centres;
+  centres.reserve(std::size_t{2} * kSteps);
+  for (int k = 0; k < kSteps; ++k)
+    centres.push_back({k * kStep_mm, std::sqrt(square(radius) - square(k * kStep_mm))});
+  for (int k = kSteps - 1; k >= 0; --k)
+    centres.push_back({k * kStep_mm, -centres[static_cast<std::size_t>(k)].z});
+  return centres;
+}
 
 double MandrelCalibration::residual(std::size_t i) const {
   const Circle& c = fit.geometric;
@@ -113,19 +116,27 @@ MandrelEffect effect_of_pivot(const SwingArm& arm, double higher) {
   });
 }
 
-MandrelCalibration calibrate_on_mandrel(Grinder& grinder, const MandrelBudget& budget, Mounted as) {
-  const sim::Mandrel mandrel(kMandrelRadius_mm);
-  grinder.mount(mandrel, as);
+MandrelCalibration mandrel_calibration(std::vector<double> y, std::vector<double> z,
+                                       const MandrelBudget& budget, const SwingArm& arm) {
   MandrelCalibration result;
-  touch_all(grinder, result);
+  result.y = std::move(y);
+  result.z = std::move(z);
   host::require(fit_circle(result.y, result.z, result.fit), "mandrel calibration");
   EffectiveRadius effective;
   host::require(effective_radius(result.y, result.z, result.fit,
                                  {kMandrelRadius_mm, kNominalBall_mm}, effective),
                 "mandrel calibration");
   result.rc = effective.rc;
-  result.u_rc = uncertainty_of(result, budget, grinder.geometry().arm);
+  result.u_rc = uncertainty_of(result, budget, arm);
   return result;
+}
+
+MandrelCalibration calibrate_on_mandrel(Grinder& grinder, const MandrelBudget& budget, Mounted as) {
+  const sim::Mandrel mandrel(kMandrelRadius_mm);
+  grinder.mount(mandrel, as);
+  Readings readings = touch_all(grinder);
+  return mandrel_calibration(std::move(readings.first), std::move(readings.second), budget,
+                             grinder.geometry().arm);
 }
 
 }  // namespace volcomp::l300g

@@ -31,8 +31,17 @@ struct MandrelCalibration {
   [[nodiscard]] double residual(std::size_t i) const;
 };
 
-// 162 touches, 81 above and 81 below, 0.2 mm apart in Y. Throws UserError when the radius comes out
-// implausible: outside (0, r_b + 0.05).
+// Where the ball centre is in the touches, from the centre of the mandrel: 81 above it, outwards,
+// then 81 below, inwards, 0.2 mm apart in Y.
+[[nodiscard]] std::vector<Transverse> mandrel_centres();
+
+// From readings of all these touches. Throws UserError when the radius comes out implausible:
+// outside (0, r_b + 0.05).
+[[nodiscard]] MandrelCalibration mandrel_calibration(std::vector<double> y, std::vector<double> z,
+                                                     const MandrelBudget& budget,
+                                                     const SwingArm& arm);
+
+// By touching all of them.
 [[nodiscard]] MandrelCalibration calibrate_on_mandrel(Grinder& grinder, const MandrelBudget& budget,
                                                       Mounted as = Mounted::mandrel);
 
