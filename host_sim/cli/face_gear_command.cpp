@@ -126,17 +126,18 @@ void add_scatter_options(CLI::App& face_gear, FaceGearArguments& a) {
           .add_option("--touches", a.options.touches, "Touches of each point; their mean counts")
           ->check(CLI::Range(1, 20))
           ->capture_default_str());
-  noise.push_back(face_gear
-                      .add_option("--target-touches", a.options.targets.touches,
-                                  "Touches of each target that identifies the axes")
-                      ->check(CLI::Range(1, 1000))
-                      ->capture_default_str());
+  CLI::Option* targets = face_gear
+                             .add_option("--target-touches", a.options.targets.touches,
+                                         "Touches of each target that identifies the axes")
+                             ->check(CLI::Range(1, 1000))
+                             ->capture_default_str();
+  noise.push_back(targets);
   noise.push_back(face_gear
                       .add_option("--tracker-um", a.options.targets.tracker_um,
                                   "Find the targets by a tracker instead: standard deviation of "
                                   "each of their coordinates")
                       ->check(number_between(0.001, 100.0)));
-  noise.back()->excludes(noise[2]);
+  noise.back()->excludes(targets);
   CLI::Option* pure = face_gear.add_flag("--noise-free", a.noise_free,
                                          "Nothing scatters: what the mathematics alone can do");
   for (CLI::Option* option : noise)
