@@ -16,6 +16,7 @@ namespace {
 struct InternalHelicalArguments : RunArguments {
   internal_helical::InternalHelicalOptions options;
   std::string table_folder;  // empty: none
+  bool noise_free = false;
 };
 
 // The learned tables and what is in them.
@@ -36,6 +37,7 @@ RunOutcome internal_helical_outcome(RunPlace& place, const InternalHelicalArgume
   options.make_axes = place.axes();
   options.watch = &place.watch();
   options.threads = place.threads();
+  if (arguments.noise_free) options.truth.take_noise_away();
   const internal_helical::InternalHelicalResult run =
       internal_helical::run_internal_helical(options, progress);
   RunOutcome outcome;
@@ -61,6 +63,9 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
   helical->add_option("--seeds", a->options.seeds, "Grinders to simulate; medians are over them")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  helical->add_flag("--noise-free", a->noise_free,
+                    "Every pass repeats the one before, the measuring machine does not scatter: "
+                    "what the mathematics alone can do");
   const auto word = [](internal_helical::LearningWay way) {
     return std::string(internal_helical::kLearningWays.at(static_cast<std::size_t>(way)));
   };

@@ -232,6 +232,7 @@ grep -v '^pitch,left' whole.csv >bad.csv
 refused 'bad.csv: run-out needs the pitch of both sides' "$volcomp" inspect bad.csv --gear gear.toml --ball-mm 7
 refused 'whole.csv: a ball of 2 mm: ' "$volcomp" inspect whole.csv --gear gear.toml --ball-mm 2
 expect 2 'ball-mm: -7 is not a number from 0.01' "$volcomp" inspect whole.csv --gear gear.toml --ball-mm -7
+expect 0 'F_pk over 3 pitches, right flanks: ' "$volcomp" inspect whole.csv --gear gear.toml
 (cat whole.csv && tail -n 1 whole.csv) >bad.csv
 bad 'the pitch of tooth 31 is there twice'
 (head -n 2 points.csv && grep '^profile,left,1,' points.csv | head -n 2) >bad.csv

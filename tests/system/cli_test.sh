@@ -154,6 +154,7 @@ bad_grinder 's/^overrun_mm = .*/overrun_mm = 0.5/' "'overrun_mm' must be at leas
 bad_grinder '/^\[stroke\]/,/^overrun/d' "stroke"
 
 # The whole road of a user's own data, with the run files of a simulated campaign.
+expect 0 'those of medians with noise' "$volcomp" run internal-helical --noise-free --seeds 1
 expect 0 'PASS' "$volcomp" run xyfz --draws 1 --report "$work/report" --json "$work/figures.json"
 for file in report/report.html report/report.json figures.json report/campaign/draw_001/runs_X.csv; do
   [ -s "$work/$file" ] || { echo "FAILED: $file is missing"; failed=1; }

@@ -167,13 +167,15 @@ host::Verdict internal_helical_verdict(const InternalHelicalResult& run) {
                        wrong.found, wrong.beyond() ? "beyond" : "yet not beyond", wrong.threshold)};
   }
   const bool same = is_of_the_paper(run.job);
-  const bool judged = same && run.options.seeds >= kSeedsForMedians;
+  const bool scatters = run.options.scatters();
+  const bool judged = same && scatters && run.options.seeds >= kSeedsForMedians;
   int outside = 0;
   for (const HelicalMeasure& m : helical_measures(run))
     outside += judged && !m.ok() ? 1 : 0;
   const bool learned = before >= kSyncGain * after;
   const std::string ranges =
       !same          ? "ranges are known of the gear of the paper only"
+      : !scatters    ? "the specified ranges are those of medians with noise"
       : !judged      ? fmt::format("medians are judged from {} seeds on", kSeedsForMedians)
       : outside == 0 ? "all medians lie within the specified ranges"
                      : fmt::format("{} medians lie outside", outside);

@@ -35,11 +35,11 @@ json measure_table(const InternalHelicalResult& run) {
                 grade_text(helical_grade(run.job, m, GearStandard::iso1328_1995)),
                 grade_text(helical_grade(run.job, m, GearStandard::iso1328_2013)),
                 nullptr};
-    if (m.same_gear) {
+    if (m.same_gear && run.options.scatters()) {
       row[6] = fmt::format("{:.1f} … {:.1f}", allowed.low, allowed.high);
       row[7] = m.ok() ? "yes" : "NO";
-      row[10] = m.paper;
     }
+    if (m.same_gear) row[10] = m.paper;
     rows.push_back(row);
   }
   return host::in_summary(host::with_id(

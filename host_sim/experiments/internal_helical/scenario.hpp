@@ -47,6 +47,8 @@ struct InternalHelicalOptions {
   sim::BusAxesFactory make_axes;       // with the compensation on a bus; empty: integrated
   sim::MachineWatch* watch = nullptr;  // of the integrated form
   std::size_t threads = 1;             // for the grinders; 1 where they share a bus
+
+  [[nodiscard]] bool scatters() const { return truth.probe_mm > 0.0; }
 };
 
 // A ground gear and the monitor's view of its grinding.

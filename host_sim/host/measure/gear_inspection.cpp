@@ -89,6 +89,7 @@ class GearFile {
     }
     result_.teeth = summaries_of(result_.traces);
     if (result_.settings.ball_mm > 0.0) result_.run_out = run_out();
+    result_.spans = std::move(spans_);
     grade_all();
     return result_;
   }
@@ -191,6 +192,9 @@ class GearFile {
     PitchRound round{position, {}, {}, {}};
     grade_pitch(gear_, trace_name(file_.name, about), round);
     positions_.at(about.side) = round.position;
+    PitchSpan span{about.side, largest_pitch_span(round.position.size()), 0.0};
+    require(cumulative_pitch(round.position, span.pitches, span.um), trace_name(file_.name, about));
+    spans_.push_back(span);
     return {
         figure_of(gear_, GearDeviation::single_pitch, round.figures.single, round.figures.single),
         figure_of(gear_, GearDeviation::total_pitch, round.figures.total, round.figures.total)};
@@ -242,6 +246,7 @@ class GearFile {
   const GearPointsFile& file_;
   std::map<Key, Points> sorted_;
   std::array<std::vector<double>, 2> positions_;  // of the pitch, by kFlankSides, µm
+  std::vector<PitchSpan> spans_;
   InspectedGear result_;
 };
 

@@ -47,6 +47,13 @@ struct InspectedRunOut {
   std::array<std::optional<int>, 2> grade{};
 };
 
+// F_pk: the largest sum of k pitches in a row, k an eighth of the round. It decides no grade.
+struct PitchSpan {
+  std::size_t side = 0;  // of kFlankSides
+  std::size_t pitches = 0;
+  double um = 0.0;
+};
+
 struct InspectSettings {
   bool filter = false;   // filter_as_2013, before the grades of both editions
   double ball_mm = 0.0;  // diameter for the run-out; 0: none
@@ -57,6 +64,7 @@ struct InspectedGear {
   std::vector<InspectedTrace> traces;         // profiles, leads, pitches; left before right
   std::vector<ToothSummary> teeth;            // of traces that several teeth have
   std::optional<InspectedRunOut> run_out;     // where settings name a ball
+  std::vector<PitchSpan> spans;               // of each pitch
   std::array<bool, 2> covered{};              // does the edition cover a gear of this size?
   std::array<std::optional<int>, 2> grade{};  // worst of F_α, F_β, f_pt and F_p
   std::vector<std::string> warnings;

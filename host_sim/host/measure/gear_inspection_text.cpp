@@ -89,6 +89,19 @@ std::string run_out_line(const InspectedGear& g) {
       shown_grade(g, r.grade[1], 1), r.um.eccentricity);
 }
 
+std::string span_line(const PitchSpan& span) {
+  return fmt::format("F_pk over {} pitches, {} flanks: {:.2f} µm", span.pitches,
+                     kFlankNames.at(span.side), span.um);
+}
+
+json spans_json(const InspectedGear& g) {
+  json out = json::array();
+  for (const PitchSpan& span : g.spans)
+    out.push_back(
+        {{"flank", kFlankNames.at(span.side)}, {"pitches", span.pitches}, {"F_pk_um", span.um}});
+  return out;
+}
+
 json run_out_json(const InspectedGear& g) {
   if (!g.run_out) return {};
   json out{{"ball_mm", g.run_out->ball_mm},
@@ -131,6 +144,8 @@ std::string inspection_text(const InvoluteGear& gear, const InspectedGear& inspe
                                 inspected.covered.at(s)
                                     ? shown_grade(inspected, inspected.grade.at(s), s)
                                     : "has no grades for a gear of this size"));
+  for (const PitchSpan& span : inspected.spans)
+    lines.push_back(span_line(span));
   if (inspected.run_out) lines.push_back(run_out_line(inspected));
   lines.push_back(fmt::format(
       "The grade is the worst of F_a, F_b, f_pt and F_p as far as they were measured. {}; the "
@@ -180,6 +195,7 @@ json inspection_json(const InvoluteGear& gear, const InspectedGear& inspected) {
           {"traces", traces},
           {"teeth", teeth_json(inspected)},
           {"run_out", run_out_json(inspected)},
+          {"spans", spans_json(inspected)},
           {"filtered", inspected.settings.filter},
           {"warnings", inspected.warnings}};
 }
