@@ -201,7 +201,6 @@ class Compensator {
     bool known = false;           // has ever had a valid position
     bool steady = false;          // known, and the last sample was good
     bool soft = false;            // dropped, not homed or coming back: soft_rate instead of rate
-    Knot mean{};                  // row in use until a direction is known
   };
 
   // What the last change brought. The tick writes it.
@@ -217,7 +216,8 @@ class Compensator {
   };
   struct Orienting {
     std::array<TurnRange, kMaxOrienting> range;
-    std::array<float, kMaxOrienting> excess;  // found within it
+    std::array<float, kMaxOrienting> excess;         // found within it
+    std::array<std::int32_t, kMaxOrienting> target;  // the offset that takes it away, not clamped
     kernel::StepAngles angle;
   };
   struct NotOrienting {};
@@ -228,6 +228,7 @@ class Compensator {
     Places at;
     kernel::Columns column;
     kernel::Excess excess;
+    std::array<std::int32_t, kMaxCorrecting> target;  // what bounds act on: the offset wanted
     std::conditional_t<kOrients, Orienting, NotOrienting> turns;
   };
 
@@ -263,13 +264,15 @@ class Compensator {
   bool find_kept_excess(const Tables& set, Work& work, Float3& error_nm) const;
   template <bool Ramps>
   bool put_out(std::size_t axis, AxisState& s, float excess, float ramp, std::uint32_t common,
-               Output& out);
+               std::int32_t& target, Output& out);
   template <bool Ramps>
   std::uint32_t put_out_all(const Work& work, float ramp, std::uint32_t common, Output& out);
 
   // compensator_limited.inl
-  void put_out_limited(std::size_t axis, AxisState& s, float excess, float ramp,
-                       std::uint32_t ramping, Output& out);
+  bool put_out_limited(std::size_t axis, AxisState& s, float excess, std::int32_t target,
+                       float ramp, std::uint32_t ramping, Output& out);
+  template <class Visit>
+  void for_each_limiting(const Visit& visit);
   void tick_limited(std::uint32_t limited, std::uint32_t ended, float ramp, Output& out);
   template <class Unit>
   friend void detail::tick_limited(Unit& unit, std::uint32_t limited, std::uint32_t ended,
@@ -348,7 +351,6 @@ class Compensator {
   std::array<AxisState*, kMaxCorrecting> corrected_{};
   Work work_{};
   std::array<AxisState, kAxes> axis_{};
-  std::array<StatusTally, kAxes> tally_{};
   std::array<Knot, kAxes> mean_{};  // rows in use until a direction is known
 
   std::atomic<const Tables*> wanted_{nullptr};  // to be in force
@@ -368,6 +370,7 @@ class Compensator {
   Status last_rejection_{};
   Settings settings_{};
   Machine machine_{};
+  std::array<StatusTally, kAxes> tally_{};
 
   // How far the scrub is: in the chain or, after that, in the tables.
   struct Scrub {

@@ -177,10 +177,11 @@ template <bool Ramps>
 VOLCOMP_INLINE bool Compensator<Machine, Knots, Limiter>::put_out(std::size_t axis, AxisState& s,
                                                                   float excess, float ramp,
                                                                   std::uint32_t common,
+                                                                  std::int32_t& target,
                                                                   Output& out) {
   if (VOLCOMP_UNLIKELY(Ramps && exceeds(excess, s.limit))) return false;
-  const float x = Ramps ? s.ramp_from - ramp * (excess + s.ramp_from) : -excess;
-  if (VOLCOMP_UNLIKELY(!s.out.reach(round_half_even(x)))) return false;
+  target = round_half_even(Ramps ? s.ramp_from - ramp * (excess + s.ramp_from) : -excess);
+  if (VOLCOMP_UNLIKELY(!s.out.reach(target))) return false;
   out.offset[axis] = s.out.offset();
   out.status[axis] = static_cast<std::uint16_t>(common);
   return true;
@@ -196,14 +197,18 @@ VOLCOMP_INLINE std::uint32_t Compensator<Machine, Knots, Limiter>::put_out_all(c
   std::uint32_t limited = 0;
   for_each_correcting([&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
     const std::size_t a = machine_.chain.correcting[c];
-    if (put_out<Ramps>(a, corrected(c), work.excess[c], ramp, common, out)) return;
+    std::int32_t target = 0;
+    if (put_out<Ramps>(a, corrected(c), work.excess[c], ramp, common, target, out)) return;
     limited |= 1U << a;
+    work_.target[c] = target;
     if (Machine::kCompiledIn) work_.excess[c] = work.excess[c];
   });
   if constexpr (kOrients) {
     for_each_orienting([&](AxisState& s, std::size_t o) VOLCOMP_INLINE_LAMBDA {
       const std::size_t a = machine_.chain.orienting[o];
-      if (!put_out<Ramps>(a, s, work.turns.excess[o], ramp, common, out)) limited |= 1U << a;
+      std::int32_t& target = work_.turns.target[o];
+      if (!put_out<Ramps>(a, s, work.turns.excess[o], ramp, common, target, out))
+        limited |= 1U << a;
     });
   }
   return limited;

@@ -84,7 +84,7 @@ struct OffsetBounds {
 
   // The change of the change has no bound. One that is bounded is less than twice the rate: that is
   // the stated rate, or at least the acceleration.
-  [[nodiscard]] constexpr bool none() const { return acceleration / 2 >= rate; }
+  [[nodiscard]] constexpr bool none() const { return acceleration >= 2 * rate; }
   // A state that is safe within `b` is safe within these.
   [[nodiscard]] constexpr bool contain(const OffsetBounds& b) const {
     return limit >= b.limit && rate >= b.rate && acceleration >= b.acceleration;

@@ -60,18 +60,24 @@ class OffsetLimiter<true> {
     return true;
   }
   // These return why offset() is not the target.
-  std::uint32_t follow(std::int32_t target) { return reach(target) ? 0U : approach(target); }
+  std::uint32_t follow(std::int32_t target) {
+    if (VOLCOMP_UNLIKELY(waiting())) return approach_otherwise(target, false);
+    return reach(target) ? 0U : approach(target);
+  }
   // The same without the shortcut.
-  std::uint32_t approach(std::int32_t target) { return approach(target, false); }
+  std::uint32_t approach(std::int32_t target) { return approach(target, rate_, free_); }
   // At the soft rate.
-  std::uint32_t follow_softly(std::int32_t target) { return approach(target, true); }
+  std::uint32_t follow_softly(std::int32_t target) {
+    if (VOLCOMP_UNLIKELY(waiting())) return approach_otherwise(target, true);
+    return approach(target, bounds_.soft_rate, kSoftly);
+  }
   // Comes to rest as soon as the acceleration allows.
   std::uint32_t hold();
 
   [[nodiscard]] std::int32_t offset() const { return offset_; }
   [[nodiscard]] std::int32_t step() const { return step_; }
   // Where the offset comes to rest if it brakes from now on.
-  [[nodiscard]] std::int32_t standstill() const {
+  [[nodiscard]] VOLCOMP_INLINE std::int32_t standstill() const {
     return VOLCOMP_UNLIKELY(beyond(step_, reach_)) ? braked() : offset_;
   }
   [[nodiscard]] bool waiting() const { return mode_.get() == Mode::waiting; }
@@ -94,7 +100,9 @@ class OffsetLimiter<true> {
     waiting,  // for bounds
   };
 
-  static constexpr std::int32_t kNoneFree = INT32_MIN;  // no target is followed at its own speed
+  // Within these is no target, none is followed at its own speed: unless bounded; at the soft rate.
+  static constexpr std::int32_t kNoneFree = INT32_MIN;
+  static constexpr std::int32_t kSoftly = INT32_MIN + 1;
 
   static constexpr std::uint32_t word(std::int32_t x) { return static_cast<std::uint32_t>(x); }
   static constexpr std::int32_t size(std::int32_t x) { return x < 0 ? -x : x; }
@@ -102,16 +110,25 @@ class OffsetLimiter<true> {
     return word(x) + word(most) > 2U * word(most);
   }
 
-  std::uint32_t approach(std::int32_t target, bool softly);
-  std::uint32_t approach_bounded(std::int32_t target, std::int32_t rate, std::int32_t free);
+  std::uint32_t approach(std::int32_t target, std::int32_t rate, std::int32_t free);
+  std::uint32_t approach_otherwise(std::int32_t target, bool softly);
   std::uint32_t approach_free(std::int32_t target, std::int32_t rate);
   std::uint32_t brake();
-  [[nodiscard]] std::int32_t braked() const;
+  // Faster than one step of the acceleration: S(|step| − a) further on.
+  [[nodiscard]] VOLCOMP_INLINE std::int32_t braked() const {
+    const std::uint32_t a = word(reach_);
+    const std::uint32_t d = word(size(step_)) - a;
+    const std::uint32_t n = (d - 1U) / a;
+    const std::uint32_t way = (n + 1U) * d - a * ((n + 1U) * n / 2U);
+    return static_cast<std::int32_t>(step_ < 0 ? word(offset_) - way : word(offset_) + way);
+  }
   [[nodiscard]] bool may_take_bounds() const;
   void take_bounds();
+  void derive();
   void prepare();
   [[nodiscard]] std::int32_t unclamped() const;
   std::uint32_t keep_largest(std::uint32_t status);
+  std::uint32_t keep_unusual(std::uint32_t status);
 
   // what reach() reads and writes
   std::int32_t offset_ = 0;
@@ -122,12 +139,14 @@ class OffsetLimiter<true> {
   std::int32_t watch_ = 0;  // the largest offset, or most_: further out is not usual
   std::int32_t most_ = 0;   // up to here targets are followed at their own speed and not clamped
 
-  std::int32_t target_ = 0;            // of the last tick, unless it was reached
+  std::int32_t free_ = kNoneFree;      // targets within are followed at their own speed, if bounded
+  std::int32_t lag_ = 0;               // target − offset of the last tick, if bounded
   Published<Mode> mode_ = Mode::free;  // released after bounds_
   OffsetBounds bounds_{};              // in force
   Published<std::int32_t> largest_ = 0;
   Published<std::int32_t> largest_lag_ = 0;
-  OffsetBounds next_{};  // the newest
+  OffsetBounds next_{};           // the newest
+  std::int32_t slow_enough_ = 0;  // they are taken at steps of at most this
 };
 
 template <>

@@ -2,7 +2,7 @@
 // Counts how often each status bit of an axis began. Bits come and go together, up to nine in one
 // tick: they are counted in groups, of which every pattern of beginnings has a counter of its own.
 // So a change costs one increment where only bits of ordinary operation change, and four whatever
-// the status is.
+// the status is. What stays as it was costs none.
 
 #include <array>
 #include <cstdint>
@@ -17,21 +17,33 @@ namespace volcomp {
 inline constexpr std::uint32_t kOrdinaryStatus =
     kValid | kClamped | kRateLimited | kAccelerationLimited;
 
+// These four side by side: every product of one of them and of one of the factor has a place of its
+// own, so that nothing carries, and four of these are the upper ones.
+constexpr std::uint32_t ordinary_pattern(std::uint32_t ordinary_status) {
+  constexpr std::uint32_t kGather = 1U << 28U | 1U << 22U | 1U << 17U;
+  return ordinary_status * kGather >> 28U;
+}
+static_assert(ordinary_pattern(kValid) == 1 && ordinary_pattern(kClamped) == 2 &&
+              ordinary_pattern(kRateLimited) == 4 && ordinary_pattern(kAccelerationLimited) == 8 &&
+              ordinary_pattern(kOrdinaryStatus) == 15);
+
 class StatusTally {
  public:
   // The status of this tick. Interrupt-safe.
   VOLCOMP_INLINE void enter(std::uint32_t status) {
     const std::uint32_t began = status & ~last_;
     last_ = status;
-    VOLCOMP_UNROLL
-    for (std::size_t g = 0; g < kGroups; ++g)
-      count(g, began);
+    if (began == 0) return;
+    count(ordinary_[ordinary_pattern(began & kOrdinaryStatus)]);
+    count(of_sample_[sample_pattern(began)]);
+    count(of_place_[place_pattern(began)]);
+    count(of_machine_[machine_pattern(began)]);
   }
   // The same where it has no other bits than kOrdinaryStatus.
   VOLCOMP_INLINE void enter_ordinary(std::uint32_t status) {
     const std::uint32_t began = status & ~last_;
     last_ = status;
-    count(0, began);
+    if (began != 0) count(ordinary_[ordinary_pattern(began)]);
   }
 
   // The next status begins anew, whatever it is.
@@ -39,53 +51,49 @@ class StatusTally {
 
   // How often this bit began, at most 65 535. Any context.
   [[nodiscard, gnu::cold]] std::uint16_t began(std::size_t bit) const {
-    std::uint32_t sum = 0;
-    for (std::size_t g = 0; g < kGroups; ++g) {
-      const std::uint32_t counted = pattern(g, 1U << bit);
-      const std::uint32_t patterns = g + 1 < kGroups ? kPatterns : kLastPatterns;
-      for (std::uint32_t p = 1; p < patterns; ++p)
-        sum += (p & counted) != 0 ? count_[g * kPatterns + p].get() : 0U;
-    }
+    const std::uint32_t status = 1U << bit;
+    const std::uint32_t sum = sum_of(ordinary_, ordinary_pattern(status & kOrdinaryStatus)) +
+                              sum_of(of_sample_, sample_pattern(status)) +
+                              sum_of(of_place_, place_pattern(status)) +
+                              sum_of(of_machine_, machine_pattern(status));
     return static_cast<std::uint16_t>(sum < UINT16_MAX ? sum : UINT16_MAX);
   }
 
  private:
-  static constexpr std::size_t kGroups = 4;
-  static constexpr std::uint32_t kPatterns = 16;  // of a group
-  static constexpr std::uint32_t kLastPatterns = 4;
+  using Counter = Published<std::uint16_t>;
 
-  // `width` neighbouring bits of a status from bit `from` on, moved to bit `to` of a pattern.
-  static constexpr std::uint32_t bits(std::uint32_t status, std::size_t from, unsigned width,
-                                      unsigned to) {
-    return (status >> from & ((1U << width) - 1U)) << to;
+  // The groups beside that of ordinary operation. kRamping is in none: ramps are those of all axes.
+  static constexpr std::uint32_t sample_pattern(std::uint32_t status) {
+    return status / kNotHomed % 16U;  // … kImplausible
   }
-  // The bits of a group. kRamping is in none: ramps are those of all axes.
-  static constexpr std::uint32_t pattern(std::size_t group, std::uint32_t status) {
-    switch (group) {
-      case 0:
-        return bits(status, bit_of(kValid), 1, 0) | bits(status, bit_of(kClamped), 2, 1) |
-               bits(status, bit_of(kAccelerationLimited), 1, 3);
-      case 1:
-        return bits(status, bit_of(kNotHomed), 4, 0);
-      case 2:
-        return bits(status, bit_of(kOutOfRange), 2, 0) |
-               bits(status, bit_of(kDirectionUnknown), 1, 2) |
-               bits(status, bit_of(kNoAuthority), 1, 3);
-      default:
-        return bits(status, bit_of(kNoTables), 2, 0);
-    }
+  static constexpr std::uint32_t place_pattern(std::uint32_t status) {
+    return status / kOutOfRange % 4U | status / kDirectionUnknown % 2U * 4U;
   }
-  static_assert(kRateLimited == kClamped << 1U && kImplausible == kNotHomed << 3U &&
-                kFarOutOfRange == kOutOfRange << 1U && kTableDamaged == kNoTables << 1U);
+  static constexpr std::uint32_t machine_pattern(std::uint32_t status) {
+    return status / kNoAuthority % 8U;  // … kTableDamaged
+  }
+  static_assert(kImplausible == kNotHomed << 3U && kFarOutOfRange == kOutOfRange << 1U &&
+                kNoTables == kNoAuthority << 1U && kTableDamaged == kNoAuthority << 2U);
 
-  VOLCOMP_INLINE void count(std::size_t group, std::uint32_t began) {
-    Published<std::uint16_t>& count = count_[group * kPatterns + pattern(group, began)];
-    const std::uint32_t n = count.own();
-    count.set(static_cast<std::uint16_t>(n < UINT16_MAX ? n + 1U : n));
+  VOLCOMP_INLINE static void count(Counter& counter) {
+    const std::uint32_t n = counter.own();
+    counter.set(static_cast<std::uint16_t>(n + 1U - (n + 1U) / (UINT16_MAX + 1U)));
+  }
+
+  template <std::size_t Patterns>
+  static std::uint32_t sum_of(const std::array<Counter, Patterns>& counters,
+                              std::uint32_t counted) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t p = 1; p < Patterns; ++p)
+      sum += (p & counted) != 0 ? counters[p].get() : 0U;
+    return sum;
   }
 
   std::uint32_t last_ = 0;
-  std::array<Published<std::uint16_t>, (kGroups - 1) * kPatterns + kLastPatterns> count_{};
+  std::array<Counter, 16> ordinary_{};
+  std::array<Counter, 16> of_sample_{};
+  std::array<Counter, 8> of_place_{};
+  std::array<Counter, 8> of_machine_{};
 };
 
 }  // namespace volcomp

@@ -16,5 +16,9 @@ extern template class Compensator<GenericMachine>;
 extern template class Compensator<GrinderMachine>;
 extern template class Compensator<FiveAxisMachine>;
 extern template class Compensator<EightAxisMachine>;
+extern template class Compensator<CompiledMachine<kXyfzMachine>, kDefaultKnots,
+                                  OffsetLimiter<false>>;
+extern template class Compensator<PositionMachine, kDefaultKnots, OffsetLimiter<false>>;
+extern template class Compensator<FiveAxisMachine, kDefaultKnots, OffsetLimiter<false>>;
 
 }  // namespace volcomp
