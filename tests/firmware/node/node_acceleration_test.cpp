@@ -73,7 +73,8 @@ TEST_F(NodeAcceleration, NoneIsTheDefault) {
   EXPECT_GT(travel().of_step, 3 * kAcceleration);
 }
 
-// The gate finds what a flipped bit makes of the limits in force of the compensator: X gets 0 by
+// The gate finds what a flipped bit makes of the acceleration that a tick of the compensator
+// compares with, which stands shortly before the bounds it was made of: X gets 0 by
 // the acceleration that was set, and nothing more until the node starts anew.
 TEST_F(NodeAcceleration, WhatBreaksItIsTakenToZeroAndReported) {
   constexpr std::int32_t kLimit = 123'457;
@@ -88,6 +89,12 @@ TEST_F(NodeAcceleration, WhatBreaksItIsTakenToZeroAndReported) {
   while (memory < end && std::memcmp(memory, bounds.data(), sizeof bounds) != 0)
     memory += sizeof bounds[0];
   ASSERT_LT(memory, end);
+  constexpr std::size_t kWords = 16;  // of a limiter before its bounds
+  const unsigned char* const before = memory - kWords * sizeof bounds[0];
+  do {
+    memory -= sizeof bounds[0];
+  } while (memory > before && std::memcmp(memory, bounds.data(), sizeof bounds[0]) != 0);
+  ASSERT_GT(memory, before);
   memory[1] ^= 0x10U;
   std::int32_t held = bench_.drive[0].held;
   std::int32_t step = 0;
