@@ -126,21 +126,13 @@ std::uint32_t OffsetLimiter<true>::hold() {
   return step_ != 0 ? status | kAccelerationLimited : status;
 }
 
-// Where bounds wait or the change of the change has none.
+// Where bounds wait: no target is within free_ then.
 std::uint32_t OffsetLimiter<true>::approach_otherwise(std::int32_t target, bool softly) {
-  if (waiting()) {
-    if (!may_take_bounds()) return brake();
-    take_bounds();
-    lag_ = target - offset_;  // not taken to move
-  }
-  const std::int32_t rate = softly ? bounds_.soft_rate : bounds_.rate;
-  if (mode_.own() == Mode::free) return approach_free(target, rate);
-  return approach(target, rate, softly ? kSoftly : bounds_.free);
+  return softly ? approach(target, bounds_.soft_rate, kSoftly) : approach(target, rate_, free_);
 }
 
 std::uint32_t OffsetLimiter<true>::approach(std::int32_t target, std::int32_t rate,
                                             std::int32_t free) {
-  const std::int32_t a = reach_;
   const std::int32_t before = step_;
   const std::int32_t e = target - offset_;
   // How fast the target is taken to move: as it did, but not beyond what the offset does.
@@ -148,8 +140,14 @@ std::uint32_t OffsetLimiter<true>::approach(std::int32_t target, std::int32_t ra
   if (!beyond(target, free)) {
     u = smaller(e - lag_, before);
   } else if (VOLCOMP_UNLIKELY(mode_.own() != Mode::bounded)) {
-    return approach_otherwise(target, free == kSoftly);
+    if (waiting()) {
+      if (!may_take_bounds()) return brake();
+      take_bounds();  // the target is not taken to move
+      rate = free == kSoftly ? bounds_.soft_rate : bounds_.rate;
+    }
+    if (mode_.own() == Mode::free) return approach_free(target, rate);
   }
+  const std::int32_t a = reach_;
   const std::int32_t left = e - u;
   std::int32_t d = 0;
   std::uint32_t status = kAccelerationLimited;
