@@ -126,7 +126,7 @@ class Compensator {
 
   // Does at once what the next tick would begin with. Only while no tick can come.
   [[gnu::cold]] void settle() {
-    if (pending()) take_request();
+    if (pending()) take_request<false>();
   }
 
   // Looks for bits that have changed in what a tick works with: active tables, chain of the
@@ -272,7 +272,7 @@ class Compensator {
   bool put_out_limited(std::size_t axis, AxisState& s, float excess, std::int32_t target,
                        float ramp, std::uint32_t ramping, Output& out);
   template <class Visit>
-  void for_each_limiting(const Visit& visit);
+  void for_each_offset(const Visit& visit);
   void tick_limited(std::uint32_t limited, std::uint32_t ended, float ramp, Output& out);
   template <class Unit>
   friend void detail::tick_limited(Unit& unit, std::uint32_t limited, std::uint32_t ended,
@@ -287,7 +287,9 @@ class Compensator {
   void for_each_orienting(const Visit& visit);
 
   // compensator_exceptions.inl
+  template <bool Fast>
   void take_request();
+  template <bool Fast>
   void begin_change();
   void end_change();
   bool all_known(const Input& in);

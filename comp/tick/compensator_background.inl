@@ -143,7 +143,7 @@ Status Compensator<Machine, Knots, Limiter>::start_from(
   apply_directions();
   unknown_axes_ = machine_.chain.axes;
   if (!now_.ramp.at_rest()) ramps_.set(ramps_.own() + 1U);  // a new beginning
-  begin_change();
+  begin_change<false>();
   now_.ramp = next_ramp_;
   return {};
 }

@@ -6,6 +6,7 @@
 namespace volcomp {
 
 template <class Machine, std::size_t Knots, class Limiter>
+template <bool Fast>
 VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::take_request() {
   requested_.store(0, std::memory_order_relaxed);
   // Either this tick reads the latest pointer, or the flag is set again after it: request(). Since
@@ -13,22 +14,31 @@ VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::take_request() {
   // tables of any pointer that is read here, and the fence acquires it.
   std::atomic_thread_fence(std::memory_order_seq_cst);
   const Tables* const wanted = wanted_.load(kAfterFence);
-  begin_change();
+  begin_change<Fast>();
   now_.ramp = next_ramp_;
   now_.active.release(wanted);  // the background may then write into those that were active
 }
 
 // Whatever changes, the output goes from where it is, or comes to rest, to where it should be along
 // the ramp. One that is under way goes over into the next. Where fewer axes correct, the first axis
-// has its turn more than once: storing is cheaper than branching.
+// has its turn more than once: storing is cheaper than branching. `Fast`: in a tick; for size in
+// the background.
 template <class Machine, std::size_t Knots, class Limiter>
+template <bool Fast>
 VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::begin_change() {
-  VOLCOMP_UNROLL
-  for (std::size_t c = 0; c < kMaxCorrecting; ++c)
-    corrected(c).ramp_from = static_cast<float>(corrected(c).out.standstill());
-  for_each_orienting([](AxisState& s, std::size_t) VOLCOMP_INLINE_LAMBDA {
+  const auto begin = [](AxisState& s) VOLCOMP_INLINE_LAMBDA {
     s.ramp_from = static_cast<float>(s.out.standstill());
-  });
+  };
+  if constexpr (Fast) {
+    VOLCOMP_UNROLL
+    for (std::size_t c = 0; c < kMaxCorrecting; ++c)
+      begin(corrected(c));
+  } else {
+    VOLCOMP_LOOP
+    for (std::size_t c = 0; c < kMaxCorrecting; ++c)
+      begin(corrected(c));
+  }
+  for_each_orienting([&](AxisState& s, std::size_t) VOLCOMP_INLINE_LAMBDA { begin(s); });
   ramps_.set(ramps_.own() | 1U);
 }
 

@@ -37,12 +37,13 @@ VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::tick_limited(std::uint
                                                                        float ramp, Output& out) {
   const std::uint32_t ramping = now_.ramp.at_rest() ? 0U : std::uint32_t{kRamping};
   std::uint32_t invalid = 0;
-  for_each_limiting([&](std::size_t a, AxisState& s, const float& excess,
-                        const std::int32_t& target) VOLCOMP_INLINE_LAMBDA {
-    const std::uint32_t bit = 1U << a;
-    if ((limited & bit) == 0) return;
-    if (!put_out_limited(a, s, excess, target, ramp, ramping, out)) invalid |= bit;
-  });
+  for_each_offset([&](std::size_t a, AxisState& s, const float& excess, const std::int32_t& target)
+                      VOLCOMP_INLINE_LAMBDA {
+                        const std::uint32_t bit = 1U << a;
+                        if ((limited & bit) == 0) return;
+                        if (!put_out_limited(a, s, excess, target, ramp, ramping, out))
+                          invalid |= bit;
+                      });
   limited_axes_ |= invalid;
   while (ended != 0) {  // at most kAxes times
     tally_[static_cast<std::size_t>(__builtin_ctz(ended))].enter_ordinary(kValid);
@@ -53,7 +54,7 @@ VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::tick_limited(std::uint
 // Visits the axes that take offsets.
 template <class Machine, std::size_t Knots, class Limiter>
 template <class Visit>
-VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::for_each_limiting(const Visit& visit) {
+VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::for_each_offset(const Visit& visit) {
   const auto correcting = [&](std::size_t c) VOLCOMP_INLINE_LAMBDA {
     visit(machine_.chain.correcting[c], corrected(c), work_.excess[c], work_.target[c]);
   };

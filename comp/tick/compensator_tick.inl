@@ -153,7 +153,7 @@ template <class Machine, std::size_t Knots, class Limiter>
 VOLCOMP_INLINE float Compensator<Machine, Knots, Limiter>::advance_ramp(std::uint32_t& common) {
   float ramp = 1.0F;
   if (requested_.load(std::memory_order_relaxed) != 0) {
-    take_request();
+    take_request<true>();
     ramp = now_.ramp.begin();
     common |= kRamping;
     if (!now_.ramp.running()) end_change();

@@ -5,8 +5,10 @@ namespace {
 
 constexpr std::uint32_t word(std::int32_t x) { return static_cast<std::uint32_t>(x); }
 
+// Two selections, no branch: low ≤ high.
 constexpr std::int32_t between(std::int32_t low, std::int32_t high, std::int32_t x) {
-  return x < low ? low : x > high ? high : x;
+  const std::int32_t raised = x < low ? low : x;
+  return raised > high ? high : raised;
 }
 
 // Of one sign: the smaller in size. Else 0.
@@ -126,13 +128,27 @@ std::uint32_t OffsetLimiter<true>::hold() {
   return step_ != 0 ? status | kAccelerationLimited : status;
 }
 
-// Where bounds wait: no target is within free_ then.
-std::uint32_t OffsetLimiter<true>::approach_otherwise(std::int32_t target, bool softly) {
-  return softly ? approach(target, bounds_.soft_rate, kSoftly) : approach(target, rate_, free_);
+std::uint32_t OffsetLimiter<true>::follow(std::int32_t target) {
+  if (VOLCOMP_UNLIKELY(waiting())) return approach_waiting(target, false);
+  return reach(target) ? 0U : approach(target);
+}
+
+std::uint32_t OffsetLimiter<true>::follow_softly(std::int32_t target) {
+  if (VOLCOMP_UNLIKELY(waiting())) return approach_waiting(target, true);
+  return approach(target, bounds_.soft_rate, kNoneFree);
+}
+
+// Where bounds wait.
+std::uint32_t OffsetLimiter<true>::approach_waiting(std::int32_t target, bool softly) {
+  if (!may_take_bounds()) return brake();
+  take_bounds();
+  lag_ = target - offset_;  // not taken to move
+  return softly ? approach(target, bounds_.soft_rate, kNoneFree) : approach(target);
 }
 
 std::uint32_t OffsetLimiter<true>::approach(std::int32_t target, std::int32_t rate,
                                             std::int32_t free) {
+  const std::int32_t a = reach_;
   const std::int32_t before = step_;
   const std::int32_t e = target - offset_;
   // How fast the target is taken to move: as it did, but not beyond what the offset does.
@@ -140,14 +156,8 @@ std::uint32_t OffsetLimiter<true>::approach(std::int32_t target, std::int32_t ra
   if (!beyond(target, free)) {
     u = smaller(e - lag_, before);
   } else if (VOLCOMP_UNLIKELY(mode_.own() != Mode::bounded)) {
-    if (waiting()) {
-      if (!may_take_bounds()) return brake();
-      take_bounds();  // the target is not taken to move
-      rate = free == kSoftly ? bounds_.soft_rate : bounds_.rate;
-    }
-    if (mode_.own() == Mode::free) return approach_free(target, rate);
+    return waiting() ? brake() : approach_free(target, rate);
   }
-  const std::int32_t a = reach_;
   const std::int32_t left = e - u;
   std::int32_t d = 0;
   std::uint32_t status = kAccelerationLimited;

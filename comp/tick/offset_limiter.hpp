@@ -60,17 +60,11 @@ class OffsetLimiter<true> {
     return true;
   }
   // These return why offset() is not the target.
-  std::uint32_t follow(std::int32_t target) {
-    if (VOLCOMP_UNLIKELY(waiting())) return approach_otherwise(target, false);
-    return reach(target) ? 0U : approach(target);
-  }
-  // The same without the shortcut.
+  std::uint32_t follow(std::int32_t target);
+  // The same without the shortcut; while bounds wait it brakes, without looking at the target.
   std::uint32_t approach(std::int32_t target) { return approach(target, rate_, free_); }
   // At the soft rate.
-  std::uint32_t follow_softly(std::int32_t target) {
-    if (VOLCOMP_UNLIKELY(waiting())) return approach_otherwise(target, true);
-    return approach(target, bounds_.soft_rate, kSoftly);
-  }
+  std::uint32_t follow_softly(std::int32_t target);
   // Comes to rest as soon as the acceleration allows.
   std::uint32_t hold();
 
@@ -100,9 +94,8 @@ class OffsetLimiter<true> {
     waiting,  // for bounds
   };
 
-  // Within these is no target, none is followed at its own speed: unless bounded; at the soft rate.
+  // No target is within: none is followed at its own speed.
   static constexpr std::int32_t kNoneFree = INT32_MIN;
-  static constexpr std::int32_t kSoftly = INT32_MIN + 1;
 
   static constexpr std::uint32_t word(std::int32_t x) { return static_cast<std::uint32_t>(x); }
   static constexpr std::int32_t size(std::int32_t x) { return x < 0 ? -x : x; }
@@ -111,7 +104,7 @@ class OffsetLimiter<true> {
   }
 
   std::uint32_t approach(std::int32_t target, std::int32_t rate, std::int32_t free);
-  std::uint32_t approach_otherwise(std::int32_t target, bool softly);
+  std::uint32_t approach_waiting(std::int32_t target, bool softly);
   std::uint32_t approach_free(std::int32_t target, std::int32_t rate);
   std::uint32_t brake();
   // Faster than one step of the acceleration: S(|step| − a) further on.

@@ -1,14 +1,15 @@
 #pragma once
 // Counts how often each status bit of an axis began. Bits come and go together, up to nine in one
 // tick: they are counted in groups, of which every pattern of beginnings has a counter of its own.
-// So a change costs one increment where only bits of ordinary operation change, and four whatever
-// the status is. What stays as it was costs none.
+// So a tick costs one increment where only bits of ordinary operation come, and four whatever the
+// status is: as many if nothing changed, since it is the tick in which everything does that counts.
 
 #include <array>
 #include <cstdint>
 
 #include "comp/core/inline.hpp"
 #include "comp/core/published.hpp"
+#include "comp/core/span.hpp"
 #include "comp/tick/tick_types.hpp"
 
 namespace volcomp {
@@ -33,7 +34,6 @@ class StatusTally {
   VOLCOMP_INLINE void enter(std::uint32_t status) {
     const std::uint32_t began = status & ~last_;
     last_ = status;
-    if (began == 0) return;
     count(ordinary_[ordinary_pattern(began & kOrdinaryStatus)]);
     count(of_sample_[sample_pattern(began)]);
     count(of_place_[place_pattern(began)]);
@@ -43,7 +43,7 @@ class StatusTally {
   VOLCOMP_INLINE void enter_ordinary(std::uint32_t status) {
     const std::uint32_t began = status & ~last_;
     last_ = status;
-    if (began != 0) count(ordinary_[ordinary_pattern(began)]);
+    count(ordinary_[ordinary_pattern(began)]);
   }
 
   // The next status begins anew, whatever it is.
@@ -80,11 +80,10 @@ class StatusTally {
     counter.set(static_cast<std::uint16_t>(n + 1U - (n + 1U) / (UINT16_MAX + 1U)));
   }
 
-  template <std::size_t Patterns>
-  static std::uint32_t sum_of(const std::array<Counter, Patterns>& counters,
-                              std::uint32_t counted) {
+  [[gnu::cold, gnu::noinline]] static std::uint32_t sum_of(Span<const Counter> counters,
+                                                           std::uint32_t counted) {
     std::uint32_t sum = 0;
-    for (std::uint32_t p = 1; p < Patterns; ++p)
+    for (std::uint32_t p = 1; p < counters.size(); ++p)
       sum += (p & counted) != 0 ? counters[p].get() : 0U;
     return sum;
   }

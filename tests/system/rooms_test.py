@@ -25,7 +25,7 @@ ROOMS = ["comp", "comp/core", "comp/machine", "comp/tables", "comp/tick", "comp/
 WITHOUT_RULE = {"tests", "toolchain"}
 # What README.md quotes: row of its table, rows of docs/evidence.md and what stands in their column for the Cortex-M7.
 QUOTED = [("instructions of a tick", {"XYFZ, compiled in: everyday, nothing limited": r"^[\d ]+ … (?P<everyday>[\d ]+)$",
-                                      "XYFZ, compiled in: anything": r"^(?P<largest>[\d ]+)$"},
+                                      "XYFZ, compiled in: anything": r"^[\d ]+ … (?P<largest>[\d ]+)$"},
            "everyday {everyday} at most, {largest} in the worst case"),
           ("stack of a tick", {"stack, bytes: proven / seen": r"^(?P<proven>\d+) /"}, "{proven} bytes"),
           ("flash of the CANopen node", {"node: flash, bytes": r"^(?P<flash>[\d ]+)$"}, "{flash} bytes")]

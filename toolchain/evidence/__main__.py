@@ -46,6 +46,7 @@ def measure():
                 "kernel_estimate": kernel_estimate.estimate(ROOT / "build/m7"),
                 "traced": traced_tick.measure(ROOT / "build/m7/firmware/volcomp-trace-m7.elf")}
     checks = [check for part in parts.values() for check in part.checks] + budgets.of_traced(evidence["traced"])
+    checks += budgets.of_ratio(*[evidence["boards"][board]["worst"] for board in ("m7", "m4")])
     offences = [offence for part in parts.values() for offence in part.offences]
     return evidence, checks, offences
 

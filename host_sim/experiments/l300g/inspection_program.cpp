@@ -96,15 +96,18 @@ std::string inspection_program(const InspectionSetup& setup, const std::string& 
                                const OffsetFor& offset_for) {
   Program program(setup, title, offset_for);
   for (std::size_t side = 0; side < kSides.size(); ++side) {
-    const std::string flank = std::string(kSideNames[side]) + " flank, ";
+    const char* const side_name = kSideNames[side];
     const std::size_t points = setup.traces.points;
     for (const int number : traced_teeth(setup.gear, setup.traces)) {
       const Flank tooth{kSides[side], number};
-      const std::string of = fmt::format(" of tooth {}", number);
-      program.trace(flank + "profile" + of, profile_touches(setup.gear, tooth, points), false);
-      program.trace(flank + "lead" + of, lead_touches(setup.gear, tooth, points), false);
+      const auto name = [&](const char* trace) {
+        return fmt::format("{} flank, {} of tooth {}", side_name, trace, number);
+      };
+      program.trace(name("profile"), profile_touches(setup.gear, tooth, points), false);
+      program.trace(name("lead"), lead_touches(setup.gear, tooth, points), false);
     }
-    program.trace(flank + "pitch", pitch_touches(setup.gear, kSides[side]), true);
+    program.trace(fmt::format("{} flank, pitch", side_name),
+                  pitch_touches(setup.gear, kSides[side]), true);
   }
   return program.end();
 }
