@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include "comp/core/units.hpp"
+#include "comp/machine/frame.hpp"
 #include "comp/metrology/fits/lobing_fit.hpp"
 #include "comp/metrology/statistics/random_stream.hpp"
 #include "host_sim/host/io/user_error.hpp"
@@ -32,6 +32,12 @@ std::vector<Vec3> directions() {
   return all;
 }
 
+// Rodrigues' formula: I + [v] + [v]² / (1 + c), v = from × z, c = from · z. Not for −z.
+Mat3 shortest_turn_to_z(const Vec3& from) {
+  const Mat3 v = cross_matrix(from.cross(Vec3::UnitZ()));
+  return Mat3::Identity() + v + v * v / (1.0 + from.z());
+}
+
 }  // namespace
 
 std::string probe_text(const ProbeClass& probe) {
@@ -55,8 +61,7 @@ TouchNoise touch_noise(const ProbeClass& probe, std::uint64_t seed) {
 }
 
 ProbeSignature::ProbeSignature(const TouchNoise& touches, const Vec3& stylus)
-    : noise(touches),
-      to_probe(Eigen::Quaterniond::FromTwoVectors(stylus, Vec3::UnitZ()).toRotationMatrix()) {}
+    : noise(touches), to_probe(shortest_turn_to_z(stylus)) {}
 
 double ProbeSignature::by_direction(const Vec3& normal) const {
   const Vec3 n = to_probe * normal;

@@ -15,6 +15,7 @@ struct ProbeSignature {
   Mat3 to_probe = Mat3::Identity();  // from the tool frame into that one
 
   ProbeSignature() = default;
+  // `stylus`: its axis in the tool frame, unit, not −Z.
   ProbeSignature(const TouchNoise& touches, const Vec3& stylus);
 
   // What this direction adds to the radius, by its normal in the tool frame, mm.
