@@ -2,7 +2,7 @@
 // Counts how often each status bit of an axis began. Bits come and go together, up to nine in one
 // tick: they are counted in groups, of which every pattern of beginnings has a counter of its own.
 // So a tick costs one increment where only bits of ordinary operation come, and four whatever the
-// status is: as many if nothing changed, since it is the tick in which everything does that counts.
+// status is. One that changes nothing costs as much: the most expensive tick is what is budgeted.
 
 #include <array>
 #include <cstdint>

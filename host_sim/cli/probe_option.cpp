@@ -10,14 +10,17 @@ namespace volcomp::cli {
 
 CLI::Option* add_probe_class(CLI::App& scenario, std::optional<std::size_t>& probe) {
   std::map<std::string, std::size_t> classes;
-  for (std::size_t i = 0; i < host::kProbeClassNames.size(); ++i)
+  std::string words;
+  for (std::size_t i = 0; i < host::kProbeClassNames.size(); ++i) {
     classes[host::kProbeClassNames[i]] = i;
+    words += (words.empty() ? "" : ",") + std::string(host::kProbeClassNames[i]);
+  }
   return scenario
       .add_option("--probe", probe,
                   "Class of the touch probe: none, no errors; rmp600, 2σ = 0.5 µm; lp2, 2σ = 1 µm; "
                   "with lobing, hysteresis and bending as classes have them (default: as the "
                   "machine file says, else lp2)")
-      ->transform(CLI::Transformer(classes, CLI::ignore_case).description("{lp2,none,rmp600}"));
+      ->transform(CLI::Transformer(classes, CLI::ignore_case).description("{" + words + "}"));
 }
 
 std::size_t probe_class_of(const std::filesystem::path& machine) {

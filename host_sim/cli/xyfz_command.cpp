@@ -34,7 +34,7 @@ xyfz::XyfzOptions options_of(RunPlace& place, const XyfzArguments& arguments) {
   options.make_cell = place.cells(options.machine);
   options.threads = place.threads();
   if (arguments.noise_free) options.draws = 0;
-  // What the paper shows besides is of its machine, too.
+  // The machine is tuned along lines, and the paper's figures are compared with it.
   if (arguments.paper_figures) options.noisy = xyfz::Functional::lines;
   if (arguments.squareness) options.noise_free = options.noisy = *arguments.squareness;
   if (!arguments.shard.empty()) options.shard = part_to_write(arguments, arguments.shard);

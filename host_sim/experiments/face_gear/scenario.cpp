@@ -130,6 +130,17 @@ FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStag
   return result;
 }
 
+// Without a map the one radius counts in every direction.
+std::optional<LobingMap> calibrated(const FaceGearResult& run, const FaceScatter& scatter) {
+  if (run.options.probe == 0) return std::nullopt;
+  const double stated = run.machine.probe->radius_mm;
+  if (run.options.map_radius)
+    return sim::calibrated_on_sphere(scatter.probe, stated, {run.options.seed, 0});
+  LobingMap constant;
+  constant.coefficient[0] = stated;
+  return constant;
+}
+
 }  // namespace
 
 FaceScatter scatter_of(const FaceGearOptions& options, const Vec3& stylus) {
@@ -144,16 +155,6 @@ FaceScatter scatter_of(const FaceGearOptions& options, const Vec3& stylus) {
 double target_sigma_mm(const FaceGearOptions& options) {
   if (options.targets.tracker_um > 0.0) return options.targets.tracker_um / kUmPerMm;
   return scatter_of(options).sigma_mm() / std::sqrt(static_cast<double>(options.targets.touches));
-}
-
-std::optional<LobingMap> calibrated(const FaceGearResult& run, const FaceScatter& scatter) {
-  if (run.options.probe == 0) return std::nullopt;
-  const double stated = run.machine.probe->radius_mm;
-  if (run.options.map_radius)
-    return sim::calibrated_on_sphere(scatter.probe, stated, {run.options.seed, 0});
-  LobingMap constant;
-  constant.coefficient[0] = stated;
-  return constant;
 }
 
 FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progress& progress) {

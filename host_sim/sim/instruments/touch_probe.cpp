@@ -34,10 +34,10 @@ Vec3 TouchProbe::ball_centre(const Stance& at) const {
 
 double TouchProbe::margin_mm(const Stance& at) const {
   const Gap gap = artefact_.gap(ball_centre(at), settings_.radius_mm);
-  if (!settings_.lobing_mm) return gap.mm - scatter_;
+  if (!settings_.lobing_mm && !(settings_.hysteresis_mm > 0.0)) return gap.mm - scatter_;
   const Vec3 normal = in_tool(at, gap.normal);
-  return gap.mm - scatter_ - settings_.lobing_mm(normal) -
-         0.5 * settings_.hysteresis_mm * normal.dot(before_);
+  const double lobing = settings_.lobing_mm ? settings_.lobing_mm(normal) : 0.0;
+  return gap.mm - scatter_ - lobing - 0.5 * settings_.hysteresis_mm * normal.dot(before_);
 }
 
 // What depends on the direction changes over degrees: the errors of the machine do not matter.

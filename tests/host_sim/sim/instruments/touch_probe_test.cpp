@@ -150,7 +150,6 @@ TEST_F(Probe, ScattersFromTouchToTouch) {
 TEST_F(Probe, RemembersFromWhereItWasTouchedBefore) {
   TouchProbe::Settings settings;
   settings.radius_mm = kTip;
-  settings.lobing_mm = [](const Vec3&) { return 0.0; };
   settings.hysteresis_mm = 0.006;
   TouchProbe probe(truth, wall, settings);
   std::vector<double> tripped_mm;
