@@ -105,6 +105,14 @@ void add_plan_options(CLI::App& xyfz, XyfzArguments& a) {
                   "in noisy campaigns; lines without noise and with --paper-figures, as the "
                   "machine is tuned)")
       ->transform(CLI::Transformer(functionals, CLI::ignore_case).description("{circles,lines}"));
+  std::map<std::string, sim::NoiseSource> sources;
+  for (std::size_t s = 0; s < sim::kNoiseSources.size(); ++s)
+    sources[sim::kNoiseSources.at(s)] = static_cast<sim::NoiseSource>(s);
+  xyfz.add_option("--only", a.options.only,
+                  "What errs in noisy campaigns, while everything else is perfect")
+      ->transform(CLI::CheckedTransformer(sources).description(
+          fmt::format("{{{}}}", fmt::join(sim::kNoiseSources, ","))))
+      ->excludes("--noise-free");
   xyfz.add_option("--knots", a.knots,
                   "Most knots of a table (default: what the node has room for, up to 128)")
       ->check(CLI::Range(std::size_t{2}, kDefaultKnots));

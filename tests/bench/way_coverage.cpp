@@ -46,6 +46,9 @@ CampaignStatement statement() {
   s.straightness_wave_um = 0.3;
   s.angle_wave_urad = 0.3;
   s.lever_mm = 2.0;
+  s.cosine_mrad = 0.5;
+  s.growth_K = 0.1;
+  s.expansion_um_per_m_K = 11.7;
   s.squareness_urad = 3.0;
   return s;
 }
@@ -53,8 +56,11 @@ CampaignStatement statement() {
 TaskUncertainty measured(const KnownMachine& known, const CoverageOptions& options,
                          std::size_t campaign) {
   constexpr std::size_t kRuns = 5;
-  sim::Random random(options.seed + 1000 + campaign);
-  sim::Campaign found = sim::measure_machine(known.machine, known.file, {}, kRuns, random);
+  // Drift is stated nowhere: runs scatter by it, but not independently from target to target.
+  sim::NoiseClasses classes;
+  classes.laser.drift_mm = 0.0;
+  const sim::CampaignDraw draw{options.seed + 1000, static_cast<std::uint32_t>(campaign)};
+  sim::Campaign found = sim::measure_machine(known.machine, known.file, classes, kRuns, draw);
   const Noise noise(options.seed, campaign);
   const double u = *statement().squareness_urad * 1e-6;
   found.machine.squareness->measured = {known.squareness.a_xy + u * noise(0, 0),

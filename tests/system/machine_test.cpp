@@ -292,8 +292,7 @@ TEST(MachineRun, DecimalDegreesLeaveWhatTheirRoundingDoes) {
 Campaign located(const TrueMachine& truth, const host::MachineFile& file) {
   host::BuildOptions how = host::tables_only(host::ModelKind::abbe_closed);
   how.slope = SlopeFit::keep;
-  Random unused(0);
-  Campaign campaign = sim::measure_any_machine(truth, file, no_noise(), 1, unused);
+  Campaign campaign = sim::measure_any_machine(truth, file, no_noise(), 1, {});
   sim::forget_places(campaign);
   const auto tables = host::build_tables(campaign.machine, campaign.runs, how);
   const sim::RotaryLocations found =

@@ -23,7 +23,8 @@ enum class RandomStream : std::uint32_t {
   temperature = 8,
   repeatability = 9,  // of the machine
   set_up = 10,        // offsets and angles
-  intervals = 64,     // draws behind an interval
+  drift = 11,
+  intervals = 64,  // draws behind an interval
 };
 inline constexpr std::uint32_t kNextInstrument = 100;
 

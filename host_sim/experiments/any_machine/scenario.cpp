@@ -22,12 +22,13 @@ std::unique_ptr<host::BuiltTables> build(const sim::Campaign& campaign,
 
 // After the axes and their squareness the places of the rotary axes: what is already known of the
 // machine is taken off what the instrument reads.
-std::unique_ptr<host::BuiltTables> measure(const sim::TrueMachine& truth, sim::Random& random,
-                                           MachineResult& result) {
+std::unique_ptr<host::BuiltTables> measure(const sim::TrueMachine& truth,
+                                           const sim::CampaignDraw& draw, MachineResult& result) {
   const MachineOptions& options = result.options;
-  const sim::NoiseClasses classes = options.noise ? sim::NoiseClasses{} : sim::no_noise();
+  const sim::NoiseClasses classes =
+      options.noise ? sim::workshop_noise(result.machine) : sim::no_noise();
   sim::Campaign campaign = sim::measure_any_machine(truth, result.machine, classes,
-                                                    options.noise ? options.runs : 1, random);
+                                                    options.noise ? options.runs : 1, draw);
   sim::forget_places(campaign);
   result.locations =
       sim::locate_rotary_axes(truth, campaign.machine, build(campaign, options)->model,
@@ -59,15 +60,15 @@ MachineResult run_machine_with(const host::MachineFile& file, const sim::TrueMac
 
   // A constant of what an axis carries is no error of the machine: it is where the work lies.
   const sim::TrueMachine machine = sim::counted_from_references(truth, file);
-  sim::Random random(sim::seed_of(options.seed, sim::SeedOf::instruments));
-  const auto tables = measure(machine, random, result);
+  const sim::CampaignDraw draw{sim::seed_of(options.seed, sim::SeedOf::instruments), 0};
+  const auto tables = measure(machine, draw, result);
   result.warnings = tables->warnings;
   const std::vector<std::uint8_t> image = host::make_image(tables->tables);
   result.inputs = {host::hashed_bytes("table image made for it", "tables.vct", image)};
 
   sim::TrueMachine at_check = machine;
   if (options.noise)
-    at_check.temperature_offset_K = random.normal(sim::NoiseClasses{}.temperature_K);
+    at_check.temperature_offset_K = sim::check_temperature(sim::NoiseClasses{}, draw);
   progress(0.1, "the machine as it is");
   result.before = verify_machine(file, at_check, verification, options.make_cell, {});
   progress(0.55, "the machine compensated");

@@ -66,9 +66,10 @@ host::Origins origins(const Options& options, const host::identify::MeasurementP
       options.noise
           ? fmt::format("scatter as the plan states it; every linear axis {:g} K warmer or colder "
                         "at each set-up (1 sigma); tips {:g} um, placements {:g} mm and {:g} mrad "
-                        "from where the plan has them",
+                        "from where the plan has them; a tracer walks {:g} um in an hour, with a "
+                        "reading every {:g} s",
                         floor.growth_K, kUmPerMm * floor.stylus_mm, floor.pose_mm,
-                        1e3 * floor.pose_rad)
+                        1e3 * floor.pose_rad, kUmPerMm * floor.drift_mm, floor.dwell_s)
           : std::string("perfect")};
   o.chosen = {
       "errors of the machine: waves, ripple and reversal drawn at random, which the functions that "

@@ -30,6 +30,15 @@ Bench::Bench(const XyfzOptions& chosen, const host::MachineFile& file, const Xyf
       truth(make_xyfz_truth(file, chosen.machine_seed, tuning)),
       box(sim::travel_box(machine)) {}
 
+sim::NoiseClasses Bench::noise() const {
+  const sim::NoiseClasses all = sim::workshop_noise(machine);
+  return options.only ? sim::only(*options.only, all) : all;
+}
+
+sim::CampaignDraw Bench::draw(std::size_t number) const {
+  return {options.seed, static_cast<std::uint32_t>(number)};
+}
+
 std::unique_ptr<sim::MotionCell> Bench::cell(const sim::TrueMachine& of,
                                              const std::vector<std::uint8_t>& image) const {
   auto cell = options.make_cell(of, machine.correction, image);

@@ -19,6 +19,10 @@ struct Bench {
   // For a tuning that is known. Throws UserError.
   Bench(const XyfzOptions& chosen, const host::MachineFile& file, const XyfzTuning& found);
 
+  // What errs in a noisy campaign, and the random numbers of one.
+  [[nodiscard]] sim::NoiseClasses noise() const;
+  [[nodiscard]] sim::CampaignDraw draw(std::size_t number) const;
+
   // The machine with these tables, at a corner of its travel; `of` must outlive it.
   [[nodiscard]] std::unique_ptr<sim::MotionCell> cell(const sim::TrueMachine& of,
                                                       const std::vector<std::uint8_t>& image) const;

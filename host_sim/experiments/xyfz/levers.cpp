@@ -2,33 +2,23 @@
 
 #include <algorithm>
 
-#include "comp/metrology/statistics/random_stream.hpp"
 #include "comp/metrology/tables/lever_test.hpp"
-#include "host_sim/sim/instruments/laser6d.hpp"
+#include "host_sim/sim/instruments/sensed_errors.hpp"
 
 namespace volcomp::xyfz {
 namespace {
 
 constexpr std::size_t kAxisX = 0;
 
-// Set-ups of the first experiment are 0, 1, …, those of the second begin here.
+// Set-ups of the first experiment, those of the second begin this much farther on.
+constexpr std::uint32_t kFirstPlace = 2000;
 constexpr std::uint32_t kMostPlaces = 16;
 
-sim::Random random_of(std::uint64_t seed, std::size_t draw, std::uint32_t set_up) {
-  const RandomWords words = random_words(seed, {static_cast<std::uint32_t>(RandomStream::laser),
-                                                static_cast<std::uint32_t>(draw), set_up, kCommon});
-  return sim::Random((std::uint64_t{words[0]} << 32U) | words[1]);
-}
-
-// The same instrument, put up anew.
-sim::LaserSetup put_up(const sim::LaserSetup& instrument, const sim::NoiseClasses& classes,
-                       sim::Random& random) {
-  sim::LaserSetup s = sim::mount_laser(classes, random);
-  s.scale = instrument.scale;
-  s.straightness_gain = instrument.straightness_gain;
-  s.angle_gain = instrument.angle_gain;
-  s.roll = instrument.roll;
-  return s;
+sim::NoiseClasses classes_of(const Bench& bench, LeverNoise noise) {
+  if (noise == LeverNoise::none) return sim::no_noise();
+  sim::NoiseClasses classes = bench.noise();
+  if (noise == LeverNoise::instrument) classes.laser.growth_K = 0.0;
+  return classes;
 }
 
 // Mean of all runs of both directions, by target.
@@ -42,20 +32,16 @@ std::vector<ErrorMotion> means_of(const host::RunsFile& runs) {
   return mean;
 }
 
-// One set-up, with the noise of `random`.
-std::vector<ErrorMotion> measured_at(const Bench& bench, const Vec3& place, LeverNoise noise,
-                                     const sim::LaserSetup& instrument, sim::Random& random) {
-  const bool noisy = noise != LeverNoise::none;
-  const sim::NoiseClasses classes = noisy ? sim::NoiseClasses{} : sim::no_noise();
-  const sim::LaserSetup setup = put_up(instrument, classes, random);
-  sim::TrueMachine truth = bench.truth;
-  const double warmer_K = random.normal(classes.temperature_K);
-  if (noise == LeverNoise::temperature) truth.temperature_offset_K = warmer_K;
+std::vector<ErrorMotion> measured_at(const Bench& bench, const Vec3& place,
+                                     const sim::NoiseClasses& classes, std::size_t runs,
+                                     std::size_t draw, std::uint32_t set_up) {
   const host::AxisFile& axis = bench.machine.axes[kAxisX];
-  const sim::Laser6D laser(truth, kAxisX, {place, axis.sensed.kappa}, setup);
-  return means_of(sim::bidirectional_runs(
-      axis.letter, axis.all_targets(), noisy ? bench.options.runs : 1,
-      [&](double q, double approach) { return laser.read(q, approach, classes, random); }));
+  const sim::Laser6D laser(classes, bench.draw(draw), set_up,
+                           {bench.machine.chain.axis(kAxisX).axis, axis.lo, axis.hi});
+  const sim::SensedErrors errors(bench.truth, kAxisX, {place, axis.sensed.kappa}, laser.setup());
+  return means_of(
+      laser.read_runs(axis.letter, axis.all_targets(), runs,
+                      [&](double q, double approach) { return errors.at(q, approach); }));
 }
 
 // Positioning, µm, zero at the reference target.
@@ -120,18 +106,14 @@ double LeverReadings::carried_apart_um() const { return apart_um(carried); }
 LeverReadings measure_levers(const Bench& bench, const LeverExperiment& experiment,
                              LeverNoise noise, std::size_t draw) {
   const host::AxisFile& axis = bench.machine.axes[kAxisX];
-  const std::uint64_t seed = bench.options.seed;
-  sim::Random common = random_of(seed, draw, kCommon);
-  const sim::LaserSetup instrument =
-      sim::mount_laser(noise == LeverNoise::none ? sim::no_noise() : sim::NoiseClasses{}, common);
+  const sim::NoiseClasses classes = classes_of(bench, noise);
+  const std::size_t runs = noise == LeverNoise::none ? 1 : bench.options.runs;
   LeverReadings out;
   out.position_mm = axis.all_targets();
+  std::uint32_t set_up = kFirstPlace + kMostPlaces * static_cast<std::uint32_t>(experiment.angle);
   std::vector<std::vector<ErrorMotion>> at_place;
   for (const Vec3& place : experiment.place) {
-    const auto set_up = static_cast<std::uint32_t>(at_place.size());
-    sim::Random random =
-        random_of(seed, draw, set_up + kMostPlaces * static_cast<std::uint32_t>(experiment.angle));
-    at_place.push_back(measured_at(bench, place, noise, instrument, random));
+    at_place.push_back(measured_at(bench, place, classes, runs, draw, set_up++));
     out.measured.push_back(positioning_of(at_place.back(), axis));
     std::vector<ErrorMotion> carried;
     carried.reserve(at_place.back().size());

@@ -27,8 +27,8 @@ struct LeverExperiment {
 // What is not perfect.
 enum class LeverNoise : std::uint8_t {
   none,
-  instrument,   // laser, and repeatability of the machine
-  temperature,  // the same, and every set-up at another temperature
+  instrument,   // laser, its drift, and repeatability of the machine
+  temperature,  // the same, and X is as warm as it happens to be at every set-up
 };
 inline constexpr std::size_t kLeverNoises = 3;
 

@@ -97,6 +97,7 @@ json settings_of(const MachinesResult& r) {
           {"draws", o.draws},
           {"runs", o.runs},
           {"knots", o.knots},
+          {"only", name_of(o.only)},
           {"squareness",
            {{"noise_free", kFunctionalNames.at(static_cast<std::size_t>(o.noise_free))},
             {"noisy", kFunctionalNames.at(static_cast<std::size_t>(o.noisy))}}}};
@@ -148,6 +149,7 @@ MachinesResult run_machines(const XyfzOptions& options, const host::Progress& pr
   result.settings = settings_of(result);
   find_machines(file, progress, result);
   const std::vector<std::unique_ptr<Bench>> benches = benches_of(file, result);
+  result.noise = benches.front()->noise();
   measure_noise_free(benches, progress, result);
   measure_with_noise(benches, progress, result);
   progress(1.0, "done");

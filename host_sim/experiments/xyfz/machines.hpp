@@ -20,6 +20,7 @@ struct StudiedMachine {
 struct MachinesResult {
   nlohmann::json settings;  // all of them, and hashes of the inputs, for programs
   XyfzOptions options;
+  sim::NoiseClasses noise;  // of the noisy campaigns
   std::vector<host::HashedInput> inputs;
   std::vector<StudiedMachine> machine;
   std::vector<std::uint64_t> passed_over;  // seeds between them that cannot show the raw figures

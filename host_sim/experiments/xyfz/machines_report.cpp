@@ -152,7 +152,7 @@ host::Origins origins_of(const MachinesResult& r) {
     o.settings.emplace_back("machine seeds passed over, no machine with the paper's raw figures",
                             fmt::format("{}", fmt::join(r.passed_over, ", ")));
   o.inputs = r.inputs;
-  o.instruments = instruments_of(r.options);
+  o.instruments = instruments_of(r.options, r.noise);
   o.tuned = {
       fmt::format("angle scale and scale error of X of each machine, so that PNP reads {} "
                   "µm and the naive model leaves {} µm",

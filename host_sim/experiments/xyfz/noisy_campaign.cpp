@@ -29,12 +29,12 @@ sim::MeasuredDiagonal MeasuredCampaign::pnp(const Bench& bench,
 
 MeasuredCampaign noisy_campaign(const Bench& bench, const std::filesystem::path& folder,
                                 std::size_t draw) {
-  const sim::NoiseClasses classes;
+  const sim::NoiseClasses classes = bench.noise();
+  const sim::Campaign measured = sim::measure_machine(bench.truth, bench.noisy_machine, classes,
+                                                      bench.options.runs, bench.draw(draw));
   sim::Random random(draw_seed(bench.options.seed, draw));
-  const sim::Campaign measured =
-      sim::measure_machine(bench.truth, bench.noisy_machine, classes, bench.options.runs, random);
   sim::TrueMachine at_check = bench.truth;
-  at_check.temperature_offset_K = random.normal(classes.temperature_K);
+  at_check.temperature_offset_K = sim::check_temperature(classes, bench.draw(draw));
   const sim::InterferometerSetup setup{random.normal(classes.interferometer),
                                        classes.repeatability_mm,
                                        static_cast<int>(bench.options.runs)};

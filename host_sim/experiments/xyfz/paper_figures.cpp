@@ -48,6 +48,7 @@ PaperFigures run_paper_figures(const XyfzOptions& options, const host::Progress&
   result.options = options;
   const Bench bench(options, progress);
   result.tuning = bench.tuning;
+  result.noise = bench.noise();
   result.inputs = {host::hashed_file("machine file", options.machine)};
   make_room(options.draws, result);
   run_noise_free_figures(bench, result);

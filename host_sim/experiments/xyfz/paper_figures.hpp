@@ -17,6 +17,7 @@ struct LeverResult {
 struct PaperFigures {
   XyfzOptions options;
   XyfzTuning tuning;
+  sim::NoiseClasses noise;
   std::vector<host::HashedInput> inputs;
   std::vector<LeverResult> levers;
   Prediction noise_free;

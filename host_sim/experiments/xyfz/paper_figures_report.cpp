@@ -209,7 +209,7 @@ host::Origins origins_of_figures(const PaperFigures& r) {
                 {"machine seed", std::to_string(r.options.machine_seed)},
                 {"draws", std::to_string(r.options.draws)}};
   o.inputs = r.inputs;
-  o.instruments = instruments_of(r.options);
+  o.instruments = instruments_of(r.options, r.noise);
   for (const json& text : tuned_text(r.tuning))
     o.tuned.push_back(text);
   o.chosen = {

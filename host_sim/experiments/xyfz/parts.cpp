@@ -20,6 +20,7 @@ json run_of(const XyfzResult& r) {
           {"machine_seed", o.machine_seed},
           {"runs", o.runs},
           {"knots", o.knots},
+          {"only", name_of(o.only)},
           {"volume_points", o.volume_points},
           {"squareness",
            {{"noise_free", kFunctionalNames.at(static_cast<std::size_t>(o.noise_free))},

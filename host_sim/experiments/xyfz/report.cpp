@@ -108,12 +108,34 @@ std::string ball_bar(const sim::NoiseClasses& n, Functional functional) {
   if (functional == Functional::lines)
     return fmt::format("ball bar for squareness along lines: {:g} µrad",
                        host::kUradPerRad * n.ball_bar_rad);
-  const sim::BallBarClass bar;
+  const sim::BallBarClass bar =
+      n.ball_bar_rad > 0.0 ? sim::BallBarClass{} : sim::perfect_ball_bar();
   return fmt::format(
       "ball bar for squareness, two circles each way of {:g} mm: reading {:g} µm, socket {:g} µm, "
       "start {:g} mrad, length {:g} µm, sensor ± {:g} µm",
       kBallBar_mm, kUmPerMm * bar.reading, kUmPerMm * bar.centre, 1e3 * bar.start_angle,
       kUmPerMm * bar.length, kUmPerMm * bar.sensor);
+}
+
+std::string laser(const sim::NoiseClasses& n, std::size_t runs) {
+  return fmt::format(
+      "laser of six degrees of freedom, {} bidirectional runs: repeatability {:g} µm and {:g} "
+      "µrad, "
+      "scale {:g} µm/m, beam within ± {:g} mrad, waves of {:g} µm and {:g} µrad, levers known to "
+      "{:g} mm; roll by {}",
+      runs, kUmPerMm * n.repeatability_mm, host::kUradPerRad * n.repeatability_rad,
+      host::kUradPerRad * n.scale, 1e3 * n.beam_rad, kUmPerMm * n.straightness_wave_mm,
+      host::kUradPerRad * n.angle_wave_rad, n.arm_mm,
+      n.laser.roll_by_level ? "a level, of Z by the laser"
+                            : fmt::format("the laser, {:g} µrad", host::kUradPerRad * n.roll_rad));
+}
+
+std::string surroundings(const sim::NoiseClasses& n) {
+  return fmt::format(
+      "lengths drift ({}, {:g} µm, {:g} s; a reading every {:g} s); while it is measured each axis "
+      "is warmer by {:g} K, at the check the machine by {:g} K",
+      host::kDriftNames.at(n.laser.drift), kUmPerMm * n.laser.drift_mm, n.laser.drift_tau_s,
+      n.laser.dwell_s, n.laser.growth_K, n.temperature_K);
 }
 
 host::Origins origins(const XyfzResult& r) {
@@ -124,7 +146,7 @@ host::Origins origins(const XyfzResult& r) {
       {"machine seed", fmt::format("{} (phases of the error functions)", r.options.machine_seed)},
       {"noisy campaigns", std::to_string(r.options.draws)}};
   o.inputs = r.inputs;
-  o.instruments = instruments_of(r.options);
+  o.instruments = instruments_of(r.options, r.noise);
   for (const auto& text : tuned_text(r.tuning))
     o.tuned.push_back(text);
   o.chosen = {
@@ -145,18 +167,14 @@ json tuned_text(const XyfzTuning& tuning) {
                       tuning.scale_error, kPaperRaw_um)};
 }
 
-std::vector<std::string> instruments_of(const XyfzOptions& options) {
-  const sim::NoiseClasses n;
-  const std::size_t runs = options.runs;
-  return {
-      fmt::format("laser of six degrees of freedom, {} bidirectional runs: repeatability {:g} µm "
-                  "and {:g} µrad, scale {:g} µm/m, roll {:g} µrad, levers known to {:g} mm",
-                  runs, kUmPerMm * n.repeatability_mm, host::kUradPerRad * n.repeatability_rad,
-                  host::kUradPerRad * n.scale, host::kUradPerRad * n.roll_rad, n.arm_mm),
-      ball_bar(n, options.noisy),
-      fmt::format("interferometer along diagonals: scale {:g} µm/m; {:g} K between measuring "
-                  "and checking",
-                  host::kUradPerRad * n.interferometer, n.temperature_K)};
+std::vector<std::string> instruments_of(const XyfzOptions& options, const sim::NoiseClasses& n) {
+  std::vector<std::string> texts{laser(n, options.runs), surroundings(n),
+                                 ball_bar(n, options.noisy),
+                                 fmt::format("interferometer along diagonals: scale {:g} µm/m",
+                                             host::kUradPerRad * n.interferometer)};
+  if (options.only)
+    texts.insert(texts.begin(), fmt::format("everything is perfect but {}", name_of(options.only)));
+  return texts;
 }
 
 host::Verdict noise_free_verdict(const XyfzResult& r) {

@@ -26,6 +26,7 @@ void add_draw_verdict(const XyfzResult& result, host::Verdict& verdict);
 
 // What was tuned, and the instruments of the noisy campaigns, a sentence each.
 [[nodiscard]] nlohmann::json tuned_text(const XyfzTuning& tuning);
-[[nodiscard]] std::vector<std::string> instruments_of(const XyfzOptions& options);
+[[nodiscard]] std::vector<std::string> instruments_of(const XyfzOptions& options,
+                                                      const sim::NoiseClasses& noise);
 
 }  // namespace volcomp::xyfz

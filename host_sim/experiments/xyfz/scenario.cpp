@@ -72,7 +72,7 @@ PerAxisRemainder per_axis_remainder(const host::BuiltTables& closed) {
 
 // Measures what an acceptance test measures, before and after.
 void look_closer(const Bench& bench, const host::BuiltTables& closed, XyfzResult& result) {
-  const sim::NoiseClasses classes;
+  const sim::NoiseClasses classes = bench.noise();
   sim::Random random(bench.options.seed);
   const sim::InterferometerSetup setup{0.0, classes.repeatability_mm,
                                        static_cast<int>(bench.options.runs)};
@@ -164,6 +164,7 @@ XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) 
   const Bench bench(options, progress);
   result.machine = bench.machine;
   result.tuning = bench.tuning;
+  result.noise = bench.noise();
   const host::TemporaryFolder temporary;
   const std::filesystem::path& folder =
       options.campaign.empty() ? temporary.path() : options.campaign;
@@ -173,9 +174,8 @@ XyfzResult run_xyfz(const XyfzOptions& options, const host::Progress& progress) 
   look_closer(bench, *closed, result);
   result.tick_max_error_nm = measure_tick_error_nm(*closed, options.tick_points, options.seed);
   result.per_axis = per_axis_remainder(*closed);
-  sim::Random lever_noise(options.seed);
   result.levers =
-      sim::check_levers(bench.truth, bench.machine, sim::NoiseClasses{}, options.runs, lever_noise);
+      sim::check_levers(bench.truth, bench.machine, bench.noise(), options.runs, bench.draw(0));
   for (const auto& built : closed->built)
     result.positioning.push_back(built->positioning);
   result.example = std::move(closed);

@@ -47,7 +47,8 @@ struct XyfzOptions {
   // The paper's figures, to which the machine is tuned, are those of a perfect bar along lines.
   Functional noise_free = Functional::lines;
   Functional noisy = Functional::circles;
-  host::Shard shard{};  // which of the noisy campaigns
+  std::optional<sim::NoiseSource> only;  // what errs in them; none: everything
+  host::Shard shard{};                   // which of the noisy campaigns
 };
 
 // 0 = uncompensated, then the three models in the order of ModelKind.
@@ -92,6 +93,7 @@ struct XyfzResult {
   host::MachineFile machine;
   XyfzOptions options;
   XyfzTuning tuning;
+  sim::NoiseClasses noise;  // of the noisy campaigns
   std::array<ModeResult, 4> mode;
   std::vector<DrawResult> draws;  // of the shard, in order
   Dynamics dynamics;

@@ -146,7 +146,7 @@ sim::TrueMachine make_xyfz_truth(const host::MachineFile& file, std::uint64_t ph
   // A ball bar on this machine must read the value of the machine file: unit gain, so one step is
   // exact.
   const XyfzSquareness own =
-      sim::measure_squareness(machine, *file.squareness, sim::no_noise(), random);
+      sim::measure_squareness(machine, *file.squareness, sim::no_noise(), {});
   machine.directions = xyfz_directions(close_squareness(file.squareness->measured, own));
   return machine;
 }

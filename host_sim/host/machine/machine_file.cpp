@@ -151,8 +151,8 @@ void expect_new_letter(const Section& s, const MachineFile& file) {
 MachineFile read_machine(const toml::value& root, const std::string& name) {
   const Section top(root, name, "the machine file");
   top.allow_only({"name", "id", "convention", "side", "chain", "tool", "work", "body", "axis",
-                  "correction", "tables", "squareness", "thermal", "probe", "gear", "wheel",
-                  "stroke", "bus"});
+                  "correction", "tables", "squareness", "thermal", "probe", "laser", "gear",
+                  "wheel", "stroke", "bus"});
   MachineFile file;
   file.path = name;
   file.name = top.text("name");
@@ -185,6 +185,7 @@ MachineFile read_machine(const toml::value& root, const std::string& name) {
   if (top.has("tables")) read_tables(top.table("tables"), file);
   if (top.has("thermal")) file.thermal = read_thermal(top.table("thermal"), file);
   if (top.has("probe")) file.probe = read_probe(top.table("probe"));
+  if (top.has("laser")) file.laser = read_laser(top.table("laser"));
   if (top.has("gear") || top.has("wheel") || top.has("stroke")) file.grinding = read_grinding(top);
   if (top.has("squareness")) {
     file.squareness = read_squareness(top.table("squareness"));

@@ -77,6 +77,17 @@ struct ProbeFile {
   Vec3 stylus = Vec3::UnitZ();  // its axis, tool frame
 };
 
+// How a simulated laser drifts, and the machine under it.
+inline constexpr std::array<const char*, 4> kDriftNames{"none", "walk", "ornstein", "exponential"};
+struct LaserFile {
+  std::size_t drift = 2;     // of kDriftNames
+  double drift_mm = 0.3e-3;  // of a length: standard deviation, of a walk after a second, or end
+  double drift_tau_s = 900.0;
+  double dwell_s = 5.0;   // from one reading to the next
+  double growth_K = 0.1;  // standard deviation: how much warmer an axis is while it is measured
+  bool roll_by_level = false;  // of X and Y
+};
+
 // Squareness measured at a place: by circles of a ball bar about a point, or along three lines
 // through it, each from two ends.
 struct SquarenessFile {
@@ -149,6 +160,7 @@ struct MachineFile {
   std::optional<SquarenessFile> squareness;
   ThermalFile thermal;
   std::optional<ProbeFile> probe;
+  LaserFile laser;
   std::optional<GrindingFile> grinding;
 
   [[nodiscard]] std::size_t axis_index(char letter) const;  // throws UserError

@@ -167,6 +167,26 @@ double number_within(const TomlSection& s, const std::string& key, double fallba
   return value;
 }
 
+}  // namespace
+
+LaserFile read_laser(const TomlSection& s) {
+  s.allow_only({"drift", "drift_um", "drift_tau_s", "dwell_s", "growth_K", "roll"});
+  constexpr double kMost_um = 1000.0;
+  constexpr double kLeast_s = 0.1;
+  constexpr double kMost_s = 1e6;
+  LaserFile laser;
+  if (s.has("drift")) laser.drift = s.choice("drift", {kDriftNames.begin(), kDriftNames.end()});
+  laser.drift_mm =
+      number_within(s, "drift_um", kUmPerMm * laser.drift_mm, 0.0, kMost_um) / kUmPerMm;
+  laser.drift_tau_s = number_within(s, "drift_tau_s", laser.drift_tau_s, kLeast_s, kMost_s);
+  laser.dwell_s = number_within(s, "dwell_s", laser.dwell_s, kLeast_s, kMost_s);
+  laser.growth_K = number_within(s, "growth_K", laser.growth_K, 0.0, 100.0);
+  laser.roll_by_level = s.has("roll") && s.choice("roll", {"laser", "level"}) == 1;
+  return laser;
+}
+
+namespace {
+
 void read_gear(const TomlSection& s, GrindingFile& g) {
   constexpr double kMandatory = 0.0;  // outside every range
   s.allow_only({"teeth", "module_mm", "pressure_angle_deg", "helix_angle_deg", "width_mm"});

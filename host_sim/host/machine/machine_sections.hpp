@@ -23,6 +23,8 @@ void read_offset_acceleration(const TomlSection& correction, MachineFile& machin
 
 [[nodiscard]] ProbeFile read_probe(const TomlSection& s);
 
+[[nodiscard]] LaserFile read_laser(const TomlSection& s);
+
 // [gear], [wheel] and [stroke] of the whole file.
 [[nodiscard]] GrindingFile read_grinding(const TomlSection& top);
 

@@ -18,14 +18,16 @@ ErrorMotion true_value(const TrueMachine& truth, const host::MachineFile& file, 
 }
 
 host::RunsFile measure_axis(const TrueMachine& truth, const host::MachineFile& file, std::size_t a,
-                            const NoiseClasses& classes, std::size_t runs, Random& random) {
+                            const NoiseClasses& classes, std::size_t runs,
+                            const CampaignDraw& draw) {
   const host::AxisFile& axis = file.axes[a];
   const Axis along = file.chain.axis(a).axis;
-  const LaserSetup setup = mount_laser(classes, random);
-  return bidirectional_runs(axis.letter, axis.all_targets(), runs, [&](double q, double approach) {
-    const Vec3 lever = axis.sensed.lever(along, q) + setup.arm_error;
-    const ErrorMotion seen = at_lever(true_value(truth, file, a, q, approach), lever);
-    return laser_reading(seen, {along, q, axis.lo, axis.hi}, setup, classes, random);
+  const Laser6D laser(classes, draw, static_cast<std::uint32_t>(a), {along, axis.lo, axis.hi});
+  TrueMachine warmer = truth;
+  warmer.warmer_K.at(a) += laser.setup().warmer_K;
+  return laser.read_runs(axis.letter, axis.all_targets(), runs, [&](double q, double approach) {
+    const Vec3 lever = axis.sensed.lever(along, q) + laser.setup().arm_error;
+    return at_lever(true_value(warmer, file, a, q, approach), lever);
   });
 }
 
@@ -41,16 +43,17 @@ ErrorMotion in_file_terms(const ErrorMotion& internal, const host::MachineFile& 
 }
 
 Campaign measure_any_machine(const TrueMachine& truth, const host::MachineFile& file,
-                             const NoiseClasses& classes, std::size_t runs, Random& random) {
+                             const NoiseClasses& classes, std::size_t runs,
+                             const CampaignDraw& draw) {
   Campaign campaign{file, {}};
   for (std::size_t a = 0; a < file.axes.size(); ++a) {
-    campaign.runs.push_back(measure_axis(truth, file, a, classes, runs, random));
+    campaign.runs.push_back(measure_axis(truth, file, a, classes, runs, draw));
     host::AxisFile& axis = campaign.machine.axes[a];
     axis.reference = axis.target(axis.reference_target());
   }
   if (!file.squareness) return campaign;
   campaign.machine.squareness->measured =
-      measure_squareness(truth, *file.squareness, classes, random,
+      measure_squareness(truth, *file.squareness, classes, draw,
                          {file.axis_index('X'), file.axis_index('Y'), file.axis_index('Z')});
   return campaign;
 }

@@ -16,6 +16,6 @@ namespace volcomp::sim {
 // rotary one it is found by other means (rotary_locations.hpp).
 [[nodiscard]] Campaign measure_any_machine(const TrueMachine& truth, const host::MachineFile& file,
                                            const NoiseClasses& classes, std::size_t runs,
-                                           Random& random);
+                                           const CampaignDraw& draw);
 
 }  // namespace volcomp::sim

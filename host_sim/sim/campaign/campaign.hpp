@@ -2,13 +2,13 @@
 // Measuring the simulated machine: six-degree-of-freedom laser on every axis, ball bar for
 // squareness.
 
-#include <functional>
 #include <vector>
 
 #include "comp/metrology/tables/diagonals.hpp"
 #include "comp/metrology/tables/lever_test.hpp"
 #include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/host/tables/runs_csv.hpp"
+#include "host_sim/sim/instruments/noise_classes.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 #include "host_sim/sim/truth/true_machine.hpp"
 
@@ -24,16 +24,10 @@ struct Campaign {
   std::vector<host::RunsFile> runs;
 };
 
-// Runs up and down at these positions of an axis, mm or rad; `reading` at a position approached
-// from below (+1) or above (−1).
-[[nodiscard]] host::RunsFile bidirectional_runs(
-    char letter, const std::vector<double>& positions, std::size_t runs,
-    const std::function<ErrorMotion(double q, double approach)>& reading);
-
 // `runs` bidirectional runs per axis at the equally spaced targets of the machine file.
 [[nodiscard]] Campaign measure_machine(const TrueMachine& truth, const host::MachineFile& file,
                                        const NoiseClasses& classes, std::size_t runs,
-                                       Random& random);
+                                       const CampaignDraw& draw);
 
 // Noise-free, one run.
 [[nodiscard]] Campaign perfect_campaign(const TrueMachine& truth, const host::MachineFile& file);
@@ -48,7 +42,7 @@ struct LeverCheck {
 [[nodiscard]] std::vector<LeverCheck> check_levers(const TrueMachine& truth,
                                                    const host::MachineFile& file,
                                                    const NoiseClasses& classes, std::size_t runs,
-                                                   Random& random);
+                                                   const CampaignDraw& draw);
 
 [[nodiscard]] DiagonalBox travel_box(const host::MachineFile& file);
 

@@ -21,6 +21,8 @@ struct ShopFloor {
   double station_mm = 1.0;      // of a tracer, a socket or a ball
   double dead_length_mm = 5.0;  // of whatever counts from an unknown zero
   double mirror_rad = 1e-4;     // tilt of a mirror
+  double drift_mm = 0.2e-3;     // of a tracer in an hour, as a walk
+  double dwell_s = 5.0;         // from one of its readings to the next
 
   std::uint64_t seed = 1;
 };

@@ -67,8 +67,7 @@ void have_squareness(const host::MachineFile& file, TrueMachine& machine) {
   const std::array<std::size_t, 3> xyz{file.axis_index('X'), file.axis_index('Y'),
                                        file.axis_index('Z')};
   // Unit gain, so one step is exact.
-  Random unused(0);
-  const XyfzSquareness own = measure_squareness(machine, s, no_noise(), unused, xyz);
+  const XyfzSquareness own = measure_squareness(machine, s, no_noise(), {}, xyz);
   const DirectionErrors directions = xyfz_directions(close_squareness(s.measured, own));
   for (std::size_t k = 0; k < 3; ++k)
     machine.directions[xyz[k]] = directions[k];
@@ -97,8 +96,8 @@ void place_targets(host::AxisFile& axis) {
   axis.targets = static_cast<std::size_t>(below + above) + 1;
 }
 
-NoiseClasses classes_of(const Instruments& instruments) {
-  return instruments.perfect ? no_noise() : NoiseClasses{};
+NoiseClasses classes_of(const Instruments& instruments, const host::MachineFile& file) {
+  return instruments.perfect ? no_noise() : workshop_noise(file);
 }
 
 // Whether a laser between work and tool reads the three slides, which includes the errors of the
@@ -141,10 +140,10 @@ host::MachineFile with_targets_at_references(host::MachineFile file) {
 
 std::vector<host::RunsFile> simulate_runs(const SimulatedMachine& simulated,
                                           const Instruments& instruments, std::size_t runs) {
-  Random random(instruments.seed);
   const host::MachineFile file = with_targets_at_references(simulated.machine);
   const auto measure = is_read_between_work_and_tool(file) ? measure_machine : measure_any_machine;
-  return measure(simulated.truth, file, classes_of(instruments), runs, random).runs;
+  return measure(simulated.truth, file, classes_of(instruments, file), runs, {instruments.seed, 0})
+      .runs;
 }
 
 host::DiagonalsFile simulate_diagonals(MotionCell& cell, const host::MachineFile& machine,
@@ -152,7 +151,7 @@ host::DiagonalsFile simulate_diagonals(MotionCell& cell, const host::MachineFile
                                        const host::Progress& progress) {
   const host::XyzAxes axes(machine);
   const std::vector<Diagonal> diagonals = axes.diagonals(plan.faces);
-  const NoiseClasses classes = classes_of(instruments);
+  const NoiseClasses classes = classes_of(instruments, machine);
   Random random(instruments.seed);
   const double scale = random.normal(classes.interferometer);
   host::DiagonalsFile file;

@@ -10,7 +10,8 @@
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/identify/chain_geometry.hpp"
 #include "host_sim/sim/campaign/any_axes.hpp"
-#include "host_sim/sim/instruments/laser6d.hpp"
+#include "host_sim/sim/instruments/bidirectional_runs.hpp"
+#include "host_sim/sim/instruments/drift.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -115,6 +116,21 @@ RandomStream stream_of(ObservationKind kind) {
   }
 }
 
+// What a tracer has drifted by each reading of a set-up, mm; others do not drift.
+std::vector<double> drift_of(const PlanTruth& truth, std::size_t setup, const SetUp& s) {
+  const std::size_t count = s.q.size();
+  if (s.kind != ObservationKind::tracer || truth.floor.perfect) return std::vector<double>(count);
+  constexpr double kHour_s = 3600.0;
+  const Drift walk{DriftKind::walk, truth.floor.drift_mm / std::sqrt(kHour_s), 1.0};
+  std::vector<double> time(count);
+  std::vector<double> z(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    time[i] = truth.floor.dwell_s * static_cast<double>(i);
+    z[i] = noise(truth, RandomStream::drift, setup, static_cast<std::uint32_t>(i), 1.0);
+  }
+  return walk.at(time, z);
+}
+
 }  // namespace
 
 Vec3 true_point(const TrueMachine& machine, const Pose& q, const Directions& d, const Vec3& tip) {
@@ -183,11 +199,12 @@ std::vector<LatchedTouch> touch_all(const MeasurementPlan& plan, const PlanTruth
 void read_instrument(const MeasurementPlan& plan, const PlanTruth& truth, std::size_t setup,
                      SetUp& out) {
   const Instrument instrument(plan, truth, setup);
+  const std::vector<double> drift = drift_of(truth, setup, out);
   out.y.clear();
   for (std::size_t i = 0; i < out.q.size(); ++i) {
     for (const double y : instrument.at(i)) {
       const auto number = static_cast<std::uint32_t>(out.y.size());
-      out.y.push_back(y +
+      out.y.push_back(y + drift[i] +
                       noise(truth, stream_of(out.kind), setup, number, out.sigma[out.y.size()]));
     }
   }
@@ -200,14 +217,14 @@ host::RunsFile read_axis(const MeasurementPlan& plan, const PlanTruth& truth, st
   const auto along = plan.machine.chain.axis(s.axis).axis;
   std::uint32_t number = 0;
   constexpr std::size_t kRuns = 5;
-  return bidirectional_runs(axis.letter, axis.all_targets(), kRuns, [&](double q, double approach) {
+  return bidirectional_runs(axis.letter, axis.all_targets(), kRuns, [&](const Stop& stop) {
     Pose pose{};
-    pose[s.axis] = q;
+    pose[s.axis] = stop.q;
     Approach from{};
-    from[s.axis] = approach;
+    from[s.axis] = stop.approach;
     ErrorMotion seen =
-        at_lever(in_file_terms(t.machine.errors(pose, from)[s.axis], plan.machine, s.axis, q),
-                 axis.sensed.lever(along, q)) +
+        at_lever(in_file_terms(t.machine.errors(pose, from)[s.axis], plan.machine, s.axis, stop.q),
+                 axis.sensed.lever(along, stop.q)) +
         t.zero;
     for (Eigen::Index c = 0; c < 6; ++c)
       seen(c) +=

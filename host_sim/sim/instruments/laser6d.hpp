@@ -2,59 +2,68 @@
 // Six-degree-of-freedom laser: reads the motion of one axis at its sensed point, with its own
 // imperfections.
 
-#include "comp/metrology/tables/abbe.hpp"
-#include "host_sim/sim/truth/noise.hpp"
-#include "host_sim/sim/truth/true_machine.hpp"
+#include <functional>
+#include <optional>
+
+#include "comp/machine/joint.hpp"
+#include "host_sim/sim/instruments/bidirectional_runs.hpp"
+#include "host_sim/sim/instruments/level.hpp"
+#include "host_sim/sim/instruments/noise_classes.hpp"
 
 namespace volcomp::sim {
 
-// Systematic imperfections of one set-up, drawn once when the instrument is mounted; 0 for a
-// perfect one.
+// Systematic imperfections of one set-up.
 struct LaserSetup {
+  // Of the instrument, the same in all set-ups of a campaign.
   double scale = 0.0;
   std::array<double, 2> straightness_gain{};
   std::array<double, 3> angle_gain{};
+  double roll = 0.0;
+  // Of this set-up.
   std::array<double, 6> wave{};  // amplitude of a slow sinusoid per channel
   std::array<double, 6> wave_phase{};
-  double roll = 0.0;
+  double shorter = 0.0;           // share of a length that the angle of the beam takes, ≥ 0
   Vec3 arm_error = Vec3::Zero();  // sensed point − that of the machine file
+  double warmer_K = 0.0;          // the axis, while it is measured
 };
 
-[[nodiscard]] LaserSetup mount_laser(const NoiseClasses& classes, Random& random);
+// Number `set_up` of a campaign: a function of the draw and this number. Of perfect classes: all 0.
+[[nodiscard]] LaserSetup mount_laser(const NoiseClasses& classes, const CampaignDraw& draw,
+                                     std::uint32_t set_up);
 
-// Where an axis stands, in which travel.
+// Which axis a laser reads, in which travel.
 struct LaserPlace {
   Axis axis = Axis::x;
-  double q = 0.0;
   double lo = 0.0;
   double hi = 1.0;
 };
 
-// What such an instrument shows where the errors at the sensed point are these.
-[[nodiscard]] ErrorMotion laser_reading(const ErrorMotion& truth, const LaserPlace& place,
-                                        const LaserSetup& setup, const NoiseClasses& classes,
-                                        Random& random);
-
+// One axis measured in one set-up.
 class Laser6D {
  public:
-  // `sensed`: reading head → sensed point as declared. The instrument stands so that the sensed
-  // point is there when all axes are at machine zero.
-  Laser6D(const TrueMachine& machine, std::size_t axis, const SensedPoint& sensed,
-          const LaserSetup& setup);
+  Laser6D(const NoiseClasses& classes, const CampaignDraw& draw, std::uint32_t set_up,
+          const LaserPlace& place);
 
-  // Reading at q: relative values at the sensed point, mm and rad, 1 nm and 1 nrad resolution. The
-  // other axes stand at zero. `repeatability` of the machine and the instrument together, 1 σ.
-  [[nodiscard]] ErrorMotion read(double q, double approach, const NoiseClasses& classes,
-                                 Random& random) const;
+  [[nodiscard]] const LaserSetup& setup() const { return setup_; }
+
+  // Errors of the axis at its sensed point, relative values, mm and rad.
+  using Truth = std::function<ErrorMotion(double q, double approach)>;
+  // What the instrument shows of them, 1 nm and 1 nrad resolution.
+  [[nodiscard]] host::RunsFile read_runs(char letter, const std::vector<double>& positions,
+                                         std::size_t runs, const Truth& truth) const;
 
  private:
-  [[nodiscard]] ErrorMotion true_reading(double q, double approach) const;
+  [[nodiscard]] ErrorMotion shown(const ErrorMotion& truth, const Stop& stop) const;
+  [[nodiscard]] double scatter(const Stop& stop, Eigen::Index channel) const;
+  // Of the three lengths at each reading.
+  [[nodiscard]] std::array<std::vector<double>, 3> drifts(std::size_t readings) const;
 
-  const TrueMachine& machine_;
-  std::size_t axis_;
+  NoiseClasses classes_;
+  CampaignDraw draw_;
+  std::uint32_t set_up_;
+  LaserPlace place_;
   LaserSetup setup_;
-  Vec3 point_in_tool_;  // where it senses
-  bool rides_on_tool_;
+  std::optional<Level> level_;
 };
 
 }  // namespace volcomp::sim

@@ -182,6 +182,28 @@ TEST(MachineFile, RefusalsNameLineAndField) {
               HasSubstr("'latch_delay_us' must be from 0 to 50000"));
 }
 
+TEST(MachineFile, SaysHowASimulatedLaserErrs) {
+  using testing::HasSubstr;
+  const auto laser = [](const std::string& table) {
+    return changed(kRotary, "id = 7", "id = 7\nlaser = { " + table + " }");
+  };
+  const LaserFile said =
+      parse_machine(laser("drift = \"walk\", drift_um = 0.02, dwell_s = 10.0, growth_K = 0.5, "
+                          "roll = \"level\""),
+                    "m.toml")
+          .laser;
+  EXPECT_STREQ(kDriftNames.at(said.drift), "walk");
+  EXPECT_NEAR(said.drift_mm, 0.02e-3, 1e-12);
+  EXPECT_EQ(said.dwell_s, 10.0);
+  EXPECT_EQ(said.growth_K, 0.5);
+  EXPECT_TRUE(said.roll_by_level);
+  EXPECT_THAT(machine_refusal(laser("drift = \"rain\"")), HasSubstr("m.toml:5"));
+  EXPECT_THAT(machine_refusal(laser("drift_um = -1.0")), HasSubstr("'drift_um' must be from 0"));
+  EXPECT_THAT(machine_refusal(laser("drift_tau_s = 0.0")), HasSubstr("'drift_tau_s' must be from"));
+  EXPECT_THAT(machine_refusal(laser("growth_K = nan")), HasSubstr("growth_K"));
+  EXPECT_THAT(machine_refusal(laser("colour = 1")), HasSubstr("colour"));
+}
+
 // The TOML library reads beyond the end of the last of them.
 TEST(MachineFile, WhatIsNotUtf8IsRefusedAtItsLine) {
   using testing::HasSubstr;

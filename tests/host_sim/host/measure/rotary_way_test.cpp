@@ -235,13 +235,13 @@ TEST(RotaryWay, LimitsHoldTheTruthOfTheTrunnionMachine) {
   BuildOptions how;
   how.bound = false;
   how.drawn = true;
-  sim::Random none(0);
-  const sim::Campaign ideal = sim::measure_any_machine(machine, file, sim::no_noise(), 1, none);
+  const sim::Campaign ideal = sim::measure_any_machine(machine, file, sim::no_noise(), 1, {});
   const Numbers truth = errors_of(outputs, {ideal.machine, ideal.runs}, how);
   std::vector<std::size_t> counts(kCampaigns);
   in_parallel(kCampaigns, processors(), [&](std::size_t k) {
     sim::Random random(1000 + k);
-    sim::Campaign c = sim::measure_any_machine(machine, file, noise_of_trunnion(), 5, random);
+    sim::Campaign c =
+        sim::measure_any_machine(machine, file, noise_of_trunnion(), 5, {1000 + k, 0});
     scatter_locations(c.machine, random);
     counts[k] = held({c.machine, c.runs}, outputs, truth, how, k);
   });

@@ -244,9 +244,8 @@ class FullTurn : public testing::Test {
   }
 
   MachineFile file = read_machine_file(bundled_machine("trunnion"));
-  sim::Random random{1};
   sim::Campaign campaign =
-      sim::measure_any_machine(sim::draw_machine(file, 1), file, sim::no_noise(), 1, random);
+      sim::measure_any_machine(sim::draw_machine(file, 1), file, sim::no_noise(), 1, {});
 
  private:
   static void add(const ErrorMotion& drift, RunValues& run) {

@@ -120,8 +120,7 @@ TEST(RotaryLocations, WhatNoPlaceShowsIsNamedAndMakesNoDifference) {
 // the nanometre and the nanoradian it counts in.
 TEST(RotaryLocations, RunsAreMadeToForgetThem) {
   const host::MachineFile file = bundled("trunnion");
-  Random random(1);
-  Campaign campaign = measure_any_machine(beside_its_place(file, 9), file, no_noise(), 1, random);
+  Campaign campaign = measure_any_machine(beside_its_place(file, 9), file, no_noise(), 1, {});
   const auto rise = [](const host::RunsFile& runs) {
     double most = 0.0;
     for (const ErrorMotion& e : runs.up[0])
@@ -141,8 +140,7 @@ TEST(RotaryLocations, TablesHoldThePlaceThatWasFound) {
   TrueMachine truth = counted_from_references(draw_machine(file, 4), file);
   for (TrueAxis& axis : truth.axis)
     axis.reversal = {};
-  Random random(4);
-  Campaign campaign = measure_any_machine(truth, file, no_noise(), 1, random);
+  Campaign campaign = measure_any_machine(truth, file, no_noise(), 1, {});
   forget_places(campaign);
   const RotaryLocations found =
       locate_rotary_axes(truth, campaign.machine, build(campaign)->model, {true, 4});
@@ -196,8 +194,7 @@ TEST(RotaryLocations, NoiseOfTheRunsComesOnTop) {
   Scatter rad;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const TrueMachine truth = beside_its_place(file, seed);
-    Random random(seed);
-    Campaign campaign = measure_any_machine(truth, file, {}, 5, random);
+    Campaign campaign = measure_any_machine(truth, file, {}, 5, {seed, 0});
     forget_places(campaign);
     const RotaryLocations found =
         locate_rotary_axes(truth, campaign.machine, build(campaign)->model, {false, seed});
