@@ -21,17 +21,6 @@ sim::NoiseClasses classes_of(const Bench& bench, LeverNoise noise) {
   return classes;
 }
 
-// Mean of all runs of both directions, by target.
-std::vector<ErrorMotion> means_of(const host::RunsFile& runs) {
-  std::vector<ErrorMotion> mean(runs.positions.size(), ErrorMotion::Zero());
-  const auto n = static_cast<double>(runs.up.size() + runs.down.size());
-  for (const auto* list : {&runs.up, &runs.down})
-    for (const host::RunValues& run : *list)
-      for (std::size_t t = 0; t < run.size(); ++t)
-        mean[t] += run[t] / n;
-  return mean;
-}
-
 std::vector<ErrorMotion> measured_at(const Bench& bench, const Vec3& place,
                                      const sim::NoiseClasses& classes, std::size_t runs,
                                      std::size_t draw, std::uint32_t set_up) {
@@ -39,7 +28,7 @@ std::vector<ErrorMotion> measured_at(const Bench& bench, const Vec3& place,
   const sim::Laser6D laser(classes, bench.draw(draw), set_up,
                            {bench.machine.chain.axis(kAxisX).axis, axis.lo, axis.hi});
   const sim::SensedErrors errors(bench.truth, kAxisX, {place, axis.sensed.kappa}, laser.setup());
-  return means_of(
+  return sim::mean_of_runs(
       laser.read_runs(axis.letter, axis.all_targets(), runs,
                       [&](double q, double approach) { return errors.at(q, approach); }));
 }

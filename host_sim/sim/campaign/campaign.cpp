@@ -20,19 +20,6 @@ host::RunsFile measure_axis(const TrueMachine& truth, const host::AxisFile& axis
                          [&](double q, double approach) { return errors.at(q, approach); });
 }
 
-// Mean of all runs of both directions, by target.
-std::vector<ErrorMotion> mean_of(const host::RunsFile& runs) {
-  std::vector<ErrorMotion> mean(runs.positions.size(), ErrorMotion::Zero());
-  const auto n = static_cast<double>(runs.up.size() + runs.down.size());
-  for (const auto* list : {&runs.up, &runs.down}) {
-    for (const host::RunValues& run : *list) {
-      for (std::size_t t = 0; t < run.size(); ++t)
-        mean[t] += run[t] / n;
-    }
-  }
-  return mean;
-}
-
 }  // namespace
 
 std::vector<LeverCheck> check_levers(const TrueMachine& truth, const host::MachineFile& file,
@@ -47,7 +34,7 @@ std::vector<LeverCheck> check_levers(const TrueMachine& truth, const host::Machi
     const auto number = static_cast<std::uint32_t>(a);
     const auto mean_at = [&](const SensedPoint& sensed, std::uint32_t set_up) {
       const Laser6D laser(classes, draw, set_up, place);
-      return mean_of(measure_axis(truth, axis, a, sensed, laser, runs));
+      return mean_of_runs(measure_axis(truth, axis, a, sensed, laser, runs));
     };
     const auto first_mean = mean_at(axis.sensed, number);
     const auto second_mean = mean_at(second, number + kSecondSetUp);

@@ -32,4 +32,16 @@ host::RunsFile bidirectional_runs(char letter, const std::vector<double>& positi
   return result;
 }
 
+std::vector<ErrorMotion> mean_of_runs(const host::RunsFile& runs) {
+  std::vector<ErrorMotion> mean(runs.positions.size(), ErrorMotion::Zero());
+  const auto n = static_cast<double>(runs.up.size() + runs.down.size());
+  for (const auto* list : {&runs.up, &runs.down}) {
+    for (const host::RunValues& run : *list) {
+      for (std::size_t t = 0; t < run.size(); ++t)
+        mean[t] += run[t] / n;
+    }
+  }
+  return mean;
+}
+
 }  // namespace volcomp::sim

@@ -23,4 +23,7 @@ struct Stop {
     char letter, const std::vector<double>& positions, std::size_t runs,
     const std::function<ErrorMotion(const Stop&)>& reading);
 
+// Mean of all runs of both directions, by target.
+[[nodiscard]] std::vector<ErrorMotion> mean_of_runs(const host::RunsFile& runs);
+
 }  // namespace volcomp::sim

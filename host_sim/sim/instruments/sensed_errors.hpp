@@ -1,7 +1,6 @@
 #pragma once
 // What a laser between table and spindle has before it when one axis moves and the others stand.
 
-#include "host_sim/host/machine/machine_file.hpp"
 #include "host_sim/sim/instruments/laser6d.hpp"
 #include "host_sim/sim/truth/true_machine.hpp"
 
