@@ -1,15 +1,19 @@
 // volcomp run face-gear
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "host_sim/cli/commands.hpp"
+#include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/probe_option.hpp"
 #include "host_sim/cli/run_experiment.hpp"
 #include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/face_gear/figures.hpp"
+#include "host_sim/experiments/face_gear/patch_report.hpp"
 #include "host_sim/experiments/face_gear/repeatability.hpp"
 #include "host_sim/experiments/face_gear/report.hpp"
 #include "host_sim/experiments/face_gear/spread.hpp"
@@ -27,6 +31,7 @@ struct FaceGearArguments : RunArguments {
   bool noise_free = false;
   std::optional<std::size_t> probe;  // of sim::kProbeClasses; empty: as the machine file says
   bool repeatability = false;        // the experiments of section 3.3 in place of a gear
+  bool patch = false;                // the patch and the searches of the paper; no machine
   face_gear::SpreadPlan spread;      // measurements, each of another machine and gear
   std::string shard;                 // empty: all of them
 };
@@ -113,6 +118,31 @@ RunOutcome face_gear_outcome(RunPlace& place, const FaceGearArguments& arguments
           arguments.map_folder.empty() ? program_files(run) : map_files(run)};
 }
 
+// Neither machine nor bus: every option of these is refused.
+void check_patch(const CLI::App& face_gear) {
+  constexpr std::array<const char*, 4> kTaken{"--patch", "--gear", "--json", "--report"};
+  for (const CLI::Option* option : face_gear.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end())
+      continue;
+    throw host::UserError("--patch: " + name +
+                          " is for measurements; it goes with --gear, --json and --report only");
+  }
+}
+
+int compare_patch(const FaceGearArguments& a) {
+  Results results(with_report({a.json_file}, a.report_folder), {a.options.gear}, a.report_folder);
+  const face_gear::PatchComparison comparison = face_gear::compare_patch(a.options.gear);
+  if (!a.report_folder.empty())
+    add_report(results, a.report_folder, face_gear::patch_document(comparison, {a.command, {}}));
+  results.add(a.json_file, json_text(face_gear::patch_figures(comparison)));
+  results.write();
+  fmt::print(results.text(), "{}", face_gear::patch_summary(comparison));
+  if (!a.report_folder.empty())
+    fmt::print(results.text(), "report: {}\n", report_page(a.report_folder));
+  return number(face_gear::patch_verdict(comparison).ok ? ExitCode::done : ExitCode::negative);
+}
+
 // How touches and targets scatter, and what is done against it.
 void add_scatter_options(CLI::App& face_gear, FaceGearArguments& a) {
   std::vector<CLI::Option*> noise;
@@ -154,6 +184,10 @@ void add_spread_options(CLI::App& face_gear, FaceGearArguments& a) {
   add_shard_option(face_gear, a.shard)->needs(seeds);
   face_gear.add_flag("--repeatability", a.repeatability,
                      "Touch a plate and a ring five times over in place of the gear");
+  face_gear.add_flag("--patch", a.patch,
+                     "No machine: the paper's NURBS patch and its searches for the nearest point "
+                     "and for the angle, against the closed flank; good where the figures of "
+                     "docs/papers/face-gear.md hold");
 }
 
 }  // namespace
@@ -195,7 +229,12 @@ void add_face_gear_command(CLI::App& run, const std::string& command, int& code)
       ->excludes(maps);
   add_output_options(*face_gear, *a);
   add_bus_options(*face_gear, a->node);
-  face_gear->callback([a, &code] {
+  face_gear->callback([a, face_gear, &code] {
+    if (a->patch) {
+      check_patch(*face_gear);
+      code = compare_patch(*a);
+      return;
+    }
     check(*a);
     code = run_experiment(*a, {a->options.gear}, face_gear_outcome);
   });

@@ -9,13 +9,13 @@
 #include "comp/metrology/faces/face_grid.hpp"
 #include "comp/probe/face_relief.hpp"
 #include "comp/probe/face_touch.hpp"
-#include "tests/oracle/closest_point.hpp"
+#include "host_sim/experiments/face_gear/patch/closest_point.hpp"
 
 namespace volcomp::bench {
 namespace {
 
-using test::Parametrisation;
-using test::SplinePatch;
+using face_gear::Parametrisation;
+using face_gear::SplinePatch;
 
 // Balls on all points of a flank.
 struct Balls {
@@ -82,7 +82,7 @@ SplinePatch patch_of(const Balls& balls) {
 void patch_newton(benchmark::State& state) {
   const SplinePatch patch = patch_of(Balls{});
   one_after_the_other(state, [&patch](const Balls&, const Vec3& q) {
-    test::ClosestPoint near;
+    face_gear::ClosestPoint near;
     return closest_point(patch, q, Vec3::UnitY(), near).ok() ? near.distance : 0.0;
   });
 }
@@ -90,7 +90,7 @@ void patch_newton(benchmark::State& state) {
 void patch_subdivision(benchmark::State& state) {
   const SplinePatch patch = patch_of(Balls{});
   one_after_the_other(state, [&patch](const Balls&, const Vec3& q) {
-    test::SubdivisionSearch near;
+    face_gear::SubdivisionSearch near;
     return closest_point_by_subdivision(patch, q, 10, 1e-7, near).ok() ? near.distance : 0.0;
   });
 }

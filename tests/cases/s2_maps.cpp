@@ -5,17 +5,17 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/faces/error_map.hpp"
 #include "comp/metrology/gears/pitch.hpp"
+#include "host_sim/experiments/face_gear/patch/closest_point.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s2_face_case.hpp"
-#include "tests/oracle/closest_point.hpp"
 
 namespace volcomp::cases {
 namespace {
 
-using test::ClosestPoint;
-using test::Parametrisation;
-using test::PatchPoint;
-using test::SplinePatch;
+using face_gear::ClosestPoint;
+using face_gear::Parametrisation;
+using face_gear::PatchPoint;
+using face_gear::SplinePatch;
 
 template <class List>
 json list_of(const List& values) {

@@ -6,6 +6,7 @@
 
 #include "comp/strokes/helix_instances.hpp"
 #include "host_sim/experiments/internal_helical/constants.hpp"
+#include "host_sim/host/bus/watched_strokes.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::internal_helical {

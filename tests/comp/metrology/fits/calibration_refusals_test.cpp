@@ -14,7 +14,6 @@
 #include "comp/metrology/fits/sphere_fit.hpp"
 #include "tests/not_numbers.hpp"
 #include "tests/oracle/face_gears.hpp"
-#include "tests/oracle/printed_face_search.hpp"
 #include "tests/oracle/stylus.hpp"
 
 namespace volcomp::test {
@@ -188,11 +187,8 @@ TEST(FaceAngleRefusal, ABallThatIsNowhereAndABallInsideTheGear) {
   FaceContact contact{FaceFlank{}, 0.5, Vec3(20.34, kNan, 47.0)};
   FaceAngle found;
   EXPECT_EQ(relieved_face_angle(gear, contact, 0.0, 1e-6, found).reason, Reason::not_finite);
-  const PrintedFaceSearch search{1.0 * kDegree, 2.72};
-  EXPECT_EQ(printed_face_angle(gear, contact, 0.0, search, found).reason, Reason::not_finite);
   contact.centre = {10.0, 20.0, 47.0};
   EXPECT_EQ(relieved_face_angle(gear, contact, 0.0, 1e-6, found).reason, Reason::inside_gear_base);
-  EXPECT_EQ(printed_face_angle(gear, contact, 0.0, search, found).reason, Reason::inside_gear_base);
 }
 
 std::vector<FaceTouchPoint> one_row(const FaceGear& plain) {

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "comp/machine/machine_chain.hpp"
@@ -14,7 +13,6 @@
 #include "comp/metrology/tables/iso230.hpp"
 #include "comp/strokes/spectral_line.hpp"
 #include "tests/not_numbers.hpp"
-#include "tests/oracle/closest_point.hpp"
 #include "tests/oracle/l300g_machine.hpp"
 #include "tests/oracle/paper_gear.hpp"
 
@@ -152,7 +150,7 @@ TEST(FrameShare, OfPointsAtTheOriginIsTheirShift) {
   EXPECT_EQ(share.explained, 0.0);
 }
 
-// --- machine, gear and patch
+// --- machine and gear
 
 TEST(MachineRefusal, AnOffsetThatTurnsByNoNumber) {
   MachineDescription d = l300g_machine({}, {});
@@ -197,81 +195,6 @@ TEST(InvoluteGearRefusal, PointsThatAreNowhereHaveNoDistance) {
   FlankDistance d;
   EXPECT_EQ(distance_from_flank(gear, {}, {kNan, 60.0}, 0.0, d).reason, Reason::not_finite);
   EXPECT_EQ(distance_from_flank(gear, {}, {60.0, 10.0}, kInfinite, d).reason, Reason::not_finite);
-}
-
-// A grid whose points are given by row and column.
-template <class At>
-std::vector<Vec3> grid_of_points(const At& at) {
-  std::vector<Vec3> points;
-  for (std::size_t row = 0; row < kGridRows; ++row) {
-    for (std::size_t column = 0; column < kGridColumns; ++column)
-      points.push_back(at(static_cast<double>(row), static_cast<double>(column)));
-  }
-  return points;
-}
-
-TEST(SplinePatchRefusal, TwoColumnsInOnePlaceHaveNoLengthBetweenThem) {
-  const auto doubled = grid_of_points([](double row, double column) {
-    return Vec3(row, column > 4.0 ? column - 1.0 : column, 0.0);
-  });
-  SplinePatch patch;
-  const Status s = SplinePatch::through(doubled, Parametrisation::chord, patch);
-  EXPECT_EQ(s.reason, Reason::coincident);
-  EXPECT_EQ(s.where.index, 5);
-  EXPECT_TRUE(SplinePatch::through(doubled, Parametrisation::uniform, patch).ok());
-}
-
-TEST(ClosestPointRefusal, APatchThatIsALineHasNoNormal) {
-  const auto line =
-      grid_of_points([](double row, double column) { return Vec3(row + column, 0.0, 0.0); });
-  SplinePatch patch;
-  ASSERT_TRUE(SplinePatch::through(line, Parametrisation::uniform, patch).ok());
-  ClosestPoint c;
-  EXPECT_EQ(closest_point(patch, {-5.0, 1.0, 0.0}, Vec3::UnitZ(), c).reason, Reason::zero_normal);
-}
-
-// Steps of 3 mm up and down between neighbours: what is found is a foot, or it is reported that
-// there is none.
-TEST(ClosestPoint, OnARoughPatchEitherSettlesOrSaysThatItDidNot) {
-  std::mt19937 random(7);
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
-  };
-  const auto rough = grid_of_points([&](double row, double column) {
-    return Vec3(row + between(-0.3, 0.3), column + between(-0.3, 0.3), between(-3.0, 3.0));
-  });
-  SplinePatch patch;
-  ASSERT_TRUE(SplinePatch::through(rough, Parametrisation::uniform, patch).ok());
-  int unsettled = 0;
-  for (int k = 0; k < 400; ++k) {
-    const Vec3 q(between(-2.0, 9.0), between(-2.0, 17.0), between(-6.0, 6.0));
-    ClosestPoint c;
-    const Status s = closest_point(patch, q, Vec3::UnitZ(), c);
-    if (!s.ok()) {
-      EXPECT_EQ(s.reason, Reason::not_converged);
-      EXPECT_EQ(s.where.count, 30);
-      ++unsettled;
-      continue;
-    }
-    EXPECT_LE(std::abs(c.distance), (q - c.foot).norm() + 1e-12);
-    EXPECT_GE(c.u, 0.0);
-    EXPECT_LE(c.u, 1.0);
-  }
-  EXPECT_GT(unsettled, 0);
-  EXPECT_LT(unsettled, 200);
-}
-
-TEST(ClosestPointRefusal, OutwardIsADirectionAndAnAccuracyAtMostOne) {
-  const auto flat =
-      grid_of_points([](double row, double column) { return Vec3(row, column, 0.0); });
-  SplinePatch patch;
-  ASSERT_TRUE(SplinePatch::through(flat, Parametrisation::uniform, patch).ok());
-  ClosestPoint c;
-  EXPECT_EQ(closest_point(patch, Vec3::Zero(), {kNan, 0.0, 1.0}, c).reason, Reason::not_finite);
-  SubdivisionSearch search;
-  const Status s = closest_point_by_subdivision(patch, Vec3::Zero(), 10, 1.5, search);
-  EXPECT_EQ(s.reason, Reason::bad_setting);
-  EXPECT_STREQ(s.where.field, "accuracy");
 }
 
 }  // namespace

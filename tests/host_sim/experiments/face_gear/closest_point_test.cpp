@@ -6,10 +6,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "tests/oracle/closest_point.hpp"
+#include "host_sim/experiments/face_gear/patch/closest_point.hpp"
 #include "tests/oracle/face_gear.hpp"
 
-namespace volcomp::test {
+namespace volcomp::face_gear {
 namespace {
 
 const Vec3 kOutward = -Vec3::UnitY();  // side +1: the slot is at smaller y
@@ -159,4 +159,4 @@ TEST(Subdivision, FewerThanFourCellsAreRefused) {
 }
 
 }  // namespace
-}  // namespace volcomp::test
+}  // namespace volcomp::face_gear

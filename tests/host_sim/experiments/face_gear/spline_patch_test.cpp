@@ -5,11 +5,11 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include "host_sim/experiments/face_gear/patch/spline_patch.hpp"
 #include "tests/oracle/face_gear.hpp"
 #include "tests/oracle/face_gear_tables.hpp"
-#include "tests/oracle/spline_patch.hpp"
 
-namespace volcomp::test {
+namespace volcomp::face_gear {
 namespace {
 
 using reference::FaceGear;
@@ -200,4 +200,4 @@ TEST(BadPatch, ALineWithoutLengthHasNoChordParameters) {
 }
 
 }  // namespace
-}  // namespace volcomp::test
+}  // namespace volcomp::face_gear

@@ -9,7 +9,7 @@
 #include "comp/metrology/faces/face_angle.hpp"
 #include "comp/probe/face_relief.hpp"
 
-namespace volcomp::test {
+namespace volcomp::face_gear {
 
 struct PrintedFaceSearch {
   double step = 0.0;             // θ_0, rad
@@ -44,4 +44,4 @@ inline Status printed_face_angle(const FaceGear& gear, const FaceContact& contac
   return refuse(Reason::residuals_too_large, where);
 }
 
-}  // namespace volcomp::test
+}  // namespace volcomp::face_gear

@@ -10,7 +10,7 @@
 #include <array>
 #include <cstddef>
 
-namespace volcomp::test {
+namespace volcomp::face_gear {
 
 // The four cubics that are not zero at a place, and their derivatives.
 struct BasisValues {
@@ -97,4 +97,4 @@ class SplineBasis {
   std::array<double, kKnots> knot_{};
 };
 
-}  // namespace volcomp::test
+}  // namespace volcomp::face_gear

@@ -1,11 +1,11 @@
-#include "tests/oracle/spline_patch.hpp"
+#include "host_sim/experiments/face_gear/patch/spline_patch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
 
-namespace volcomp::test {
+namespace volcomp::face_gear {
 namespace {
 
 // The nodes along one direction of the grid: `lines` polylines of N points each.
@@ -177,4 +177,4 @@ Vec3 normal_of(const PatchPoint& place, const Vec3& outward) {
   return cross.dot(outward) < 0.0 ? Vec3(-cross / length) : Vec3(cross / length);
 }
 
-}  // namespace volcomp::test
+}  // namespace volcomp::face_gear

@@ -1,13 +1,12 @@
-#include "tests/oracle/closest_point.hpp"
+#include "host_sim/experiments/face_gear/patch/closest_point.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace volcomp::test {
+namespace volcomp::face_gear {
 namespace {
 
-constexpr int kMostIterations = 30;
 constexpr double kSettled = 1e-12;
 
 struct Place {
@@ -108,21 +107,25 @@ Status closest_point(const SplinePatch& patch, const Vec3& q, const Vec3& outwar
   if (!q.allFinite() || !outward.allFinite()) return refuse(Reason::not_finite);
   Place at = nearest_node(patch, q);
   int iterations = 0;
+  std::array<NewtonStep, kMostNewtonSteps> steps{};
   for (bool settled = false; !settled;) {
-    if (iterations == kMostIterations) {
+    if (iterations == kMostNewtonSteps) {
       Where where;
       where.count = iterations;
       return refuse(Reason::not_converged, where);
     }
-    const Place next = newton_step(at, Slope(patch.at(at.u, at.v), q));
-    settled = std::max(std::abs(next.u - at.u), std::abs(next.v - at.v)) < kSettled;
+    const PatchPoint here = patch.at(at.u, at.v);
+    const Place next = newton_step(at, Slope(here, q));
+    const double step = std::max(std::abs(next.u - at.u), std::abs(next.v - at.v));
+    steps.at(static_cast<std::size_t>(iterations)) = {(here.point - q).norm(), step};
+    settled = step < kSettled;
     at = next;
     ++iterations;
   }
   const PatchPoint foot = patch.at(at.u, at.v);
   const Vec3 normal = normal_of(foot, outward);
   if (normal.isZero()) return refuse(Reason::zero_normal);
-  out = {at.u, at.v, foot.point, normal, (q - foot.point).dot(normal), iterations};
+  out = {at.u, at.v, foot.point, normal, (q - foot.point).dot(normal), iterations, steps};
   return {};
 }
 
@@ -132,18 +135,18 @@ Status closest_point_by_subdivision(const SplinePatch& patch, const Vec3& q, int
   if (cells < 4 || cells > 100) return refuse_value(Reason::bad_setting, "cells", cells);
   if (!(accuracy >= 1e-12 && accuracy <= 1.0))
     return refuse_value(Reason::bad_setting, "accuracy", accuracy);
-  constexpr int kMostLevels = 64;  // each halves the window at least: 1e-12 needs 40
   SubdivisionSearch search;
   Interval u;
   Interval v;
   while (search.levels < kMostLevels) {
     const Corner best = nearest_corner(patch, q, u, v, cells);
-    ++search.levels;
     search.evaluations += (cells + 1) * (cells + 1);
     search.u = u.at(best.i, cells);
     search.v = v.at(best.j, cells);
     search.distance = std::sqrt(best.square);
-    if (std::max(u.width(cells), v.width(cells)) < accuracy) break;
+    const double cell = std::max(u.width(cells), v.width(cells));
+    search.level.at(static_cast<std::size_t>(search.levels++)) = {cell, search.distance};
+    if (cell < accuracy) break;
     u = u.around(best.i, cells);
     v = v.around(best.j, cells);
   }
@@ -152,4 +155,4 @@ Status closest_point_by_subdivision(const SplinePatch& patch, const Vec3& q, int
   return {};
 }
 
-}  // namespace volcomp::test
+}  // namespace volcomp::face_gear

@@ -2,17 +2,17 @@
 // A flank that is known as a grid of points: bicubic, clamped B-spline patch through all of them,
 // u along the profile (rows), v along the face width (columns), both 0…1.
 //
-// Between the nodes of the decoded gear of Table 3 (docs/papers/face-gear.md) it keeps within 0.12
-// µm of a flank without relief, and within 1.2 µm of the relieved one, whose curvature jumps.
+// Between the nodes of the decoded gear of Table 3 (docs/papers/face-gear.md) it keeps within 0.13
+// µm of a flank without relief, and within 1.25 µm of the relieved one, whose curvature jumps.
 
 #include <cstdint>
 
 #include "comp/core/span.hpp"
 #include "comp/core/status.hpp"
 #include "comp/metrology/faces/measuring_grid.hpp"
-#include "tests/oracle/spline_basis.hpp"
+#include "host_sim/experiments/face_gear/patch/spline_basis.hpp"
 
-namespace volcomp::test {
+namespace volcomp::face_gear {
 
 // How nodes become parameters. Uniform reproduces the control points of the paper's Table 3.
 enum class Parametrisation : std::uint8_t {
@@ -57,4 +57,4 @@ class SplinePatch {
 // Unit normal on the side of the patch that `outward` points to; zero where the patch degenerates.
 [[nodiscard]] Vec3 normal_of(const PatchPoint& place, const Vec3& outward);
 
-}  // namespace volcomp::test
+}  // namespace volcomp::face_gear
