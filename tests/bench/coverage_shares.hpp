@@ -19,9 +19,14 @@ namespace volcomp::test {
 struct CoverageOptions {
   std::size_t campaigns = 1000;  // of a shape and size
   std::size_t draws = 1000;
-  std::size_t sizes = SIZE_MAX;       // the first so many of kSizes
+  std::size_t first_size = 0;  // of kSizes, and so many of them from there on
+  std::size_t sizes = SIZE_MAX;
   std::size_t whole_campaigns = 200;  // of a whole machine
   std::uint64_t seed = 1;
+
+  [[nodiscard]] std::size_t last_size(std::size_t all) const {
+    return first_size + std::min(sizes, all - first_size);
+  }
 };
 
 // Of one campaign and figure.
