@@ -26,7 +26,8 @@
 #   cppcheck    cppcheck over comp, hal and firmware
 #   fuzz        each fuzz program for VOLCOMP_FUZZ_SECONDS (default 10) seconds
 #   bench       the benchmarks are built; our ticks on this computer beside what others compute (tests/bench/host_bench.py);
-#               how often intervals hold the truth, in few campaigns (tests/bench/interval_coverage.cpp);
+#               how often intervals hold the truth, in few campaigns (tests/bench/interval_coverage.cpp),
+#               and function by function what is identified (tests/bench/function_coverage.cpp);
 #               what identification of a machine's errors costs (tests/bench/identification_bench.cpp)
 #
 # VOLCOMP_JOBS limits the processes (default: the number of processors). The last line says how many
@@ -175,9 +176,10 @@ step_fuzz() {
 
 step_bench() {
   need valgrind python3
-  build_preset host --target volcomp_bench volcomp_host_bench volcomp_interval_coverage volcomp_identification_bench
+  build_preset host --target volcomp_bench volcomp_host_bench volcomp_interval_coverage volcomp_function_coverage volcomp_identification_bench
   python3 tests/bench/host_bench.py build/host/tests/bench/volcomp_host_bench
   build/host/tests/bench/volcomp_interval_coverage --campaigns 12 --draws 300 --sizes 3 --whole-campaigns 20
+  build/host/tests/bench/volcomp_function_coverage --campaigns 100
   build/host/tests/bench/volcomp_identification_bench tests/data/plan_plate.toml --repetitions 3
 }
 

@@ -32,7 +32,7 @@ struct FaceGearArguments : RunArguments {
   std::optional<std::size_t> probe;  // of sim::kProbeClasses; empty: as the machine file says
   bool repeatability = false;        // the experiments of section 3.3 in place of a gear
   bool patch = false;                // the patch and the searches of the paper; no machine
-  face_gear::SpreadPlan spread;      // measurements, each of another machine and gear
+  host::DrawPlan spread;             // measurements, each of another machine and gear
   std::string shard;                 // empty: all of them
 };
 
@@ -92,9 +92,7 @@ RunOutcome repeatability_outcome(RunPlace& place, const FaceGearArguments& argum
 
 RunOutcome spread_outcome(RunPlace& place, const FaceGearArguments& arguments,
                           const host::Progress& progress) {
-  face_gear::SpreadPlan plan = arguments.spread;
-  plan.threads = host::processors();
-  if (!arguments.shard.empty()) plan.shard = part_to_write(arguments, arguments.shard);
+  const host::DrawPlan plan = plan_of_draws(arguments, arguments.spread, arguments.shard);
   const face_gear::SpreadResult result =
       face_gear::run_spread(options_of(arguments), plan, progress);
   if (!arguments.shard.empty())

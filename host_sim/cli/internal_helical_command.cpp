@@ -6,7 +6,9 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/run_experiment.hpp"
+#include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/internal_helical/figures.hpp"
+#include "host_sim/experiments/internal_helical/parts.hpp"
 #include "host_sim/experiments/internal_helical/report.hpp"
 #include "host_sim/host/tables/learned_files.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 struct InternalHelicalArguments : RunArguments {
   internal_helical::InternalHelicalOptions options;
   std::string table_folder;  // empty: none
+  std::string shard;         // empty: all seeds
   bool noise_free = false;
 };
 
@@ -38,8 +41,11 @@ RunOutcome internal_helical_outcome(RunPlace& place, const InternalHelicalArgume
   options.watch = &place.watch();
   options.threads = place.threads();
   if (arguments.noise_free) options.truth.take_noise_away();
+  if (!arguments.shard.empty()) options.shard = part_to_write(arguments, arguments.shard);
   const internal_helical::InternalHelicalResult run =
       internal_helical::run_internal_helical(options, progress);
+  if (!arguments.shard.empty())
+    return part_outcome(internal_helical::part_of_helical(run), options.shard);
   RunOutcome outcome;
   if (!arguments.table_folder.empty()) add_tables(arguments.table_folder, run, outcome);
   std::vector<std::string> names;
@@ -76,8 +82,9 @@ void add_internal_helical_command(CLI::App& run, const std::string& command, int
   add_choice<internal_helical::LearningWay>(*helical, "--wrong", a->options.way, wrong,
                                             "Learn in a wrong way")
       ->default_str("");
-  helical->add_option("--tables", a->table_folder,
-                      "Folder for the learned tables as files of controllers");
+  CLI::Option* tables = helical->add_option(
+      "--tables", a->table_folder, "Folder for the learned tables as files of controllers");
+  add_shard_option(*helical, a->shard)->excludes(tables);
   add_output_options(*helical, *a);
   add_can_option(*helical, a->node);
   CLI::Option* drives = add_drive_option(*helical, a->node);

@@ -22,7 +22,7 @@ namespace {
 struct L300gArguments : RunArguments {
   l300g::L300gOptions options;
   std::string gcode_folder;  // empty: none
-  l300g::SpreadPlan spread;  // measurements, each with random numbers of its own
+  host::DrawPlan spread;     // measurements, each with random numbers of its own
   std::string shard;         // empty: all of them
   bool noise_free = false;
   std::optional<std::size_t> probe;    // of sim::kProbeClasses; empty: as the machine file says
@@ -50,9 +50,7 @@ RunOutcome spread_outcome(RunPlace& place, const L300gArguments& arguments,
   l300g::L300gOptions options = arguments.options;
   options.machine = machine_of(arguments, "l300g");
   options.cycle_hz = arguments.node.cycle_hz;
-  l300g::SpreadPlan plan = arguments.spread;
-  plan.threads = host::processors();
-  if (!arguments.shard.empty()) plan.shard = part_to_write(arguments, arguments.shard);
+  const host::DrawPlan plan = plan_of_draws(arguments, arguments.spread, arguments.shard);
   const l300g::SpreadResult result = l300g::run_spread(options, plan, progress);
   if (!arguments.shard.empty())
     return part_outcome(l300g::part_of_spread(result, plan), plan.shard);

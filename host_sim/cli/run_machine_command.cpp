@@ -7,10 +7,10 @@
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/run_experiment.hpp"
+#include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/any_machine/figures.hpp"
 #include "host_sim/experiments/any_machine/machine_spread.hpp"
 #include "host_sim/experiments/any_machine/report.hpp"
-#include "host_sim/host/io/parallel.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -18,13 +18,18 @@ namespace {
 struct RunMachineArguments : RunArguments {
   any_machine::MachineOptions options;
   bool noise_free = false;
-  std::size_t seeds = 1;  // machines, each with errors of its own
+  host::DrawPlan spread;  // machines, each with errors of its own
+  std::string shard;      // empty: all of them
 };
 
-RunOutcome spread_outcome(const RunPlace& place, const any_machine::MachineOptions& options,
-                          std::size_t count, const host::Progress& progress) {
+RunOutcome spread_outcome(const RunPlace& place, const RunMachineArguments& arguments,
+                          const any_machine::MachineOptions& options,
+                          const host::Progress& progress) {
+  const host::DrawPlan plan = plan_of_draws(arguments, arguments.spread, arguments.shard);
   const any_machine::MachineSpread spread =
-      any_machine::run_machine_spread(options, count, host::processors(), progress);
+      any_machine::run_machine_spread(options, plan, progress);
+  if (!arguments.shard.empty())
+    return part_outcome(any_machine::part_of_machine_spread(spread, plan), plan.shard);
   return {any_machine::machine_spread_summary(spread),
           any_machine::machine_spread_document(spread, place.context()),
           any_machine::machine_spread_figures(spread),
@@ -36,7 +41,8 @@ RunOutcome machine_outcome(RunPlace& place, const RunMachineArguments& arguments
   any_machine::MachineOptions options = arguments.options;
   options.machine = machine_of(arguments, "trunnion");
   options.noise = !arguments.noise_free;
-  if (arguments.seeds > 1) return spread_outcome(place, options, arguments.seeds, progress);
+  if (arguments.spread.count > 1 || !arguments.shard.empty())
+    return spread_outcome(place, arguments, options, progress);
   options.make_cell = place.cells(options.machine);
   options.knots = knots_at(arguments.node);
   const any_machine::MachineResult result = any_machine::run_machine(options, progress);
@@ -57,10 +63,12 @@ void add_run_machine_command(CLI::App& run, const std::string& command, int& cod
   add_seed(*machine, "--seed", options.seed, "Seed of the machine, of the places and of the noise");
   machine->add_flag("--noise-free", a->noise_free,
                     "Measure with perfect instruments: what the mathematics alone can do");
-  CLI::Option* seeds =
-      machine->add_option("--seeds", a->seeds, "Machines, each with errors and noise of its own")
-          ->check(CLI::Range(1, 10000))
-          ->capture_default_str();
+  CLI::Option* seeds = machine
+                           ->add_option("--seeds", a->spread.count,
+                                        "Machines, each with errors and noise of its own")
+                           ->check(CLI::Range(1, 10000))
+                           ->capture_default_str();
+  add_shard_option(*machine, a->shard)->needs(seeds);
   machine->add_option("--places", options.places, "Random places all over the travel")
       ->check(CLI::Range(std::size_t{10}, std::size_t{10000}))
       ->capture_default_str();

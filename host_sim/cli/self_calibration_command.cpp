@@ -6,6 +6,7 @@
 
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/run_experiment.hpp"
+#include "host_sim/cli/shard_options.hpp"
 #include "host_sim/experiments/self_calibration/figures.hpp"
 #include "host_sim/experiments/self_calibration/report.hpp"
 #include "host_sim/experiments/self_calibration/spread.hpp"
@@ -17,7 +18,8 @@ namespace {
 struct SelfCalibrationArguments : RunArguments {
   self_calibration::Options options;
   bool noise_free = false;
-  std::size_t draws = 1;  // machines, each with errors of its own
+  host::DrawPlan spread;  // machines, each with errors of its own
+  std::string shard;      // empty: all of them
   std::string plan;       // empty: the one that comes with the program for machine and instrument
   std::string instrument = "touch";
   std::string out;  // folder for what was measured and made of it; empty: none
@@ -44,10 +46,13 @@ std::vector<std::string> inputs_of(const SelfCalibrationArguments& a) {
   return inputs;
 }
 
-RunOutcome spread_outcome(const RunPlace& place, const self_calibration::Options& options,
-                          std::size_t count, const host::Progress& progress) {
-  const self_calibration::Spread spread =
-      self_calibration::run_spread(options, count, host::processors(), progress);
+RunOutcome spread_outcome(const RunPlace& place, const SelfCalibrationArguments& a,
+                          const self_calibration::Options& options,
+                          const host::Progress& progress) {
+  const host::DrawPlan plan = plan_of_draws(a, a.spread, a.shard);
+  const self_calibration::Spread spread = self_calibration::run_spread(options, plan, progress);
+  if (!a.shard.empty())
+    return part_outcome(self_calibration::part_of_spread(spread, plan), plan.shard);
   return {self_calibration::spread_summary(spread),
           self_calibration::spread_document(spread, place.context()),
           self_calibration::spread_figures(spread), self_calibration::spread_verdict(spread).ok};
@@ -68,7 +73,7 @@ RunOutcome self_calibration_outcome(RunPlace& place, const SelfCalibrationArgume
   self_calibration::Options options = a.options;
   options.plan = plan_of(a);
   options.noise = !a.noise_free;
-  if (a.draws > 1) return spread_outcome(place, options, a.draws, progress);
+  if (a.spread.count > 1 || !a.shard.empty()) return spread_outcome(place, a, options, progress);
   const std::filesystem::path machine =
       host::identify::read_plan(options.plan, {{}, true}).machine.path;
   options.make_axes = place.axes();
@@ -101,11 +106,11 @@ void add_self_calibration_command(CLI::App& run, const std::string& command, int
            "Seed of the machine, of the places of the verification and of the noise");
   calibration->add_flag("--noise-free", a->noise_free,
                         "Measure with perfect instruments: what the mathematics alone can do");
-  CLI::Option* draws =
-      calibration
-          ->add_option("--draws", a->draws, "Machines, each with errors and noise of its own")
-          ->check(CLI::Range(1, 10000))
-          ->capture_default_str();
+  CLI::Option* draws = calibration
+                           ->add_option("--draws", a->spread.count,
+                                        "Machines, each with errors and noise of its own")
+                           ->check(CLI::Range(1, 10000))
+                           ->capture_default_str();
   CLI::Option* plan =
       calibration->add_option("--plan", a->plan,
                               "Measurement plan, which names its machine (default: the one that "
@@ -131,6 +136,7 @@ void add_self_calibration_command(CLI::App& run, const std::string& command, int
   for (const char* single : {"--can", "--firmware"})
     draws->excludes(single);
   draws->excludes(out);
+  add_shard_option(*calibration, a->shard)->needs(draws);
   calibration->callback([a, on_a_bus, &code] {
     require_node(on_a_bus, a->node, "--can or --firmware");
     code = run_experiment(*a, inputs_of(*a), self_calibration_outcome);

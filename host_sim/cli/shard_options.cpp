@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::cli {
@@ -20,6 +21,13 @@ host::Shard part_to_write(const RunArguments& arguments, const std::string& shar
     throw host::UserError("--shard: a report needs the whole run");
   if (arguments.live.port) throw host::UserError("--shard: a page needs the whole run");
   return part;
+}
+
+host::DrawPlan plan_of_draws(const RunArguments& arguments, host::DrawPlan draws,
+                             const std::string& shard) {
+  if (!shard.empty()) draws.shard = part_to_write(arguments, shard);
+  draws.threads = host::processors();
+  return draws;
 }
 
 RunOutcome part_outcome(const host::PartialRun& part, const host::Shard& shard) {

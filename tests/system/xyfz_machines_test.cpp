@@ -62,6 +62,60 @@ TEST(XyfzMachines, FirstOneIsTheMachineOfTheWholeScenario) {
   EXPECT_DOUBLE_EQ(first.noise_free.rate(kClosedModel), alone.rate(3));
 }
 
+// What circles and lines read of one machine differs by its form alone, angles by straightness, and
+// the squareness itself by nothing.
+TEST(XyfzMachines, CirclesLessLinesIsTheFormOfTheAxes) {
+  for (const xyfz::StudiedMachine& m : result().machine) {
+    for (std::size_t plane = 0; plane < 3; ++plane) {
+      const xyfz::CirclesLessLines& f = m.functionals;
+      EXPECT_GT(std::abs(f.all[plane]), 0.1) << m.seed;
+      EXPECT_NEAR(f.all[plane], f.without_angles[plane] + f.angles[plane], 0.02) << m.seed;
+    }
+  }
+}
+
+// One bow, EYX over X: the line reads its slope of least squares, the circle twice the second
+// harmonic of E(R cos θ) sin θ over R.
+TEST(XyfzMachines, CirclesLessLinesOfOneCurvedAxis) {
+  const host::MachineFile file = host::read_machine_file(host::bundled_machine("xyfz"));
+  TrueMachine bent;
+  bent.chain = file.chain;
+  for (std::size_t a = 0; a < 3; ++a) {
+    bent.axis[a].lo = file.axes[a].lo;
+    bent.axis[a].hi = file.axes[a].hi;
+  }
+  const xyfz::CirclesLessLines none = xyfz::circles_less_lines(bent, file);
+  for (const double urad : none.all)
+    EXPECT_NEAR(urad, 0.0, 1e-6);
+  bent.axis[0].channel[1].amplitude[0] = 10e-3;
+  const xyfz::CirclesLessLines f = xyfz::circles_less_lines(bent, file);
+  const double length = file.axes[0].hi - file.axes[0].lo;
+  const auto bow = [&](double x) { return 10e-3 * std::sin(kPi * (x - file.axes[0].lo) / length); };
+  const std::vector<double> line = file.squareness->line(0);
+  double line_mean = 0.0;
+  for (const double x : line)
+    line_mean += x / static_cast<double>(line.size());
+  double moment = 0.0;
+  double squares = 0.0;
+  for (const double x : line) {
+    moment += (x - line_mean) * bow(x);
+    squares += (x - line_mean) * (x - line_mean);
+  }
+  constexpr int kSteps = 720;
+  double second_harmonic = 0.0;
+  for (int k = 0; k < kSteps; ++k) {
+    const double angle = 2.0 * kPi * k / kSteps;
+    const double r =
+        bow(file.squareness->at.x() + xyfz::kBallBar_mm * std::cos(angle)) * std::sin(angle);
+    second_harmonic += 2.0 * r * std::sin(2.0 * angle) / kSteps;
+  }
+  EXPECT_NEAR(f.all[0], 1e6 * (2.0 * second_harmonic / xyfz::kBallBar_mm - moment / squares), 0.02);
+  EXPECT_NEAR(f.all[1], 0.0, 1e-3);
+  EXPECT_NEAR(f.all[2], 0.0, 1e-3);
+  EXPECT_EQ(f.without_angles, f.all);
+  EXPECT_NEAR(f.angles[0], 0.0, 1e-6);
+}
+
 TEST(XyfzMachines, RefusesAMachineOfAnotherKind) {
   xyfz::XyfzOptions options = two_machines();
   options.machine = host::bundled_machine("l300g");
@@ -79,7 +133,7 @@ TEST(XyfzMachines, MedianOfFourIsBetweenTheMiddleTwo) {
 TEST(XyfzMachines, VerdictCountsMachines) {
   xyfz::MachinesResult r;
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
-    r.machine.push_back({seed, {}, {100.0, {40.0, 10.0, seed == 1 ? 20.0 : 1.0}}, {}});
+    r.machine.push_back({seed, {}, {100.0, {40.0, 10.0, seed == 1 ? 20.0 : 1.0}}, {}, {}});
   r.options.draws = 0;
   EXPECT_EQ(r.reaching(kClosedModel), 9U);
   EXPECT_EQ(r.reaching(kPaperModel), 10U);

@@ -1,13 +1,43 @@
 #include "host_sim/experiments/any_machine/judged_spread.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/document.hpp"
+#include "host_sim/host/report/parts_of_run.hpp"
 
 namespace volcomp::any_machine {
 
 using nlohmann::json;
+
+json judged_json(const JudgedMachine& machine) {
+  json figures = json::array();
+  for (const host::BeforeAfter& f : machine.figures)
+    figures.push_back({{"figure", f.figure}, {"um", {f.before, f.after}}});
+  return {{"figures", std::move(figures)}, {"good", machine.good}};
+}
+
+JudgedMachine judged_of(const json& draw) {
+  JudgedMachine machine;
+  for (const json& f : draw.at("figures")) {
+    const auto um = host::numbers_of<2>(f.at("um"), "um");
+    machine.figures.push_back({host::text_of_part(f.at("figure"), "figure"), um[0], um[1]});
+  }
+  machine.good = draw.at("good").get<bool>();
+  return machine;
+}
+
+void require_same_figures(const std::vector<JudgedMachine>& drawn) {
+  const std::vector<host::BeforeAfter>& first = drawn.front().figures;
+  const auto same = [&first](const JudgedMachine& m) {
+    return std::equal(m.figures.begin(), m.figures.end(), first.begin(), first.end(),
+                      [](const auto& a, const auto& b) { return a.figure == b.figure; });
+  };
+  if (first.empty() || !std::all_of(drawn.begin(), drawn.end(), same))
+    throw host::UserError("the machines of the parts have different figures");
+}
 
 host::RangeOfDraws range_over(const std::vector<JudgedMachine>& drawn, std::size_t figure,
                               double host::BeforeAfter::*value) {

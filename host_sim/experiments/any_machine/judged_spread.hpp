@@ -17,6 +17,12 @@ struct JudgedMachine {
   bool good = false;
 };
 
+// A machine in a part of a run, and read back. Throws UserError.
+[[nodiscard]] nlohmann::json judged_json(const JudgedMachine& machine);
+[[nodiscard]] JudgedMachine judged_of(const nlohmann::json& draw);
+// Throws UserError where a machine has other figures than the first.
+void require_same_figures(const std::vector<JudgedMachine>& drawn);
+
 // Of one figure of all machines.
 [[nodiscard]] host::RangeOfDraws range_over(const std::vector<JudgedMachine>& drawn,
                                             std::size_t figure, double host::BeforeAfter::*value);

@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 
 #include "host_sim/experiments/any_machine/figures.hpp"
-#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/shared_progress.hpp"
 #include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::any_machine {
@@ -25,6 +23,18 @@ std::string measured_note(const MachineSpread& spread) {
                      spread.options.noise ? "realistic instruments" : "perfect instruments");
 }
 
+json settings_of(const MachineSpread& s) {
+  return {{"inputs", host::hashes_of(s.inputs)},
+          {"machine", s.machine},
+          {"chain", s.chain},
+          {"seed", s.options.seed},
+          {"noise", s.options.noise},
+          {"runs", s.options.runs},
+          {"places", s.options.places},
+          {"knots", s.options.knots},
+          {"tool_length_mm", s.options.tool_length_mm}};
+}
+
 }  // namespace
 
 std::size_t MachineSpread::good() const {
@@ -32,23 +42,38 @@ std::size_t MachineSpread::good() const {
       std::count_if(drawn.begin(), drawn.end(), [](const JudgedMachine& m) { return m.good; }));
 }
 
-MachineSpread run_machine_spread(const MachineOptions& options, std::size_t count,
-                                 std::size_t threads, const host::Progress& progress) {
+MachineSpread run_machine_spread(const MachineOptions& options, const host::DrawPlan& plan,
+                                 const host::Progress& progress) {
   MachineSpread spread;
   spread.options = options;
-  spread.machine = host::read_machine_file(options.machine);
+  const host::MachineFile file = host::read_machine_file(options.machine);
+  spread.machine = file.name;
+  spread.chain = host::chain_text(file.chain);
   spread.inputs = {host::hashed_file("machine file", options.machine)};
-  spread.drawn.resize(count);
-  host::SharedProgress shared(progress, count);
-  host::in_parallel(count, threads, [&](std::size_t i) {
-    MachineOptions one = options;
-    one.seed = options.seed + i;
-    const std::string what = fmt::format("machine {} of {}", i + 1, count);
-    const MachineResult result =
-        run_machine(one, [&](double done, const std::string&) { shared.show(i, done, what); });
-    spread.drawn[i] = {judged_figures(result), machine_verdict(result).ok};
-  });
-  progress(1.0, "done");
+  spread.settings = settings_of(spread);
+  spread.drawn = host::run_draws(
+      plan, "machine", progress, [&](std::size_t draw, const host::Progress& of_draw) {
+        MachineOptions one = options;
+        one.seed = options.seed + draw;
+        const MachineResult result = run_machine(one, of_draw);
+        return JudgedMachine{judged_figures(result), machine_verdict(result).ok};
+      });
+  return spread;
+}
+
+host::PartialRun part_of_machine_spread(const MachineSpread& spread, const host::DrawPlan& plan) {
+  return host::part_of_draws("machine", plan, spread.settings, spread.drawn, judged_json);
+}
+
+MachineSpread collect_machine_spread(const host::PartialRun& all) {
+  MachineSpread spread;
+  spread.settings = all.run;
+  spread.options.seed = all.run.at("seed").get<std::uint64_t>();
+  spread.options.noise = all.run.at("noise").get<bool>();
+  spread.machine = host::text_of_part(all.run.at("machine"), "machine");
+  spread.chain = host::text_of_part(all.run.at("chain"), "chain");
+  spread.drawn = host::results_of_draws(all, judged_of);
+  require_same_figures(spread.drawn);
   return spread;
 }
 
@@ -63,7 +88,7 @@ host::Verdict machine_spread_verdict(const MachineSpread& spread) {
 
 json machine_spread_document(const MachineSpread& spread, const host::RunContext& run) {
   host::ReportParts parts;
-  parts.title = fmt::format("{}: {} machines before and after compensation", spread.machine.name,
+  parts.title = fmt::format("{}: {} machines before and after compensation", spread.machine,
                             spread.drawn.size());
   parts.subtitle = "Simulated machines with errors drawn at random";
   parts.verdict = machine_spread_verdict(spread);
@@ -72,7 +97,7 @@ json machine_spread_document(const MachineSpread& spread, const host::RunContext
   host::Origins origins;
   origins.data = "simulated: no machine was measured";
   origins.settings = {
-      {"chain", host::chain_text(spread.machine.chain)},
+      {"chain", spread.chain},
       {"seeds", fmt::format("{} to {} (errors of the machine, places, noise)", spread.options.seed,
                             spread.options.seed + spread.drawn.size() - 1)}};
   origins.inputs = spread.inputs;
@@ -87,15 +112,14 @@ std::string machine_spread_summary(const MachineSpread& spread) {
 }
 
 json machine_spread_figures(const MachineSpread& spread) {
-  return {{"machine", spread.machine.name},
-          {"chain", host::chain_text(spread.machine.chain)},
-          {"seed", spread.options.seed},
-          {"noise", spread.options.noise},
-          {"machines", spread.drawn.size()},
-          {"good", spread.good()},
-          {"figures", host::figures_of_table(spread_table(spread.drawn, measured_note(spread)))},
-          {"ok", machine_spread_verdict(spread).ok},
-          {"version", host::kVersion}};
+  json figures = spread.settings;
+  figures.update(
+      {{"machines", spread.drawn.size()},
+       {"good", spread.good()},
+       {"figures", host::figures_of_table(spread_table(spread.drawn, measured_note(spread)))},
+       {"ok", machine_spread_verdict(spread).ok},
+       {"version", host::kVersion}});
+  return figures;
 }
 
 }  // namespace volcomp::any_machine

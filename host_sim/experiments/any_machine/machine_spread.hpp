@@ -6,22 +6,31 @@
 #include "host_sim/experiments/any_machine/judged_spread.hpp"
 #include "host_sim/experiments/any_machine/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
+#include "host_sim/host/report/draws_of_run.hpp"
 
 namespace volcomp::any_machine {
 
+// NOLINTNEXTLINE(bugprone-exception-escape): nothing in nlohmann::json throws when moved
 struct MachineSpread {
-  MachineOptions options;  // of the first
-  host::MachineFile machine;
+  nlohmann::json settings;  // all of them, and hashes of the inputs, for programs
+  MachineOptions options;   // of the first
+  std::string machine;      // its name
+  std::string chain;
   std::vector<host::HashedInput> inputs;
-  std::vector<JudgedMachine> drawn;  // seeds options.seed, options.seed + 1, …
+  std::vector<JudgedMachine> drawn;  // seeds options.seed, the next, …, or those of a shard
 
   [[nodiscard]] std::size_t good() const;
 };
 
-// `count` machines on up to `threads` threads; the same result for any number of these. Throws
-// UserError.
-[[nodiscard]] MachineSpread run_machine_spread(const MachineOptions& options, std::size_t count,
-                                               std::size_t threads, const host::Progress& progress);
+// Draw i is the machine of seed options.seed + i. Throws UserError.
+[[nodiscard]] MachineSpread run_machine_spread(const MachineOptions& options,
+                                               const host::DrawPlan& plan,
+                                               const host::Progress& progress);
+
+// In parts, and of all of them together again.
+[[nodiscard]] host::PartialRun part_of_machine_spread(const MachineSpread& spread,
+                                                      const host::DrawPlan& plan);
+[[nodiscard]] MachineSpread collect_machine_spread(const host::PartialRun& all);
 
 // Good: 15 of 16 machines are, in the same proportion for other numbers.
 [[nodiscard]] host::Verdict machine_spread_verdict(const MachineSpread& spread);

@@ -7,13 +7,11 @@
 #include <fmt/format.h>
 
 #include "host_sim/experiments/face_gear/figures.hpp"
-#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/measure/gear_choice.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/range_of_draws.hpp"
-#include "host_sim/host/report/shared_progress.hpp"
 #include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::face_gear {
@@ -90,10 +88,7 @@ json map_error_histogram(const SpreadResult& r) {
 }
 
 json settings_of(const FaceGearOptions& o, const std::vector<host::HashedInput>& inputs) {
-  json hashes = json::array();
-  for (const host::HashedInput& input : inputs)
-    hashes.push_back(json::array({input.what, input.sha256}));
-  return {{"inputs", std::move(hashes)},
+  return {{"inputs", host::hashes_of(inputs)},
           {"gear", o.gear},
           {"flanks", o.flanks},
           {"form", kFormTruths.at(static_cast<std::size_t>(o.form))},
@@ -129,6 +124,13 @@ StageOnce stage_of(const json& j) {
   return o;
 }
 
+json measured_json(const MeasuredOnce& m) {
+  json stages = json::array();
+  for (const StageOnce& stage : m.stage)
+    stages.push_back(stage_json(stage));
+  return {{"stage", std::move(stages)}, {"outliers", m.outliers}, {"good", m.good}};
+}
+
 MeasuredOnce measured_of(const json& j) {
   MeasuredOnce once;
   for (std::size_t s = 0; s < once.stage.size(); ++s)
@@ -152,7 +154,7 @@ std::size_t SpreadResult::good() const {
                                                 [](const MeasuredOnce& m) { return m.good; }));
 }
 
-SpreadResult run_spread(const FaceGearOptions& options, const SpreadPlan& plan,
+SpreadResult run_spread(const FaceGearOptions& options, const host::DrawPlan& plan,
                         const host::Progress& progress) {
   SpreadResult result;
   result.options = options;
@@ -160,31 +162,17 @@ SpreadResult run_spread(const FaceGearOptions& options, const SpreadPlan& plan,
   if (!host::is_published_gear(options.gear))
     result.inputs.push_back(host::hashed_file("gear", options.gear));
   result.settings = settings_of(options, result.inputs);
-  const std::vector<std::size_t> own = plan.shard.draws_of(plan.count);
-  result.measurement.resize(own.size());
-  host::SharedProgress shared(progress, own.size());
-  host::in_parallel(own.size(), plan.threads, [&](std::size_t i) {
-    FaceGearOptions one = options;
-    one.seed += own[i];
-    const std::string what = fmt::format("measurement {} of {}", own[i] + 1, plan.count);
-    result.measurement[i] = measured_once(
-        run_face_gear(one, [&](double done, const std::string&) { shared.show(i, done, what); }));
-  });
-  progress(1.0, "done");
+  result.measurement = host::run_draws(plan, "measurement", progress,
+                                       [&](std::size_t draw, const host::Progress& of_draw) {
+                                         FaceGearOptions one = options;
+                                         one.seed += draw;
+                                         return measured_once(run_face_gear(one, of_draw));
+                                       });
   return result;
 }
 
-host::PartialRun part_of_spread(const SpreadResult& r, const SpreadPlan& plan) {
-  host::PartialRun part{"face-gear", plan.count, r.settings, json::object(), {}};
-  const std::vector<std::size_t> own = plan.shard.draws_of(plan.count);
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    const MeasuredOnce& m = r.measurement[i];
-    json stages = json::array();
-    for (const StageOnce& stage : m.stage)
-      stages.push_back(stage_json(stage));
-    part.draw[own[i]] = {{"stage", std::move(stages)}, {"outliers", m.outliers}, {"good", m.good}};
-  }
-  return part;
+host::PartialRun part_of_spread(const SpreadResult& r, const host::DrawPlan& plan) {
+  return host::part_of_draws("face-gear", plan, r.settings, r.measurement, measured_json);
 }
 
 SpreadResult collect_spread(const host::PartialRun& all) {
@@ -196,9 +184,7 @@ SpreadResult collect_spread(const host::PartialRun& all) {
   r.options.touches = all.run.at("touches").get<int>();
   r.options.targets = {all.run.at("target_touches").get<int>(),
                        all.run.at("tracker_um").get<double>()};
-  if (all.draws == 0) throw host::UserError("the parts are of a run without measurements");
-  for (const auto& [number, m] : all.draw)
-    r.measurement.push_back(measured_of(m));
+  r.measurement = host::results_of_draws(all, measured_of);
   return r;
 }
 

@@ -8,7 +8,7 @@
 
 #include "host_sim/experiments/face_gear/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
-#include "host_sim/host/report/parts_of_run.hpp"
+#include "host_sim/host/report/draws_of_run.hpp"
 
 namespace volcomp::face_gear {
 
@@ -34,18 +34,13 @@ struct SpreadResult {
   [[nodiscard]] std::size_t good() const;
 };
 
-// So many runs of everything, the i-th with the seed of the options + i, or those of `shard` among
-// them, on up to `threads` threads. The same result for any number of these. Throws UserError.
-struct SpreadPlan {
-  std::size_t count = 1;
-  host::Shard shard{};
-  std::size_t threads = 1;
-};
-[[nodiscard]] SpreadResult run_spread(const FaceGearOptions& options, const SpreadPlan& plan,
+// Draw i is a run of everything with the seed of the options + i. Throws UserError.
+[[nodiscard]] SpreadResult run_spread(const FaceGearOptions& options, const host::DrawPlan& plan,
                                       const host::Progress& progress);
 
 // In parts, and of all of them together again.
-[[nodiscard]] host::PartialRun part_of_spread(const SpreadResult& result, const SpreadPlan& plan);
+[[nodiscard]] host::PartialRun part_of_spread(const SpreadResult& result,
+                                              const host::DrawPlan& plan);
 [[nodiscard]] SpreadResult collect_spread(const host::PartialRun& all);
 
 // Good: 15 of 16 measurements have a good verdict of their own.

@@ -187,9 +187,17 @@ host::Verdict internal_helical_verdict(const InternalHelicalResult& run) {
                       geometry ? "" : "; the first order misses the exact envelope")};
 }
 
+json geometry_figures(const InternalHelicalResult& run) {
+  return {{"regenerated_flank_nm", run.geometry.regenerated_nm},
+          {"first_order_vs_exact_nm",
+           {{"single", run.geometry.single_nm}, {"all", run.geometry.all_nm}}},
+          {"lags_um",
+           {{"z", run.lags.z_um}, {"c", run.lags.c_um}, {"together", run.lags.together_um}}}};
+}
+
 json internal_helical_figures(const InternalHelicalResult& run,
                               const std::vector<std::string>& tables) {
-  json j;
+  json j = geometry_figures(run);
   for (const HelicalMeasure& m : helical_measures(run)) {
     json& place = m.side[0] == '\0' ? j[m.name] : j[m.name][m.side];
     place[m.after ? "after" : "before"] = spread_figures(m.found);
@@ -198,14 +206,10 @@ json internal_helical_figures(const InternalHelicalResult& run,
   }
   j["sync_rms_um"] = {{"before", spread_figures(sync_spread(run, false))},
                       {"after", spread_figures(sync_spread(run, true))}};
-  j["signals"] = {{"before", signal_figures(run, run.detail.before)},
-                  {"after", signal_figures(run, run.detail.after)}};
+  j["signals"] = signal_figures(run);
   j["learning_um"] = learning_curve(run);
   j["z_peak_mm"] = {{"before", spread_figures(z_peak_spread(run, false))},
                     {"after", spread_figures(z_peak_spread(run, true))}};
-  j["regenerated_flank_nm"] = run.geometry.regenerated_nm;
-  j["first_order_vs_exact_nm"] = {{"single", run.geometry.single_nm}, {"all", run.geometry.all_nm}};
-  j["lags_um"] = {{"z", run.lags.z_um}, {"c", run.lags.c_um}, {"together", run.lags.together_um}};
   j["way"] = kLearningWays.at(static_cast<std::size_t>(run.options.way));
   if (run.options.way != LearningWay::right) {
     const WrongWay w = wrong_way(run);

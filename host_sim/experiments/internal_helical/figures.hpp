@@ -51,6 +51,9 @@ struct WrongWay {
 [[nodiscard]] GearGrade helical_grade(const host::GrindingFile& job, const HelicalMeasure& measure,
                                       GearStandard standard);
 
+// Wheel and lags: those of the gear, whatever the seeds.
+[[nodiscard]] nlohmann::json geometry_figures(const InternalHelicalResult& run);
+
 [[nodiscard]] host::Verdict internal_helical_verdict(const InternalHelicalResult& run);
 // `tables`: names of the files that were written.
 [[nodiscard]] nlohmann::json internal_helical_figures(const InternalHelicalResult& run,

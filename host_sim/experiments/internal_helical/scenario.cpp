@@ -9,9 +9,7 @@
 #include "host_sim/experiments/internal_helical/bus_grinder.hpp"
 #include "host_sim/experiments/internal_helical/grinding_job.hpp"
 #include "host_sim/experiments/internal_helical/integrated_grinder.hpp"
-#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/report/shared_progress.hpp"
 
 namespace volcomp::internal_helical {
 namespace {
@@ -161,18 +159,14 @@ InternalHelicalResult run_internal_helical(const InternalHelicalOptions& options
                 "lags");
   const FlankGrinding grinding(run.job, truth);
   run.roll_length.assign(grinding.roll_length().begin(), grinding.roll_length().end());
-  const auto seeds = static_cast<std::size_t>(options.seeds);
-  run.seed.resize(seeds);
-  host::SharedProgress shared(progress, seeds);
-  host::in_parallel(seeds, options.threads, [&](std::size_t seed) {
-    const auto share = [&](double part) {
-      shared.show(seed, part, fmt::format("seed {}", seed + 1));
-    };
-    Campaign campaign(machine, run.job, grinding, options, seed + 1);
-    run.seed[seed] = campaign.run(seed == 0 ? &run.detail : nullptr, share);
-    share(1.0);
-  });
-  progress(1.0, "done");
+  run.seed = host::run_draws(
+      options.draws(), "seed", progress, [&](std::size_t draw, const host::Progress& of_draw) {
+        const auto share = [&of_draw](double part) { of_draw(part, ""); };
+        Campaign campaign(machine, run.job, grinding, options, draw + 1);
+        SeedResult result = campaign.run(draw == 0 ? &run.detail : nullptr, share);
+        share(1.0);
+        return result;
+      });
   return run;
 }
 

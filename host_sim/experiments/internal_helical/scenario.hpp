@@ -11,6 +11,7 @@
 #include "host_sim/experiments/internal_helical/grinder_control.hpp"
 #include "host_sim/experiments/internal_helical/grinding.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
+#include "host_sim/host/report/draws_of_run.hpp"
 #include "host_sim/host/report/progress.hpp"
 #include "host_sim/sim/controller/bus_axes.hpp"
 
@@ -39,7 +40,8 @@ inline constexpr int kLearningUpdates = 6;  // leaves 15 % of the error
 inline constexpr int kRoundsPerUpdate = 2;
 
 struct InternalHelicalOptions {
-  int seeds = 16;  // 1, 2, …
+  int seeds = 16;       // 1, 2, …
+  host::Shard shard{};  // of the seeds, those that are computed
   int updates = kLearningUpdates;
   LearningWay way = LearningWay::right;
   GrindingTruth truth;
@@ -49,6 +51,9 @@ struct InternalHelicalOptions {
   std::size_t threads = 1;             // for the grinders; 1 where they share a bus
 
   [[nodiscard]] bool scatters() const { return truth.probe_mm > 0.0; }
+  [[nodiscard]] host::DrawPlan draws() const {
+    return {static_cast<std::size_t>(seeds), shard, threads};
+  }
 };
 
 // A ground gear and the monitor's view of its grinding.
@@ -64,7 +69,7 @@ struct SeedResult {
   std::vector<double> learning_um;  // sync_rms_um of all rounds
 };
 
-// Curves of the first seed, for the report.
+// Curves of the first seed, for the report; empty in a part without it.
 struct HelicalDetail {
   MonitorView before;
   MonitorView after;
@@ -80,8 +85,8 @@ struct InternalHelicalResult {
   InternalGear gear;
   std::vector<double> roll_length;
   GeometryCheck geometry;
-  HelixEffect lags;  // what the lags of Z and C do one by one, and together
-  std::vector<SeedResult> seed;
+  HelixEffect lags;              // what the lags of Z and C do one by one, and together
+  std::vector<SeedResult> seed;  // all of them, or those of a shard
   HelicalDetail detail;
 };
 

@@ -35,15 +35,7 @@ std::string verdict_of(const SignalReport& signal, bool with_ratio) {
   return fmt::format("{}: {}", ratio, text_of(signal.verdict));
 }
 
-}  // namespace
-
-std::vector<SignalReport> signal_reports(const InternalHelicalResult& run,
-                                         const MonitorView& view) {
-  return {judge(run, "stroke", view, view.over_stroke, GearDeviation::profile),
-          judge(run, "slots", view, view.over_slots, GearDeviation::total_pitch)};
-}
-
-json signal_figures(const InternalHelicalResult& run, const MonitorView& view) {
+json figures_of_view(const InternalHelicalResult& run, const MonitorView& view) {
   json j;
   for (const SignalReport& s : signal_reports(run, view)) {
     j[s.name] = {{"amplitude_um", s.amplitude_um}};
@@ -52,6 +44,19 @@ json signal_figures(const InternalHelicalResult& run, const MonitorView& view) {
     j[s.name]["verdict"] = text_of(s.verdict);
   }
   return j;
+}
+
+}  // namespace
+
+std::vector<SignalReport> signal_reports(const InternalHelicalResult& run,
+                                         const MonitorView& view) {
+  return {judge(run, "stroke", view, view.over_stroke, GearDeviation::profile),
+          judge(run, "slots", view, view.over_slots, GearDeviation::total_pitch)};
+}
+
+json signal_figures(const InternalHelicalResult& run) {
+  return {{"before", figures_of_view(run, run.detail.before)},
+          {"after", figures_of_view(run, run.detail.after)}};
 }
 
 std::vector<std::string> signal_lines(const InternalHelicalResult& run) {

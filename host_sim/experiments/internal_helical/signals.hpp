@@ -23,8 +23,8 @@ struct SignalReport {
 [[nodiscard]] std::vector<SignalReport> signal_reports(const InternalHelicalResult& run,
                                                        const MonitorView& view);
 
-[[nodiscard]] nlohmann::json signal_figures(const InternalHelicalResult& run,
-                                            const MonitorView& view);
+// Before and after.
+[[nodiscard]] nlohmann::json signal_figures(const InternalHelicalResult& run);
 // One line each.
 [[nodiscard]] std::vector<std::string> signal_lines(const InternalHelicalResult& run);
 

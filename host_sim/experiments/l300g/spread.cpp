@@ -6,12 +6,10 @@
 #include <fmt/format.h>
 
 #include "host_sim/experiments/l300g/machine_errors.hpp"
-#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
 #include "host_sim/host/report/range_of_draws.hpp"
-#include "host_sim/host/report/shared_progress.hpp"
 #include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::l300g {
@@ -68,6 +66,26 @@ std::array<SeveralTeeth, 2> teeth_from(const json& j) {
   const auto mean = host::numbers_of<2>(j.at("mean_um"), "mean_um");
   const auto of_mean = host::numbers_of<2>(j.at("of_mean_trace_um"), "of_mean_trace_um");
   return {{{mean[0], of_mean[0]}, {mean[1], of_mean[1]}}};
+}
+
+json measured_json(const MeasuredOnce& m) {
+  return {{"profile_um", m.profile},
+          {"lead_um", m.lead},
+          {"pitch_um", m.pitch},
+          {"before_worse", m.before_worse},
+          {"own_grades", m.own_grades},
+          {"profile_teeth", teeth_of(m.profile_teeth)},
+          {"lead_teeth", teeth_of(m.lead_teeth)}};
+}
+
+MeasuredOnce measured_from(const json& m) {
+  return {host::numbers_of<2>(m.at("profile_um"), "profile_um"),
+          host::numbers_of<2>(m.at("lead_um"), "lead_um"),
+          host::numbers_of<2>(m.at("pitch_um"), "pitch_um"),
+          m.at("before_worse").get<bool>(),
+          m.at("own_grades").get<bool>(),
+          teeth_from(m.at("profile_teeth")),
+          teeth_from(m.at("lead_teeth"))};
 }
 
 // One row a deviation and flank.
@@ -152,10 +170,7 @@ InvoluteGear gear_of(const json& settings) {
 
 json settings_of(const L300gOptions& o, const std::vector<host::HashedInput>& inputs,
                  const InvoluteGear& gear) {
-  json hashes = json::array();
-  for (const host::HashedInput& input : inputs)
-    hashes.push_back(json::array({input.what, input.sha256}));
-  return {{"inputs", std::move(hashes)},
+  return {{"inputs", host::hashes_of(inputs)},
           {"gear", gear_settings(gear)},
           {"errors", o.errors},
           {"path", o.path == PathStyle::fixed_a ? "fixed-a" : "generate"},
@@ -186,7 +201,7 @@ double SpreadResult::share_of_own_grades() const {
   return static_cast<double>(own) / static_cast<double>(measurement.size());
 }
 
-SpreadResult run_spread(const L300gOptions& options, const SpreadPlan& plan,
+SpreadResult run_spread(const L300gOptions& options, const host::DrawPlan& plan,
                         const host::Progress& progress) {
   SpreadResult result;
   result.options = options;
@@ -197,34 +212,17 @@ SpreadResult run_spread(const L300gOptions& options, const SpreadPlan& plan,
   if (!options.gear.empty()) result.inputs.push_back(host::hashed_file("gear", options.gear));
   result.truth = true_gear(gear);
   result.settings = settings_of(options, result.inputs, gear);
-  const std::vector<std::size_t> own = plan.shard.draws_of(plan.count);
-  result.measurement.resize(own.size());
-  host::SharedProgress shared(progress, own.size());
-  host::in_parallel(own.size(), plan.threads, [&](std::size_t i) {
-    L300gOptions one = options;
-    one.draw = static_cast<std::uint32_t>(own[i]);
-    const std::string what = fmt::format("measurement {} of {}", own[i] + 1, plan.count);
-    result.measurement[i] = figures_of(
-        run_l300g(one, [&](double done, const std::string&) { shared.show(i, done, what); }));
-  });
-  progress(1.0, "done");
+  result.measurement = host::run_draws(plan, "measurement", progress,
+                                       [&](std::size_t draw, const host::Progress& of_draw) {
+                                         L300gOptions one = options;
+                                         one.draw = static_cast<std::uint32_t>(draw);
+                                         return figures_of(run_l300g(one, of_draw));
+                                       });
   return result;
 }
 
-host::PartialRun part_of_spread(const SpreadResult& r, const SpreadPlan& plan) {
-  host::PartialRun part{"l300g", plan.count, r.settings, json::object(), {}};
-  const std::vector<std::size_t> own = plan.shard.draws_of(plan.count);
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    const MeasuredOnce& m = r.measurement[i];
-    part.draw[own[i]] = {{"profile_um", m.profile},
-                         {"lead_um", m.lead},
-                         {"pitch_um", m.pitch},
-                         {"before_worse", m.before_worse},
-                         {"own_grades", m.own_grades},
-                         {"profile_teeth", teeth_of(m.profile_teeth)},
-                         {"lead_teeth", teeth_of(m.lead_teeth)}};
-  }
-  return part;
+host::PartialRun part_of_spread(const SpreadResult& r, const host::DrawPlan& plan) {
+  return host::part_of_draws("l300g", plan, r.settings, r.measurement, measured_json);
 }
 
 SpreadResult collect_spread(const host::PartialRun& all) {
@@ -240,13 +238,7 @@ SpreadResult collect_spread(const host::PartialRun& all) {
       all.run.at("touches").get<std::size_t>(),
       all.run.at("filter").get<bool>(),
       {all.run.at("teeth").get<std::size_t>(), all.run.at("points").get<std::size_t>()}};
-  if (all.draws == 0) throw host::UserError("the parts are of a run without measurements");
-  for (const auto& [number, m] : all.draw)
-    r.measurement.push_back({host::numbers_of<2>(m.at("profile_um"), "profile_um"),
-                             host::numbers_of<2>(m.at("lead_um"), "lead_um"),
-                             host::numbers_of<2>(m.at("pitch_um"), "pitch_um"),
-                             m.at("before_worse").get<bool>(), m.at("own_grades").get<bool>(),
-                             teeth_from(m.at("profile_teeth")), teeth_from(m.at("lead_teeth"))});
+  r.measurement = host::results_of_draws(all, measured_from);
   return r;
 }
 

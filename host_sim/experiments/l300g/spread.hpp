@@ -3,7 +3,7 @@
 
 #include "host_sim/experiments/l300g/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
-#include "host_sim/host/report/parts_of_run.hpp"
+#include "host_sim/host/report/draws_of_run.hpp"
 
 namespace volcomp::l300g {
 
@@ -28,19 +28,14 @@ struct SpreadResult {
   [[nodiscard]] double share_of_own_grades() const;
 };
 
-// So many runs of everything, mandrel included, each with random numbers of its own, or those of
-// `shard` among them, on up to `threads` threads. The same result for any number of these. Throws
+// A draw is a run of everything, mandrel included, with random numbers of its own. Throws
 // UserError.
-struct SpreadPlan {
-  std::size_t count = 1;
-  host::Shard shard{};
-  std::size_t threads = 1;
-};
-[[nodiscard]] SpreadResult run_spread(const L300gOptions& options, const SpreadPlan& plan,
+[[nodiscard]] SpreadResult run_spread(const L300gOptions& options, const host::DrawPlan& plan,
                                       const host::Progress& progress);
 
 // In parts, and of all of them together again.
-[[nodiscard]] host::PartialRun part_of_spread(const SpreadResult& result, const SpreadPlan& plan);
+[[nodiscard]] host::PartialRun part_of_spread(const SpreadResult& result,
+                                              const host::DrawPlan& plan);
 [[nodiscard]] SpreadResult collect_spread(const host::PartialRun& all);
 
 // Good: profile and lead of both flanks have the grades of the gear in 95 of 100 measurements.

@@ -7,11 +7,9 @@
 
 #include "host_sim/experiments/self_calibration/figures.hpp"
 #include "host_sim/experiments/self_calibration/report.hpp"
-#include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/shared_progress.hpp"
 #include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::self_calibration {
@@ -61,6 +59,45 @@ json means_text(const Spread& spread) {
                        m["chi2_of_dof"].get<double>())})));
 }
 
+json settings_of(const Spread& s) {
+  return {{"inputs", host::hashes_of(s.inputs)},
+          {"machine", s.machine},
+          {"plan", s.plan.path},
+          {"seed", s.options.seed},
+          {"noise", s.options.noise},
+          {"places", s.options.places}};
+}
+
+json residual_numbers(const VolumeResidual& r) { return {r.rms, r.p95, r.max}; }
+
+VolumeResidual residual_of(const json& values, const char* what) {
+  const auto um = host::numbers_of<3>(values, what);
+  return {um[0], um[1], um[2]};
+}
+
+json draw_json(const Draw& d) {
+  json draw = any_machine::judged_json(d.judged);
+  draw.update({{"after_um", residual_numbers(d.after)},
+               {"predicted_um", residual_numbers(d.predicted)},
+               {"chi2_and_coverage", {d.chi2_of_dof, d.coverage}}});
+  return draw;
+}
+
+Draw draw_of(const json& draw) {
+  const auto shares = host::numbers_of<2>(draw.at("chi2_and_coverage"), "chi2_and_coverage");
+  return {any_machine::judged_of(draw), residual_of(draw.at("after_um"), "after_um"),
+          residual_of(draw.at("predicted_um"), "predicted_um"), shares[0], shares[1]};
+}
+
+Draw draw_once(const Options& options, const host::Progress& progress) {
+  const Result result = run_self_calibration(options, progress);
+  return {{judged_figures(result), verdict(result).ok},
+          result.without_unmodelled_reversal(result.after),
+          result.predicted,
+          misfit(result),
+          result.coverage()};
+}
+
 }  // namespace
 
 std::size_t Spread::good() const {
@@ -81,29 +118,37 @@ double Spread::coverage_error() const {
   return drawn.size() < 2 ? 0.0 : std::sqrt(squares / (count - 1.0) / count);
 }
 
-Spread run_spread(const Options& options, std::size_t count, std::size_t threads,
+Spread run_spread(const Options& options, const host::DrawPlan& plan,
                   const host::Progress& progress) {
   Spread spread;
   spread.options = options;
   spread.plan = host::identify::read_plan(options.plan, {{}, true});
+  spread.machine = spread.plan.machine.name;
   spread.inputs = {host::hashed_file("measurement plan", options.plan),
                    host::hashed_file("machine file", spread.plan.machine.path)};
-  spread.drawn.resize(count);
-  host::SharedProgress shared(progress, count);
-  host::in_parallel(count, threads, [&](std::size_t i) {
-    Options one = options;
-    one.seed = options.seed + i;
-    one.leave_out = false;
-    const std::string what = fmt::format("machine {} of {}", i + 1, count);
-    const Result result = run_self_calibration(
-        one, [&](double done, const std::string&) { shared.show(i, done, what); });
-    spread.drawn[i] = {{judged_figures(result), verdict(result).ok},
-                       result.without_unmodelled_reversal(result.after),
-                       result.predicted,
-                       misfit(result),
-                       result.coverage()};
-  });
-  progress(1.0, "done");
+  spread.settings = settings_of(spread);
+  spread.drawn = host::run_draws(plan, "machine", progress,
+                                 [&](std::size_t draw, const host::Progress& of_draw) {
+                                   Options one = options;
+                                   one.seed = options.seed + draw;
+                                   one.leave_out = false;
+                                   return draw_once(one, of_draw);
+                                 });
+  return spread;
+}
+
+host::PartialRun part_of_spread(const Spread& spread, const host::DrawPlan& plan) {
+  return host::part_of_draws("self-calibration", plan, spread.settings, spread.drawn, draw_json);
+}
+
+Spread collect_spread(const host::PartialRun& all) {
+  Spread spread;
+  spread.settings = all.run;
+  spread.options.seed = all.run.at("seed").get<std::uint64_t>();
+  spread.options.noise = all.run.at("noise").get<bool>();
+  spread.machine = host::text_of_part(all.run.at("machine"), "machine");
+  spread.drawn = host::results_of_draws(all, draw_of);
+  any_machine::require_same_figures(judged(spread));
   return spread;
 }
 
@@ -118,8 +163,8 @@ host::Verdict spread_verdict(const Spread& spread) {
 
 json spread_document(const Spread& spread, const host::RunContext& run) {
   host::ReportParts parts;
-  parts.title = fmt::format("{}: {} machines, self-calibrated", spread.plan.machine.name,
-                            spread.drawn.size());
+  parts.title =
+      fmt::format("{}: {} machines, self-calibrated", spread.machine, spread.drawn.size());
   parts.subtitle = "Simulated machines with errors drawn at random";
   parts.verdict = spread_verdict(spread);
   parts.before_after =
@@ -135,18 +180,15 @@ std::string spread_summary(const Spread& spread) {
 }
 
 json spread_figures(const Spread& spread) {
-  json out{{"machine", spread.plan.machine.name},
-           {"plan", spread.plan.path},
-           {"seed", spread.options.seed},
-           {"noise", spread.options.noise},
-           {"machines", spread.drawn.size()},
-           {"good", spread.good()},
-           {"coverage", spread.coverage()},
-           {"coverage_standard_error", spread.coverage_error()},
-           {"mean", means_json(spread)},
-           {"figures", host::figures_of_table(any_machine::spread_table(judged(spread), ""))},
-           {"ok", spread_verdict(spread).ok},
-           {"version", host::kVersion}};
+  json out = spread.settings;
+  out.update({{"machines", spread.drawn.size()},
+              {"good", spread.good()},
+              {"coverage", spread.coverage()},
+              {"coverage_standard_error", spread.coverage_error()},
+              {"mean", means_json(spread)},
+              {"figures", host::figures_of_table(any_machine::spread_table(judged(spread), ""))},
+              {"ok", spread_verdict(spread).ok},
+              {"version", host::kVersion}});
   return out;
 }
 

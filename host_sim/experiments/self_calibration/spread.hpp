@@ -6,6 +6,7 @@
 #include "host_sim/experiments/any_machine/judged_spread.hpp"
 #include "host_sim/experiments/self_calibration/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
+#include "host_sim/host/report/draws_of_run.hpp"
 
 namespace volcomp::self_calibration {
 
@@ -17,11 +18,14 @@ struct Draw {
   double coverage = 0.0;  // share of the places within twice their predicted uncertainty
 };
 
+// NOLINTNEXTLINE(bugprone-exception-escape): nothing in nlohmann::json throws when moved
 struct Spread {
-  Options options;  // of the first
-  host::identify::MeasurementPlan plan;
+  nlohmann::json settings;               // all of them, and hashes of the inputs, for programs
+  Options options;                       // of the first
+  std::string machine;                   // its name
+  host::identify::MeasurementPlan plan;  // empty where parts were put together
   std::vector<host::HashedInput> inputs;
-  std::vector<Draw> drawn;  // seeds options.seed, options.seed + 1, …
+  std::vector<Draw> drawn;  // seeds options.seed, the next, …, or those of a shard
 
   [[nodiscard]] std::size_t good() const;
   // Of the places of all machines, and its standard error from machine to machine.
@@ -29,10 +33,13 @@ struct Spread {
   [[nodiscard]] double coverage_error() const;
 };
 
-// `count` machines on up to `threads` threads; the same result for any number of these. Throws
-// UserError.
-[[nodiscard]] Spread run_spread(const Options& options, std::size_t count, std::size_t threads,
+// Draw i is the machine of seed options.seed + i. Throws UserError.
+[[nodiscard]] Spread run_spread(const Options& options, const host::DrawPlan& plan,
                                 const host::Progress& progress);
+
+// In parts, and of all of them together again.
+[[nodiscard]] host::PartialRun part_of_spread(const Spread& spread, const host::DrawPlan& plan);
+[[nodiscard]] Spread collect_spread(const host::PartialRun& all);
 
 // Good: 95 % of the machines are, and 95 % of the places are within twice their uncertainty.
 [[nodiscard]] host::Verdict spread_verdict(const Spread& spread);

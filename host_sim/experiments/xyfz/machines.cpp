@@ -35,7 +35,7 @@ void find_machines(const host::MachineFile& file, const host::Progress& progress
     });
     for (const std::optional<XyfzTuning>& tuning : found) {
       if (tuning)
-        result.machine.push_back({seed, *tuning, {}, {}});
+        result.machine.push_back({seed, *tuning, {}, {}, {}});
       else
         result.passed_over.push_back(seed);
       ++seed;
@@ -65,6 +65,7 @@ void measure_noise_free(const std::vector<std::unique_ptr<Bench>>& benches,
     const host::TemporaryFolder folder;
     MeasuredCampaign measured = noise_free_campaign(*benches[m], folder.path());
     result.machine[m].noise_free = compensate(*benches[m], measured).pnp;
+    result.machine[m].functionals = circles_less_lines(benches[m]->truth, benches[m]->machine);
     shared.show(m, 1.0, fmt::format("machine {} without noise", result.machine[m].seed));
   });
 }
@@ -131,6 +132,14 @@ std::vector<DrawResult> MachinesResult::all_draws() const {
   return all;
 }
 
+std::vector<CirclesLessLines> MachinesResult::all_functionals() const {
+  std::vector<CirclesLessLines> all;
+  all.reserve(machine.size());
+  for (const StudiedMachine& m : machine)
+    all.push_back(m.functionals);
+  return all;
+}
+
 std::size_t MachinesResult::reaching(std::size_t model) const {
   std::size_t reaching = 0;
   for (const StudiedMachine& m : machine) {
@@ -164,7 +173,8 @@ host::PartialRun part_of_machines(const MachinesResult& r) {
     part.figures["machines"].push_back({{"machine_seed", m.seed},
                                         {"angle_scale", m.tuning.angle_scale},
                                         {"scale_error", m.tuning.scale_error},
-                                        {"noise_free", draw_json(m.noise_free)}});
+                                        {"noise_free", draw_json(m.noise_free)},
+                                        {"functionals", functionals_json(m.functionals)}});
   std::vector<std::size_t> taken(r.machine.size());
   for (const std::size_t draw : o.shard.draws_of(part.draws)) {
     const std::size_t m = draw / o.draws;
@@ -188,6 +198,7 @@ MachinesResult collect_machines(const host::PartialRun& all) {
     r.machine.push_back({m.at("machine_seed").get<std::uint64_t>(),
                          {m.at("angle_scale").get<double>(), m.at("scale_error").get<double>()},
                          draw_of(m.at("noise_free")),
+                         functionals_of(m.at("functionals")),
                          {}});
   for (const auto& [number, draw] : all.draw)
     r.machine.at(number / r.options.draws).draws.push_back(draw_of(draw));

@@ -2,17 +2,19 @@
 // The same campaigns on many machines: whether what is shown on one of them holds on others. Each
 // is tuned to the paper's two raw figures; none is chosen.
 
+#include "host_sim/experiments/xyfz/functionals.hpp"
 #include "host_sim/experiments/xyfz/scenario.hpp"
 #include "host_sim/host/report/document.hpp"
 
 namespace volcomp::xyfz {
 
-inline constexpr std::size_t kMostMachines = 100;
+inline constexpr std::size_t kMostMachines = 1000;
 
 struct StudiedMachine {
   std::uint64_t seed = 0;  // --machine-seed
   XyfzTuning tuning;
   DrawResult noise_free;
+  CirclesLessLines functionals;
   std::vector<DrawResult> draws;  // of the shard, in order
 };
 
@@ -28,6 +30,7 @@ struct MachinesResult {
   // Of all machines together, noise-free and with noise.
   [[nodiscard]] std::vector<DrawResult> all_noise_free() const;
   [[nodiscard]] std::vector<DrawResult> all_draws() const;
+  [[nodiscard]] std::vector<CirclesLessLines> all_functionals() const;
   // Machines on which the median campaign, or without noise the only one, reaches the paper's rate.
   [[nodiscard]] std::size_t reaching(std::size_t model) const;
 };

@@ -198,7 +198,8 @@ json machines_document(const MachinesResult& r, const host::RunContext& run) {
   parts.before_after = models_of_machines(r);
   parts.plots = json::array({chart_of_machines(r)});
   if (r.options.draws > 0) parts.plots.push_back(histogram_of_campaigns(r));
-  parts.details = json::array({host::in_summary(table_of_machines(r))});
+  parts.details = json::array({host::in_summary(table_of_machines(r)),
+                               host::in_summary(functionals_table(r.all_functionals()))});
   parts.ticks = run.ticks;
   parts.provenance = host::provenance(run, origins_of(r));
   return host::report_document(std::move(parts));
@@ -214,6 +215,7 @@ json machines_figures(const MachinesResult& r) {
   figures.erase("machines");
   figures["machines"] = host::figures_of_table(table_of_machines(r));
   figures["models"] = host::figures_of_table(models_of_machines(r));
+  figures["circles_less_lines"] = host::figures_of_table(functionals_table(r.all_functionals()));
   figures["passed_over"] = r.passed_over;
   figures["version"] = host::kVersion;
   return figures;

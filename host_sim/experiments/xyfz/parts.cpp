@@ -31,9 +31,7 @@ json run_of(const XyfzResult& r) {
 
 CollectedXyfz collected_machines(const host::PartialRun& all) {
   const MachinesResult r = collect_machines(all);
-  CollectedXyfz collected{machines_figures(r), machines_verdict(r)};
-  if (all.figures.contains("transport")) collected.figures["transport"] = all.figures["transport"];
-  return collected;
+  return {machines_figures(r), machines_verdict(r)};
 }
 
 }  // namespace

@@ -90,6 +90,21 @@ Shard parse_shard(const std::string& text) {
   return shard;
 }
 
+json hashes_of(const std::vector<HashedInput>& inputs) {
+  json hashes = json::array();
+  for (const HashedInput& input : inputs)
+    hashes.push_back(json::array({input.what, input.sha256}));
+  return hashes;
+}
+
+std::string text_of_part(const json& value, const char* what) {
+  const auto is_control = [](char byte) { return static_cast<unsigned char>(byte) < ' '; };
+  std::string text = value.is_string() ? value.get<std::string>() : "";
+  if (!value.is_string() || std::any_of(text.begin(), text.end(), is_control))
+    throw UserError(fmt::format("a part of the run: \"{}\" is unusable", what));
+  return text;
+}
+
 json partial_json(const PartialRun& part, const Shard& shard) {
   json draws = json::array();
   for (const auto& [number, result] : part.draw)

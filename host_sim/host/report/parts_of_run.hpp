@@ -13,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/io/user_error.hpp"
 
 namespace volcomp::host {
@@ -39,12 +40,19 @@ struct PartialRun {
   std::map<std::size_t, nlohmann::json> draw;  // those of the part, or all
 };
 
+// What each input is and its SHA-256: the folder it lies in may differ from part to part.
+[[nodiscard]] nlohmann::json hashes_of(const std::vector<HashedInput>& inputs);
+
 // Numbers are written so that they are read back to the last bit.
 [[nodiscard]] nlohmann::json partial_json(const PartialRun& part, const Shard& shard);
 
 // Throws UserError naming the file: none of these, one of another run or version, more than 64 MiB,
 // a draw that is there twice or not at all.
 [[nodiscard]] PartialRun collect_parts(const std::vector<std::filesystem::path>& paths);
+
+// A text of a part that is shown on a terminal. Throws UserError naming `what`: no text, or with
+// control characters in it.
+[[nodiscard]] std::string text_of_part(const nlohmann::json& value, const char* what);
 
 // `count` finite numbers of a result. Throws UserError naming `what`.
 template <std::size_t count>

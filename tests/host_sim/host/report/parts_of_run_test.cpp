@@ -8,7 +8,7 @@
 #include <set>
 
 #include "host_sim/host/io/temporary_folder.hpp"
-#include "host_sim/host/report/parts_of_run.hpp"
+#include "host_sim/host/report/draws_of_run.hpp"
 #include "tests/complaint.hpp"
 
 namespace volcomp::host {
@@ -96,6 +96,54 @@ TEST_F(Parts, RefusesWhatDoesNotBelongTogether) {
   EXPECT_THAT(refusal_of({deep}), HasSubstr("nested deeper"));
   json beyond = partial_json(part({0, 9}), {1, 2});
   EXPECT_THAT(refusal_of({write("g", beyond)}), HasSubstr("has draw 10 of 4"));
+}
+
+TEST_F(Parts, OfDrawsMakeTheResultsOfTheWhole) {
+  const auto third_of = [](std::size_t draw, const Progress& progress) {
+    progress(1.0, "");
+    return static_cast<double>(draw) / 3.0;
+  };
+  const auto run = [&](const DrawPlan& plan) {
+    return run_draws(
+        plan, "draw", [](double, const std::string&) {}, third_of);
+  };
+  const auto to_json = [](double result) { return json{{"third", result}}; };
+  const auto from_json = [](const json& draw) { return draw.at("third").get<double>(); };
+  const std::vector<double> whole = run({7, {1, 1}, 1});
+  EXPECT_EQ(whole, run({7, {1, 1}, 3}));
+  std::vector<std::filesystem::path> files;
+  for (const Shard shard : {Shard{2, 3}, Shard{3, 3}, Shard{1, 3}}) {
+    const DrawPlan plan{7, shard, 2};
+    const PartialRun own = part_of_draws("thirds", plan, {{"seed", 1}}, run(plan), to_json);
+    files.push_back(write(std::to_string(shard.number), partial_json(own, shard)));
+  }
+  EXPECT_EQ(results_of_draws(collect_parts(files), from_json), whole);
+  EXPECT_THAT(sim::complaint_of([&] { return results_of_draws(PartialRun{}, from_json); }),
+              HasSubstr("without draws"));
+}
+
+TEST(Draws, TellWhatIsDoneOfThePartAlone) {
+  std::vector<double> done;
+  std::set<std::string> texts;
+  const Progress progress = [&](double share, const std::string& what) {
+    done.push_back(share);
+    texts.insert(what);
+  };
+  const auto half = [](std::size_t draw, const Progress& of_draw) {
+    of_draw(0.5, "");
+    of_draw(1.0, "");
+    return draw;
+  };
+  EXPECT_EQ(run_draws({4, {2, 2}, 1}, "draw", progress, half), (std::vector<std::size_t>{1, 3}));
+  EXPECT_EQ(done, (std::vector<double>{0.25, 0.5, 0.75, 1.0, 1.0}));
+  EXPECT_EQ(texts, (std::set<std::string>{"draw 2 of 4", "draw 4 of 4", "done"}));
+}
+
+TEST(TextOfPart, SpeaksNotToTheTerminal) {
+  EXPECT_EQ(text_of_part("Drehtisch Ω", "machine"), "Drehtisch Ω");
+  for (const json& wrong : {json("\x1b[31m"), json("a\nb"), json(1), json()})
+    EXPECT_THAT(sim::complaint_of([&] { return text_of_part(wrong, "machine"); }),
+                HasSubstr("\"machine\" is unusable"));
 }
 
 }  // namespace
