@@ -48,12 +48,16 @@ class FrameQueue {
   bool pop(CanFrame& frame) {
     if (empty()) return false;
     frame = frames_[first_];
-    first_ = first_ + 1 < frames_.size() ? first_ + 1 : 0;
-    --size_;
+    drop();
     return true;
   }
+  // Not when empty. An empty queue begins anew, so that a short one stays in the cache.
+  void drop() {
+    --size_;
+    first_ = size_ > 0 && first_ + 1 < frames_.size() ? first_ + 1 : 0;
+  }
 
-  void clear() { size_ = 0; }
+  void clear() { size_ = first_ = 0; }
 
  private:
   std::vector<CanFrame> frames_;
@@ -165,6 +169,12 @@ class LoopbackBus::Port {
   // std::invalid_argument for an identifier above 7FFh or more than 8 bytes.
   bool send(const CanFrame& frame);
   bool receive(CanFrame& frame) { return receive_.pop(frame); }
+  // The frame that receive() would return, nullptr where there is none; and drops it. It stays
+  // until skip(), receive(), a disconnection or the next step().
+  [[nodiscard]] const CanFrame* first() const {
+    return receive_.empty() ? nullptr : &receive_.front();
+  }
+  void skip() { receive_.drop(); }
 
   // Disconnecting empties both queues and drops what is delayed on its way here.
   void connect(bool on);

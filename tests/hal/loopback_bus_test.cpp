@@ -130,6 +130,33 @@ TEST(LoopbackBus, FullReceiveQueueDropsTheNewestAndCounts) {
   EXPECT_EQ(ids.back(), 255U);
 }
 
+TEST(LoopbackBus, FirstFrameIsSeenBeforeItIsTakenOrSkipped) {
+  LoopbackBus bus;
+  LoopbackBus::Port& sender = bus.attach("sender");
+  LoopbackBus::Port& receiver = bus.attach("receiver");
+  EXPECT_EQ(receiver.first(), nullptr);
+  // More than once round the queue, with one to three frames in it.
+  std::uint16_t sent = 0;
+  std::uint16_t next = 0;
+  for (int round = 0; round < 300; ++round) {
+    for (int n = 0; n <= round % 3; ++n)
+      ASSERT_TRUE(sender.send({sent++, 0, {}}));
+    send_all(bus);
+    while (receiver.waiting() > static_cast<std::size_t>(round % 2)) {
+      ASSERT_NE(receiver.first(), nullptr);
+      EXPECT_EQ(receiver.first()->id, next++);
+      CanFrame frame;
+      if (round % 4 < 2) {
+        receiver.skip();
+      } else {
+        ASSERT_TRUE(receiver.receive(frame));
+      }
+    }
+  }
+  EXPECT_EQ(next, sent - receiver.waiting());
+  EXPECT_EQ(receiver.counters().received, sent);
+}
+
 TEST(LoopbackBus, ImpossibleFrameIsAMistakeOfTheCaller) {
   LoopbackBus bus;
   auto& a = bus.attach("a");

@@ -19,8 +19,11 @@ WORST = {
     # no bound on acceleration compiled in: OffsetLimiter<false>
     "xyfz_compiled_rate": ("XYFZ, compiled in, no acceleration", (335, 595, 600, 1365), (330, None, 345, 900)),
     "xyfz_loaded_rate": ("XYFZ, loaded, no acceleration", (600, 935, 945, 1715), (560, None, 580, 1150)),
+    "xyb_a_compiled_rate": ("X, Y, B against A, compiled in, no acceleration", (725, 985, 990, 1910), (None, None, None, None)),
+    "xyb_a_loaded_rate": ("X, Y, B against A, loaded, no acceleration", (1075, 1410, 1420, 2400), (None, None, None, None)),
     "five_axis_compiled_rate": ("five axes, compiled in, no acceleration", (795, 1070, 1085, 2215), (780, None, None, 1700)),
     "five_axis_loaded_rate": ("five axes, loaded, no acceleration", (1155, 1510, 1525, 2770), (1080, None, None, 2000)),
+    "five_axis_orienting_rate": ("five axes, two orienting, loaded, no acceleration", (2620, 3160, 3200, 4400), (None, None, None, None)),
 }
 # (machine, kind of tick): what would be reached if everything went well
 STRETCH = {("xyfz_compiled_rate", "everyday"): 250, ("xyfz_compiled_rate", "anything"): 500}

@@ -117,10 +117,12 @@ Task* task = nullptr;  // main makes it before the interrupts start
 // After the link is open.
 const Timeouts& patience() { return link.is_pipe() ? kTurnByTurn : kRealTime; }
 
-// Function-local, because nothing is constructed before main.
+// Function-local, because nothing is constructed before main. In .bss, or in tightly coupled memory
+// where a linker script gives that section a place (tightly_coupled.ld).
 Task& make_task() {
   static volcomp::node::RecordStorage<FlashBlocks> storage(flash);
-  static Task the_task({link, link, tick_mask, watchdog}, kNodeId, &storage, patience().guardian);
+  [[gnu::section(".bss.dtcm")]] static Task the_task({link, link, tick_mask, watchdog}, kNodeId,
+                                                     &storage, patience().guardian);
   return the_task;
 }
 

@@ -33,9 +33,10 @@ struct Uart {
   static void put_hex(std::uint32_t value) { console::put_hex(value); }
 };
 
-// Constructed at main's first call: no constructor runs before main.
+// Constructed at main's first call: no constructor runs before main. In .bss, or in tightly coupled
+// memory where a linker script gives that section a place (tightly_coupled.ld).
 ServoExample& example() {
-  static ServoExample the_example;
+  [[gnu::section(".bss.dtcm")]] static ServoExample the_example;
   return the_example;
 }
 

@@ -69,6 +69,23 @@ Reset_Handler:
     movs r2, #0
     bl fill
 
+#ifdef VOLCOMP_TIGHTLY_COUPLED
+    ldr r0, =dtcm_begin
+    ldr r1, =dtcm_end
+    bl fill
+    ldr r0, =itcm_image
+    ldr r1, =itcm_begin
+    ldr r2, =itcm_end
+copy_code:
+    cmp r1, r2
+    ittt lo
+    ldrlo r3, [r0], #4
+    strlo r3, [r1], #4
+    blo copy_code
+    dsb                         // the copied code is there before it is fetched
+    isb
+#endif
+
     ldr r0, =data_image
     ldr r1, =data_begin
     ldr r2, =data_end

@@ -1,4 +1,4 @@
-// Setting up and the tick of volcomp.h.
+// Setting up and the tick of volcomp.h. Its settings from seconds: settings.cpp.
 
 #include "firmware/embed/c/compensator.hpp"
 
@@ -7,7 +7,6 @@
 #include <new>
 
 #include "comp/tables/image.hpp"
-#include "comp/tick/offset_units.hpp"
 
 namespace {
 
@@ -24,8 +23,6 @@ using Settings = OrientingCompensator::Settings;
 
 static_assert(volcomp::kStatusBits == VOLCOMP_STATUS_BITS);
 static_assert(VOLCOMP_UNITS_PER_TURN == volcomp::kUnitsPerTurn);
-static_assert(VOLCOMP_ACCELERATION_TOO_SMALL ==
-              static_cast<int>(volcomp::Reason::acceleration_too_small));
 static_assert(VOLCOMP_TEMPERATURES == volcomp::kTemperatureInputs);
 
 Settings settings_of(const volcomp_settings& from) {
@@ -119,28 +116,6 @@ volcomp_status volcomp_create(void* memory, size_t bytes, volcomp_compensator** 
     return refused(VOLCOMP_MEMORY_MISALIGNED, "memory");
   *out = new (memory) volcomp_compensator;
   return fine();
-}
-
-void volcomp_default_settings(volcomp_settings* out) {
-  const Settings s;
-  for (std::size_t a = 0; a < VOLCOMP_AXES; ++a) {
-    const AxisLimits& l = s.axis[a];
-    out->axis[a] = {l.limit, l.rate, l.soft_rate, l.hysteresis, l.max_step, l.acceleration};
-  }
-  out->positions = VOLCOMP_TARGET;
-  out->machine_id = s.machine_id;
-  out->ramp_ticks = s.ramp_ticks;
-  out->stale_drop_ticks = s.stale_drop_ticks;
-}
-
-volcomp_status volcomp_set_acceleration(volcomp_axis_limits* limits, bool rotary,
-                                        double acceleration, double period_s) {
-  if (limits == nullptr) return refused(VOLCOMP_NULL_POINTER, "limits");
-  const double stated = rotary ? acceleration : 1e3 * acceleration;
-  std::int32_t units = 0;
-  const Status status = volcomp::acceleration_in_units(rotary, stated, period_s, units);
-  if (status.ok()) limits->acceleration = units;
-  return from(status);
 }
 
 volcomp_status volcomp_configure(volcomp_compensator* c, const volcomp_settings* settings) {

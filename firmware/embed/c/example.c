@@ -72,19 +72,25 @@ static void tell(uint32_t periods, const struct summary* sum) {
   printf("\nfingerprint of all        0x%08" PRIx32 "\n", sum->fingerprint);
 }
 
-// 5 mm/s and 0.2 m/s² of offset, 0.4 s for a change, plausible up to 0.5 m/s.
+// 5 mm/s and 0.2 m/s² of offset, 0.5 mm/s while an axis is lost, plausible up to 0.25 m/s.
+static struct volcomp_status limit(struct volcomp_axis_limits* limits) {
+  const double period_s = 1.0 / SERVO_HZ;
+  limits->limit = 200000;  // nm
+  limits->hysteresis = 2000;
+  struct volcomp_status s = volcomp_set_rate(limits, false, 5.0, 0.5, period_s);
+  if (s.reason == VOLCOMP_OK) s = volcomp_set_acceleration(limits, false, 0.2, period_s);
+  if (s.reason == VOLCOMP_OK) s = volcomp_set_max_speed(limits, false, 250.0, period_s);
+  return s;
+}
+
+// 0.4 s for a change; an axis without a signal for 4 ms counts as lost.
 static struct volcomp_status commission(size_t bytes, struct volcomp_compensator** compensation) {
   struct volcomp_settings settings;
   volcomp_default_settings(&settings);
-  for (size_t a = 0; a < VOLCOMP_AXES; ++a) {
-    struct volcomp_axis_limits limits = {200000, 1000, 100, 2000, 100000, 0};
-    const struct volcomp_status s = volcomp_set_acceleration(&limits, false, 0.2, 1.0 / SERVO_HZ);
-    if (s.reason != VOLCOMP_OK) return s;
-    settings.axis[a] = limits;
-  }
-  settings.ramp_ticks = 2000;
-  settings.stale_drop_ticks = 20;
-  struct volcomp_status s = volcomp_create(&memory, sizeof memory, compensation);
+  struct volcomp_status s = volcomp_set_times(&settings, 0.4, 0.004, 1.0 / SERVO_HZ);
+  for (size_t a = 0; a < VOLCOMP_AXES && s.reason == VOLCOMP_OK; ++a)
+    s = limit(&settings.axis[a]);
+  if (s.reason == VOLCOMP_OK) s = volcomp_create(&memory, sizeof memory, compensation);
   if (s.reason == VOLCOMP_OK) s = volcomp_configure(*compensation, &settings);
   if (s.reason == VOLCOMP_OK) s = volcomp_stage(*compensation, image, bytes, NULL);
   if (s.reason == VOLCOMP_OK) s = volcomp_activate(*compensation);

@@ -116,7 +116,9 @@ union volcomp_memory {
 // Refuses null_pointer, memory_too_small (below VOLCOMP_BYTES), memory_misaligned (as int64_t).
 struct volcomp_status volcomp_create(void* memory, size_t bytes, struct volcomp_compensator** out);
 
-// Linear: nm; rotary: 2^-32 turn; `max_step` of a rotary axis 2^-40 turn. Rates are per tick.
+// Linear: nm; rotary: 2^-32 turn; `max_step` of a rotary axis 2^-40 turn. Whatever counts in ticks
+// is set from seconds by the functions below: 10 000 nm per tick are 10 mm/s at 1 ms, but 80 mm/s
+// at 125 µs.
 struct volcomp_axis_limits {
   int32_t limit;       // largest |offset|, 1…4 194 303
   int32_t rate;        // largest change of it per tick, 1…1e9
@@ -141,16 +143,45 @@ struct volcomp_settings {
   uint16_t stale_drop_ticks;  // without a valid position for more ticks: correction ramped to 0
 };
 
-// What a compensator has before it is configured.
+// What a compensator has before it is configured: rates and times of ticks of 1 ms, 10 and 1 mm/s,
+// 0.2 and 0.01 s, whatever the period.
 void volcomp_default_settings(struct volcomp_settings* out);
 
+// The four below set what counts in ticks from values per second and the period of the tick,
+// `period_s`, 1e-6…1 s. Pure functions: no compensator, no memory. Where they refuse, `limits` and
+// `settings` are as before and the field is named: null_pointer; bad_setting for what is no number,
+// out of its range, or too small or too large for one tick. A machine at 8 kHz:
+//
+//   const double period_s = 125e-6;
+//   s = volcomp_set_times(&settings, 0.2, 0.01, period_s);                          // 1600, 80
+//   for each axis, with s checked after every line:
+//     s = volcomp_set_rate(&settings.axis[a], false, 10.0, 1.0, period_s);          // 1250, 125
+//     s = volcomp_set_acceleration(&settings.axis[a], false, 0.2, period_s);        // 3
+//     s = volcomp_set_max_speed(&settings.axis[a], false, 500.0, period_s);         // 125 000
+
 // Sets `acceleration` of `limits` from m/s² of a linear or rad/s² of a rotary axis, 0…1e6 (0:
-// none), and the period of the tick, 1e-6…1 s; rounded down. At most what the drive has to spare: a
-// tenth of the acceleration of the axis, or 0.2 m/s² and 2 rad/s² where that is not known. A result
-// below 4 is coarse: up to half tighter than stated. Refuses null_pointer, bad_setting, and
-// acceleration_too_small where less than one unit per tick and tick is left.
+// none); rounded down. At most what the drive has to spare: a tenth of the acceleration of the
+// axis, or 0.2 m/s² and 2 rad/s² where that is not known. A result below 4 is coarse: up to half
+// tighter than stated. Refuses acceleration_too_small, too, where less than one unit per tick and
+// tick is left: 0.2 m/s² are 200 at 1 ms, 12 at 250 µs, 3 at 125 µs, and refused at 62.5 µs.
 struct volcomp_status volcomp_set_acceleration(struct volcomp_axis_limits* limits, bool rotary,
                                                double acceleration, double period_s);
+
+// Sets `rate` and `soft_rate` of `limits` from mm/s of a linear or rad/s of a rotary axis, above 0;
+// rounded down, soft_rate at most rate. Usual: 10 mm/s and 0.1 rad/s; soft: limit / ramp.
+struct volcomp_status volcomp_set_rate(struct volcomp_axis_limits* limits, bool rotary, double rate,
+                                       double soft_rate, double period_s);
+
+// Sets `max_step` of `limits` from the largest speed of the axis, mm/s or rad/s, 0…5e8 (0: any): a
+// position that jumps by more than twice what it moves in a tick is implausible. To the nearest
+// unit.
+struct volcomp_status volcomp_set_max_speed(struct volcomp_axis_limits* limits, bool rotary,
+                                            double max_speed, double period_s);
+
+// Sets `ramp_ticks` and `stale_drop_ticks` from seconds, 0 or more, to the nearest number of ticks,
+// 1…2^24 and 0…65 535. A ramp of less than half a tick is one of a tick.
+struct volcomp_status volcomp_set_times(struct volcomp_settings* settings, double ramp_s,
+                                        double stale_drop_s, double period_s);
 
 // No tick may come. Refuses null_pointer and bad_setting with the field named.
 struct volcomp_status volcomp_configure(struct volcomp_compensator* c,

@@ -52,7 +52,7 @@ static int limit_urad = 1000;
 RTAPI_MP_INT(limit_urad, "largest offset of a rotary axis");
 static int rate_um_per_s = 10000;
 RTAPI_MP_INT(rate_um_per_s, "fastest change of the offset of a linear axis");
-static int rate_urad_per_s = 50000;
+static int rate_urad_per_s = 100000;
 RTAPI_MP_INT(rate_urad_per_s, "fastest change of the offset of a rotary axis");
 static int acceleration_mm_per_s2 = -1;
 RTAPI_MP_INT(acceleration_mm_per_s2,

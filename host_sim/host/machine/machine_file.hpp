@@ -125,7 +125,7 @@ struct CorrectionFile {
   double max_speed_mm_per_s = 0.0;  // 0: position jumps are not checked
   // The same of rotary axes.
   double limit_rad = 1e-3;
-  double rate_rad_per_s = 0.05;
+  double rate_rad_per_s = 0.1;
   double hysteresis_rad = 1e-5;
   double max_speed_rad_per_s = 0.0;
   std::array<OffsetAcceleration, kMaxAxes> acceleration{};  // by NC axis

@@ -118,9 +118,13 @@ void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& n
   const std::size_t a = drive_.size() - 1;
   drive_rest_.emplace_back();
   const auto serve = [this, a](SimulatedBus::Port& port, std::uint64_t now_us) {
-    if (probe_) return serve_drives(now_us);
+    if (probe_) {
+      serve_drives(now_us);
+      return std::uint64_t{0};
+    }
     drive_rest_[a].receive(*drive_[a], port, now_us);
     serve_drive(a, now_us);
+    return drive_rest_[a].until_us();
   };
   drive_port_.push_back(&bus_.attach_served(name, serve));
   drive.power_on(0);

@@ -20,10 +20,19 @@ SimulatedBus::Port& SimulatedBus::attach_served(std::string name, Serve serve,
   return port;
 }
 
+// Nothing has arrived, and it has nothing to do yet.
+bool SimulatedBus::rests(const Participant& p, std::uint64_t now_us) const {
+  return now_us < p.rests_until_us && !called_ && p.port->waiting() == 0;
+}
+
+void SimulatedBus::serve(Participant& p, std::uint64_t now_us) {
+  if (p.serve && p.port->connected()) p.rests_until_us = p.serve(*p.port, now_us);
+}
+
 void SimulatedBus::serve_all() {
   const std::uint64_t now = now_us();
   for (Participant& p : participants_) {
-    if (p.serve && p.port->connected()) p.serve(*p.port, now);
+    if (!rests(p, now)) serve(p, now);
   }
 }
 
@@ -34,7 +43,7 @@ void SimulatedBus::serve_concerned() {
     const std::uint64_t sent = p.port->counters().sent;
     if (p.port->waiting() == 0 && sent == p.sent) continue;
     p.sent = sent;
-    if (p.serve && p.port->connected()) p.serve(*p.port, now);
+    if (!rests(p, now)) serve(p, now);
   }
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "firmware/canopen/cob_id.hpp"
@@ -16,13 +19,17 @@ class Rest {
  public:
   template <class Device, class Port>
   void receive(Device& device, Port& port, std::uint64_t now_us) {
-    hal::CanFrame frame;
-    while (port.receive(frame)) {
-      if (!device.heeds(frame)) continue;
+    while (const hal::CanFrame* const next = port.first()) {
+      if (!device.heeds(*next)) {
+        port.skip();
+        continue;
+      }
+      hal::CanFrame frame;
+      port.receive(frame);
       device.receive(frame, now_us);
       // Process data change what is sent, and no other time.
       disturbed_ = disturbed_ || canopen::restricted(frame.id);
-      until_us_ = std::min(until_us_, device.sends_at_us());
+      if (!over(now_us, false)) until_us_ = std::min(until_us_, device.sends_at_us());
     }
   }
   void disturb() { disturbed_ = true; }
@@ -30,6 +37,8 @@ class Rest {
   [[nodiscard]] bool over(std::uint64_t now_us, bool called) const {
     return called || disturbed_ || now_us >= until_us_;
   }
+  // Until when serve() does nothing, unless a frame arrives or a function of the device is called.
+  [[nodiscard]] std::uint64_t until_us() const { return disturbed_ ? 0 : until_us_; }
   template <class Device, class Port, class RestsUntil>
   void serve(Device& device, Port& port, std::uint64_t now_us, const RestsUntil& rests_until_us) {
     disturbed_ = false;
@@ -45,8 +54,10 @@ class Rest {
 class SimulatedBus {
  public:
   using Port = hal::LoopbackBus::Port;
-  // What a participant does when it gets the processor.
-  using Serve = std::function<void(Port& port, std::uint64_t now_us)>;
+  // What a participant does when it gets the processor. Returns until when it rests: before that
+  // time it is called only for a frame that has arrived, or in the first round of run_…(). 0: it
+  // never rests.
+  using Serve = std::function<std::uint64_t(Port& port, std::uint64_t now_us)>;
 
   explicit SimulatedBus(hal::FrameLength length = hal::FrameLength::nominal)
       : bus_(1'000'000, length) {}
@@ -68,11 +79,27 @@ class SimulatedBus {
                            Port& port, std::uint64_t now_us) mutable {
       rest.receive(device, port, now_us);
       if (rest.over(now_us, called_)) rest.serve(device, port, now_us, rests_until_us);
+      return rest.until_us();
     };
     return attach_served(name, serve);
   }
   // Three transmit mailboxes, as CAN controllers have. Without `serve` the owner serves the port.
-  Port& attach_served(std::string name, Serve serve, std::size_t mailboxes = 3);
+  Port& attach_served(std::string name, Serve serve, std::size_t mailboxes = kMailboxes);
+  // The same for what returns nothing: it never rests.
+  template <class Unresting>
+  Port& attach_served(std::string name, Unresting serve, std::size_t mailboxes = kMailboxes) {
+    if constexpr (std::is_void_v<std::invoke_result_t<Unresting&, Port&, std::uint64_t>>) {
+      return attach_served(
+          std::move(name),
+          Serve([serve = std::move(serve)](Port& port, std::uint64_t now_us) mutable {
+            serve(port, now_us);
+            return std::uint64_t{0};
+          }),
+          mailboxes);
+    } else {
+      return attach_served(std::move(name), Serve(std::move(serve)), mailboxes);
+    }
+  }
 
   // Devices that rest are served as often as all others, for a comparison.
   void serve_always() { always_ = true; }
@@ -93,7 +120,11 @@ class SimulatedBus {
     Port* port;
     Serve serve;
     std::uint64_t sent = 0;
+    std::uint64_t rests_until_us = 0;
   };
+  static constexpr std::size_t kMailboxes = 3;
+  [[nodiscard]] bool rests(const Participant& p, std::uint64_t now_us) const;
+  static void serve(Participant& p, std::uint64_t now_us);
   void serve_all();
   void serve_concerned();
 

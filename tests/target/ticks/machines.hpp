@@ -19,6 +19,8 @@ extern template class Compensator<EightAxisMachine>;
 extern template class Compensator<CompiledMachine<kXyfzMachine>, kDefaultKnots,
                                   OffsetLimiter<false>>;
 extern template class Compensator<PositionMachine, kDefaultKnots, OffsetLimiter<false>>;
+extern template class Compensator<OrientingMachine, kDefaultKnots, OffsetLimiter<false>>;
+extern template class Compensator<GrinderMachine, kDefaultKnots, OffsetLimiter<false>>;
 extern template class Compensator<FiveAxisMachine, kDefaultKnots, OffsetLimiter<false>>;
 
 }  // namespace volcomp

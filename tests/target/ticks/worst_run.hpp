@@ -70,6 +70,10 @@ void visit_worst_machines(const Visit& visit) {
   // As with a bound that is none.
   constexpr Digests kXyfzRate{kXyfz.unbounded,
                               {17'539'624'782'413'749'542U, 8'576'901'407'188'375'798U}};
+  constexpr Digests kGrinderRate{kGrinder.unbounded,
+                                 {1'077'075'586'422'957'359U, 15'467'943'141'947'856'434U}};
+  constexpr Digests kOrientingRate{kOrienting.unbounded,
+                                   {5'042'287'437'074'072'760U, 15'353'279'116'068'709'464U}};
   constexpr Digests kFiveAxisRate{kFiveAxis.unbounded,
                                   {2'808'484'671'819'803'188U, 3'045'634'179'688'669'048U}};
   compiled(CompiledMachine<kXyfzMachine>{}, {"xyfz_compiled", kXyfz}, kXyfzMachine);
@@ -84,8 +88,12 @@ void visit_worst_machines(const Visit& visit) {
   loaded(EightAxisMachine{}, {"eight_axis", kEight}, eight_axis());
   rate_alone(CompiledMachine<kXyfzMachine>{}, {"xyfz_compiled_rate", kXyfzRate}, kXyfzMachine);
   rate_alone(PositionMachine{}, {"xyfz_loaded_rate", kXyfzRate}, kXyfzMachine);
+  rate_alone(GrinderMachine{}, {"xyb_a_compiled_rate", kGrinderRate}, bench::kGrinder);
+  rate_alone(PositionMachine{}, {"xyb_a_loaded_rate", kGrinderRate}, bench::kGrinder);
   rate_alone(FiveAxisMachine{}, {"five_axis_compiled_rate", kFiveAxisRate}, bench::kFiveAxis);
   rate_alone(PositionMachine{}, {"five_axis_loaded_rate", kFiveAxisRate}, bench::kFiveAxis);
+  rate_alone(OrientingMachine{}, {"five_axis_orienting_rate", kOrientingRate},
+             orienting_five_axis());
 }
 
 template <class Machine, std::size_t Knots, class Limiter>

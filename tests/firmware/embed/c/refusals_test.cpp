@@ -11,12 +11,6 @@
 namespace volcomp::test {
 namespace {
 
-// The reason by its name, with the field where there is one.
-std::string text(const volcomp_status& s) {
-  const std::string code = volcomp_code(s.reason);
-  return s.field == nullptr ? code : code + " " + s.field;
-}
-
 TEST(CInterfaceRefuses, MemoryThatDoesNotServe) {
   const auto memory = std::make_unique<std::array<volcomp_memory, 2>>();
   unsigned char* const bytes = memory->front().bytes;
@@ -87,24 +81,6 @@ TEST(CInterfaceRefuses, SettingsOutOfRangeByName) {
   volcomp_default_settings(&s);
   s.axis[3].limit = 0;
   EXPECT_EQ(volcomp_configure(c.get(), &s).index, 3);
-}
-
-// 0.2 m/s² are 200 nm per ms and ms; 2 rad/s² are 1367.1 parts of 2^-32 turn.
-TEST(CInterfaceSettings, AccelerationFromSeconds) {
-  volcomp_axis_limits l{};
-  EXPECT_EQ(volcomp_set_acceleration(&l, false, 0.2, 1e-3).reason, VOLCOMP_OK);
-  EXPECT_EQ(l.acceleration, 200);
-  EXPECT_EQ(volcomp_set_acceleration(&l, true, 2.0, 1e-3).reason, VOLCOMP_OK);
-  EXPECT_EQ(l.acceleration, 1367);
-  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, 0.2, 62.5e-6)),
-            "acceleration_too_small acceleration");
-  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, -0.1, 1e-3)), "bad_setting acceleration");
-  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, kNan, 1e-3)), "bad_setting acceleration");
-  EXPECT_EQ(text(volcomp_set_acceleration(&l, false, 0.2, 0.0)), "bad_setting period");
-  EXPECT_EQ(text(volcomp_set_acceleration(nullptr, false, 0.2, 1e-3)), "null_pointer limits");
-  EXPECT_EQ(l.acceleration, 1367) << "as before";
-  EXPECT_EQ(volcomp_set_acceleration(&l, false, 0.0, 1e-3).reason, VOLCOMP_OK);
-  EXPECT_EQ(l.acceleration, 0);
 }
 
 TEST(CInterfaceSettings, NoOffsetChangesItsStepByMoreThanItsAcceleration) {

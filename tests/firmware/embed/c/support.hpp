@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "comp/tables/image.hpp"
@@ -23,6 +24,12 @@ inline Bytes encode(const MachineTables& tables) {
 inline MachineTables random_l300g(std::uint64_t seed) {
   Random random(seed);
   return probing_tables(4e3, 7e-5, random);
+}
+
+// The reason by its name, with the field where there is one.
+inline std::string text(const volcomp_status& s) {
+  const std::string code = volcomp_code(s.reason);
+  return s.field == nullptr ? code : code + " " + s.field;
 }
 
 class CInstance {

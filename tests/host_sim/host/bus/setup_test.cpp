@@ -97,7 +97,8 @@ Values values_of(sim::BusAxes& axes) {
 }
 
 // "2201h:01 00030D40" a line: what the simulated controller of revision 003a24d wrote into a new
-// node, taken from the log of its bus.
+// node, taken from the log of its bus; 2202h of rotary axes for the 0.1 rad/s that their machine
+// files state since.
 Values written_values(const std::string& machine) {
   std::ifstream file(std::string(VOLCOMP_SOURCE_DIR) + "/tests/data/node-objects/" + machine +
                      ".txt");
