@@ -197,7 +197,7 @@ TEST(MachineFile, SaysHowASimulatedLaserErrs) {
   EXPECT_EQ(said.dwell_s, 10.0);
   EXPECT_EQ(said.growth_K, 0.5);
   EXPECT_TRUE(said.roll_by_level);
-  EXPECT_THAT(machine_refusal(laser("drift = \"rain\"")), HasSubstr("m.toml:5"));
+  EXPECT_THAT(machine_refusal(laser("drift = \"rain\"")), HasSubstr("m.toml:4: 'drift'"));
   EXPECT_THAT(machine_refusal(laser("drift_um = -1.0")), HasSubstr("'drift_um' must be from 0"));
   EXPECT_THAT(machine_refusal(laser("drift_tau_s = 0.0")), HasSubstr("'drift_tau_s' must be from"));
   EXPECT_THAT(machine_refusal(laser("growth_K = nan")), HasSubstr("growth_K"));
