@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/core/units.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/exit_codes.hpp"
 #include "host_sim/cli/number_check.hpp"
@@ -20,6 +21,7 @@
 #include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/map_csv.hpp"
+#include "host_sim/sim/campaign/tracer_stations.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -29,6 +31,7 @@ struct FaceGearArguments : RunArguments {
   std::string map_folder;    // empty: none
   std::string gcode_folder;  // empty: none
   bool noise_free = false;
+  double tracer_um = kUmPerMm * sim::kTracer_mm;
   std::optional<std::size_t> probe;  // of sim::kProbeClasses; empty: as the machine file says
   bool repeatability = false;        // the experiments of section 3.3 in place of a gear
   bool patch = false;                // the patch and the searches of the paper; no machine
@@ -57,10 +60,10 @@ face_gear::FaceGearOptions options_of(const FaceGearArguments& arguments) {
   options.machine = machine_of(arguments, "yk7280");
   options.cycle_hz = arguments.node.cycle_hz;
   options.probe = arguments.probe.value_or(probe_class_of(options.machine));
+  options.tracer_um = arguments.noise_free ? 0.0 : arguments.tracer_um;
   if (arguments.noise_free) {
     options.probe = 0;
     options.touches = 1;
-    options.targets = {};
   }
   return options;
 }
@@ -154,18 +157,12 @@ void add_scatter_options(CLI::App& face_gear, FaceGearArguments& a) {
           .add_option("--touches", a.options.touches, "Touches of each point; their mean counts")
           ->check(CLI::Range(1, 20))
           ->capture_default_str());
-  CLI::Option* targets = face_gear
-                             .add_option("--target-touches", a.options.targets.touches,
-                                         "Touches of each target that identifies the axes")
-                             ->check(CLI::Range(1, 1000))
-                             ->capture_default_str();
-  noise.push_back(targets);
   noise.push_back(face_gear
-                      .add_option("--tracker-um", a.options.targets.tracker_um,
-                                  "Find the targets by a tracker instead: standard deviation of "
-                                  "each of their coordinates")
-                      ->check(number_between(0.001, 100.0)));
-  noise.back()->excludes(targets);
+                      .add_option("--tracer-um", a.tracer_um,
+                                  "Standard deviation of a reading of the tracing interferometer "
+                                  "that the axes are identified with (0: nothing of it scatters)")
+                      ->check(number_between(0.0, 100.0))
+                      ->capture_default_str());
   CLI::Option* pure = face_gear.add_flag("--noise-free", a.noise_free,
                                          "Nothing scatters: what the mathematics alone can do");
   for (CLI::Option* option : noise)

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "comp/core/units.hpp"
 #include "host_sim/cli/commands.hpp"
 #include "host_sim/cli/number_check.hpp"
 #include "host_sim/cli/probe_option.hpp"
@@ -15,6 +16,7 @@
 #include "host_sim/experiments/l300g/spread.hpp"
 #include "host_sim/host/io/parallel.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/sim/campaign/tracer_stations.hpp"
 
 namespace volcomp::cli {
 namespace {
@@ -27,6 +29,7 @@ struct L300gArguments : RunArguments {
   bool noise_free = false;
   std::optional<std::size_t> probe;    // of sim::kProbeClasses; empty: as the machine file says
   std::optional<std::size_t> touches;  // of a point
+  double tracer_um = kUmPerMm * sim::kTracer_mm;
   bool filter = false;
   bool no_filter = false;
 };
@@ -40,7 +43,7 @@ void check(const L300gArguments& a) {
     throw host::UserError("--seeds: several measurements need --can loopback, a bus each");
   if (!a.options.scatters())
     throw host::UserError(
-        "--seeds: without a --probe or --tracker-um that scatters all measurements are alike");
+        "--seeds: without a --probe or --tracer-um that scatters all measurements are alike");
   if (!a.gcode_folder.empty())
     throw host::UserError("--gcode: the program of an inspection is that of one measurement");
 }
@@ -106,20 +109,13 @@ void add_probe_options(CLI::App& l300g, L300gArguments& a) {
                   "filter spans a thirtieth of it)")
       ->check(CLI::Range(71, 1001))
       ->capture_default_str();
-  CLI::Option* tracker =
+  CLI::Option* tracer =
       l300g
-          .add_option("--tracker-um", a.options.tracker_um,
-                      "The targets that identify the axes are read by an instrument with this "
-                      "standard deviation of each coordinate (0: without error)")
-          ->check(number_between(0.0, 100.0));
-  CLI::Option* target_touches =
-      l300g
-          .add_option(
-              "--target-touches", a.options.target_touches,
-              "They are found by the machine's own probe, touched so often; the mean counts")
-          ->check(CLI::Range(1, 1000))
-          ->capture_default_str()
-          ->excludes(tracker);
+          .add_option("--tracer-um", a.tracer_um,
+                      "Standard deviation of a reading of the tracing interferometer that the axes "
+                      "are identified with (0: neither readings nor its stations have errors)")
+          ->check(number_between(0.0, 100.0))
+          ->capture_default_str();
   CLI::Option* seeds =
       l300g
           .add_option("--seeds", a.spread.count,
@@ -132,8 +128,7 @@ void add_probe_options(CLI::App& l300g, L300gArguments& a) {
       ->excludes(probe)
       ->excludes(radius)
       ->excludes(touches)
-      ->excludes(target_touches)
-      ->excludes(tracker)
+      ->excludes(tracer)
       ->excludes(seeds);
 }
 
@@ -141,6 +136,7 @@ void add_probe_options(CLI::App& l300g, L300gArguments& a) {
 void settle(L300gArguments& a) {
   l300g::L300gOptions& o = a.options;
   o.probe = a.noise_free ? 0 : a.probe.value_or(probe_class_of(machine_of(a, "l300g")));
+  o.tracer_um = a.noise_free ? 0.0 : a.tracer_um;
   o.rules.touches = a.touches.value_or(l300g::kLeastTouches.at(o.probe));
   o.rules.filter = a.filter || (o.probe != 0 && !a.no_filter);
 }
@@ -163,9 +159,9 @@ void add_l300g_command(CLI::App& run, const std::string& command, int& code) {
       {{"mandrel", l300g::Origin::mandrel}, {"nominal", l300g::Origin::nominal}},
       "Where the axis of A is taken to be")
       ->default_str("nominal");
-  add_choice<host::TableKind>(
+  add_choice<l300g::TableKind>(
       *l300g, "--tables", options.tables,
-      {{"identified", host::TableKind::identified}, {"means", host::TableKind::means}},
+      {{"identified", l300g::TableKind::identified}, {"means", l300g::TableKind::means}},
       "What is compensated, all of each error function or its mean");
   l300g
       ->add_option(

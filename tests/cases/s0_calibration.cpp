@@ -1,12 +1,12 @@
 // Cases of docs/papers/l300g.md: circles through probe readings, error motions from targets, the
 // printed procedure.
 
-#include "comp/metrology/fits/axis_identification.hpp"
 #include "comp/metrology/fits/circle_fit.hpp"
 #include "comp/metrology/fits/printed_procedure.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
+#include "tests/oracle/axis_identification.hpp"
 
 namespace volcomp::cases {
 namespace {

@@ -1,10 +1,10 @@
 // Cases of docs/papers/l300g.md: error chains of probe and work branch, the arm, the stylus.
 
-#include "comp/metrology/fits/axis_identification.hpp"
 #include "comp/metrology/gears/gear_path.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 #include "tests/cases/handlers.hpp"
 #include "tests/cases/s0_case.hpp"
+#include "tests/oracle/axis_identification.hpp"
 #include "tests/oracle/stylus.hpp"
 
 namespace volcomp::cases {

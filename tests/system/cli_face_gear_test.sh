@@ -37,8 +37,8 @@ expect 2 'a bus each' "$volcomp" run face-gear --seeds 2 --can vcan7
 expect 2 'one measurement of a gear' "$volcomp" run face-gear --seeds 2 --gcode "$work/g"
 expect 2 '--shard is for measurements' "$volcomp" run face-gear --repeatability --seeds 2 --shard 1/2 --json "$work/p.json"
 expect 2 '--probe excludes --noise-free' "$volcomp" run face-gear --noise-free --probe lp2
-expect 2 'excludes' "$volcomp" run face-gear --tracker-um 2 --target-touches 5
-expect 2 'not a number from' "$volcomp" run face-gear --tracker-um nan
+expect 2 'excludes' "$volcomp" run face-gear --tracer-um 2 --noise-free
+expect 2 'not a number from' "$volcomp" run face-gear --tracer-um nan
 
 # The patch and the searches of the paper: no machine, no bus, the figures of docs/papers/face-gear.md.
 expect 0 'PASS' "$volcomp" run face-gear --patch --json "$work/patch.json"

@@ -94,6 +94,7 @@ spheres_mm = [[100, 0, 90], [0, 120, 150], [-90, -60, 200], [60, -90, 120]]
 name = "tracer"
 kind = "tracer"
 station_mm = [-330, -300, 60]
+station_u_um = 500
 file = "tracer.csv"
 places = 90
 tips = ["S0", "S1", "S2"]

@@ -53,15 +53,14 @@ expect 2 'excludes' "$volcomp" run xyfz --paper-figures --shard 1/2 --json "$wor
 import json, sys
 r = json.load(open(sys.argv[1]))
 assert r["measurements"] == 3 and r["probe"] == "rmp600" and r["filter"] is True, r
-# The probe itself finds the targets: 2σ = 0.5 µm, the mean of ten touches.
-assert abs(r["target_um"] - 0.25 / 10 ** 0.5) < 1e-12 and r["touches"] == 1, r
+assert r["tracer_um"] == 0.1 and r["touches"] == 1, r
 for row in r["spread"]:
     assert row["least_um"] < row["median_um"] < row["most_um"], row
     if row["figure"] != "F_p":
         assert row["own_um"] - 0.2 < row["least_um"] and row["most_um"] < row["own_um"] + 1.2, row
 PY
-expect 1 'profile and lead' "$volcomp" run l300g --cycle-hz 50 --touches 1 --no-filter --tracker-um 0 --seeds 2
-expect 2 'that scatters all measurements are alike' "$volcomp" run l300g --probe none --seeds 2
+expect 1 'profile and lead' "$volcomp" run l300g --cycle-hz 50 --touches 1 --no-filter --tracer-um 0 --seeds 2
+expect 2 'that scatters all measurements are alike' "$volcomp" run l300g --probe none --tracer-um 0 --seeds 2
 expect 2 '--seeds excludes --noise-free' "$volcomp" run l300g --noise-free --seeds 2
 expect 2 'a bus each' "$volcomp" run l300g --seeds 2 --can vcan7
 

@@ -12,9 +12,9 @@
 #include "comp/probe/face_relief.hpp"
 #include "host_sim/experiments/face_gear/inspection_program.hpp"
 #include "host_sim/experiments/face_gear/machine_errors.hpp"
+#include "host_sim/experiments/face_gear/traced_table.hpp"
 #include "host_sim/experiments/face_gear/truth.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/sim/campaign/identification.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -60,11 +60,10 @@ struct FacePrograms {
     host::require(make_face_grid(gear, face_grid_of_table_3(), grid), "grid");
     const face_gear::FaceProgramSetup setup{
         gear, grid, {file.chain, gear, face_gear::nominal_mounting()}, 0.5, touches, 1};
-    const host::IdentifiedModel model(identify_axes(truth, file).found, host::TableKind::identified,
-                                      file.chain);
+    const TracedErrors found = trace_errors(truth, file, face_gear::traced_plan(0.0), {true});
     before = face_blocks_of(face_gear::face_program(setup, "before", face_gear::no_face_offset));
     after = face_blocks_of(face_gear::face_program(setup, "after", [&](const Pose& q) {
-      return face_gear::face_offset_at(model.volumetric(), q);
+      return face_gear::face_offset_at(found.built->model, q);
     }));
   }
   [[nodiscard]] Vec3 ideal(const Pose& q) const {

@@ -13,9 +13,9 @@
 #include "host_sim/experiments/face_gear/published_maps.hpp"
 #include "host_sim/experiments/face_gear/repeatability.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/sim/campaign/identification.hpp"
 #include "host_sim/sim/truth/noise.hpp"
 #include "tests/system/seeds.hpp"
+#include "tests/system/true_tables.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -249,9 +249,7 @@ TEST(FaceGear, ACellThatIsNoFlankIsMarkedMissingAndThereIsNoGrade) {
       [&](int, int, const Vec3& foot) { return (foot - pit).norm() < 0.5 ? -0.3 : 0.0; },
       loopback_axes(),
       50.0};
-  const MachineTables tables =
-      host::tables_of(identify_axes(hall.truth, file).found, file, file.chain.description(),
-                      host::TableKind::identified, kDefaultKnots);
+  const MachineTables tables = true_tables(hall.truth, file);
   face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
   face_gear::FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
   inspector.use(inspector.frame_from_one_ball());
@@ -280,9 +278,7 @@ struct ScatteredGear {
   }
   // `judge`: by the scatter of a touch that outliers are told by.
   face_gear::FaceInspection map(int touches, double judge_mm) const {
-    const MachineTables tables =
-        host::tables_of(identify_axes(hall.truth, file).found, file, file.chain.description(),
-                        host::TableKind::identified, kDefaultKnots);
+    const MachineTables tables = true_tables(hall.truth, file);
     face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
     face_gear::FaceInspector inspector(station, gear, grid, file.probe->radius_mm,
                                        {touches, judge_mm});
@@ -340,9 +336,7 @@ TEST(FaceGear, AFrameIsStaleAfterTheArmWasDeployedAnew) {
                                  gear, face_gear::true_mounting(),
                                  {},   loopback_axes(),
                                  50.0};
-  const MachineTables tables =
-      host::tables_of(identify_axes(hall.truth, file).found, file, file.chain.description(),
-                      host::TableKind::none, kDefaultKnots);
+  const MachineTables tables = no_tables(file);
   face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());
   face_gear::FaceInspector inspector(station, gear, grid, file.probe->radius_mm);
   inspector.use(inspector.frame_from_one_ball());

@@ -10,7 +10,7 @@
 #include "host_sim/experiments/face_gear/station.hpp"
 #include "host_sim/experiments/face_gear/truth.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
-#include "host_sim/sim/campaign/identification.hpp"
+#include "tests/system/true_tables.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -23,9 +23,7 @@ TEST(Flanks, AreJudgedByTheNodeAsTheyAreHere) {
                                  face_gear::nominal_mounting(),
                                  {},
                                  loopback_axes()};
-  const MachineTables tables =
-      host::tables_of(identify_axes(hall.truth, file).found, file, file.chain.description(),
-                      host::TableKind::identified, kDefaultKnots);
+  const MachineTables tables = true_tables(hall.truth, file);
   FaceGrid grid;
   ASSERT_TRUE(make_face_grid(hall.gear, face_grid_of_table_3(), grid).ok());
   face_gear::FaceStation station(hall, tables, face_gear::nominal_mounting());

@@ -8,9 +8,9 @@
 #include "host_sim/host/bus/drive_model.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
-#include "host_sim/sim/campaign/identification.hpp"
 #include "host_sim/sim/controller/prober.hpp"
 #include "tests/host_sim/sim/artefacts/plane.hpp"
+#include "tests/system/true_tables.hpp"
 
 namespace volcomp::sim {
 namespace {
@@ -20,15 +20,16 @@ using test::Plane;
 constexpr double kWall_mm = 62.0;
 constexpr double kArmLevel = -39.025 * kPi / 180.0;
 
+enum class Tables : std::uint8_t { none, of_truth };
+
 // A wall that faces +Y, and the L300G with the errors P8 in front of it.
 class Bench {
  public:
-  explicit Bench(host::TableKind tables, std::vector<std::int64_t> bounces_ns = {},
+  explicit Bench(Tables tables, std::vector<std::int64_t> bounces_ns = {},
                  const std::vector<std::string>& drives = {})
       : truth_(l300g::make_l300g_truth(file_, l300g::grinder_errors("p8"), 1)) {
     const MachineTables contents =
-        host::tables_of(identify_axes(truth_, file_).found, file_, file_.chain.description(),
-                        tables, kDefaultKnots);
+        tables == Tables::none ? no_tables(file_) : true_tables(truth_, file_);
     host::BusSettings settings = host::bus_settings(file_, kBusCycleOfFive_hz);
     if (!drives.empty()) settings = host::with_models(settings, drives);
     auto axes = std::make_unique<BusAxes>(settings, host::make_image(contents));
@@ -72,23 +73,23 @@ class Bench {
 // P8 shows the ball 52 µm too far from the axis (0.4 µm less where the arm is swung a little); the
 // tables know it.
 TEST(Points, AreCorrectedByTheTablesOfTheNode) {
-  Bench raw(host::TableKind::none);
+  Bench raw(Tables::none);
   EXPECT_NEAR(raw.touch().workpiece.y(), kWall_mm + 0.052, 5e-4);
-  Bench corrected(host::TableKind::identified);
+  Bench corrected(Tables::of_truth);
   const NodePoint point = corrected.touch();
   EXPECT_EQ(point.verdict, TouchVerdict::point);
   EXPECT_NEAR(point.workpiece.y(), kWall_mm, 1e-5);
 }
 
 TEST(Points, WithoutANormalAreTheCentreOfTheBall) {
-  Bench bench(host::TableKind::identified);
+  Bench bench(Tables::of_truth);
   const NodePoint point = bench.touch(Vec3::Zero());
   EXPECT_EQ(point.verdict, TouchVerdict::centre);
   EXPECT_NEAR(point.workpiece.y(), kWall_mm + bench.file().probe->radius_mm, 1e-5);
 }
 
 TEST(Points, AreReleasedOnceRead) {
-  Bench bench(host::TableKind::identified);
+  Bench bench(Tables::of_truth);
   for (std::uint32_t i = 1; i <= 40; ++i)
     EXPECT_EQ(bench.touch().sequence, i) << "more than the node has room for";
   EXPECT_EQ(bench.axes().node()->objects().probe.waiting, 0U);
@@ -96,7 +97,7 @@ TEST(Points, AreReleasedOnceRead) {
 }
 
 TEST(Points, CarryTheUncertaintyTheyWereConfiguredWith) {
-  Bench bench(host::TableKind::identified);
+  Bench bench(Tables::of_truth);
   host::NodeProbe probe = host::node_probe(bench.file());
   probe.radius_uncertainty = 0.3e-3;
   probe.repeatability = 0.4e-3;
@@ -105,16 +106,16 @@ TEST(Points, CarryTheUncertaintyTheyWereConfiguredWith) {
 }
 
 TEST(Points, ABouncingProbeHasTouchedNothing) {
-  Bench soon(host::TableKind::identified, {50'000});
+  Bench soon(Tables::of_truth, {50'000});
   soon.touch();  // the first count that the node receives has none before it to compare with
   const std::string told = soon.refusal();
   EXPECT_NE(told.find("[double_edge]"), std::string::npos) << told;
-  Bench late(host::TableKind::identified, {9'000'000});
+  Bench late(Tables::of_truth, {9'000'000});
   EXPECT_EQ(late.refusal(), "touches 1 and 2: two points of feature 1");
 }
 
 TEST(Points, ARejectedTouchIsToldWithNumberAxisAndReason) {
-  Bench bench(host::TableKind::identified);
+  Bench bench(Tables::of_truth);
   bench.axes().break_probe_line(2, true);
   const std::string told = bench.refusal();
   EXPECT_EQ(told.rfind("touch 1, axis B: ", 0), 0U) << told;
@@ -127,7 +128,7 @@ TEST(Points, ARejectedTouchIsToldWithNumberAxisAndReason) {
 // nobody knows: 2 ms · 5 mm/s / √3.
 TEST(Points, OfDrivesThatDoNotSayWhenAreLessCertain) {
   for (const std::string drive : {"elmo_gold", "epos4_0170"}) {
-    Bench bench(host::TableKind::identified, {}, {drive});
+    Bench bench(Tables::of_truth, {}, {drive});
     for (std::uint32_t i = 1; i <= 5; ++i) {
       const NodePoint point = bench.touch();
       EXPECT_EQ(point.sequence, i);
@@ -140,13 +141,12 @@ TEST(Points, OfDrivesThatDoNotSayWhenAreLessCertain) {
 
 // One drive says when, the others do not: the edges can have been one.
 TEST(Points, OfDrivesThatDifferBelongTogether) {
-  Bench bench(host::TableKind::identified, {},
-              {"elmo_gold", "epos4_0170", "elmo_gold", "epos4_0170"});
+  Bench bench(Tables::of_truth, {}, {"elmo_gold", "epos4_0170", "elmo_gold", "epos4_0170"});
   EXPECT_EQ(bench.touch().verdict, TouchVerdict::point);
 }
 
 TEST(Points, OfADriveWithoutItsLineAreNotMadeWithoutTimesEither) {
-  Bench bench(host::TableKind::identified, {}, {"elmo_gold"});
+  Bench bench(Tables::of_truth, {}, {"elmo_gold"});
   bench.touch();
   bench.axes().break_probe_line(2, true);
   const std::string told = bench.refusal();
@@ -155,7 +155,7 @@ TEST(Points, OfADriveWithoutItsLineAreNotMadeWithoutTimesEither) {
 }
 
 TEST(Points, BadSettingsAreRefusedByName) {
-  Bench bench(host::TableKind::identified);
+  Bench bench(Tables::of_truth);
   host::NodeProbe probe = host::node_probe(bench.file());
   probe.radius.coefficient[0] = 30.0;
   EXPECT_THROW(bench.prober().configure(probe), host::UserError);

@@ -1,6 +1,6 @@
 #pragma once
 // The identification procedure as Yang et al. print it (docs/papers/l300g.md, eq. 18) and what it
-// can give: it shows a user why the targets of axis_identification.hpp are needed.
+// can give: it shows why one reading of each axis is not enough.
 
 #include "comp/core/span.hpp"
 #include "comp/core/status.hpp"

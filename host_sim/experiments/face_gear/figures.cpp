@@ -9,6 +9,7 @@
 #include "comp/metrology/faces/face_gear_grade.hpp"
 #include "comp/metrology/faces/map_comparison.hpp"
 #include "host_sim/experiments/face_gear/published_maps.hpp"
+#include "host_sim/experiments/face_gear/traced_table.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/io/version.hpp"
 
@@ -92,21 +93,23 @@ std::optional<double> worst_profile(const FaceInspection& inspection) {
 }
 
 std::string scatter_text(const FaceGearOptions& o) {
-  if (o.probe == 0 && !(o.targets.tracker_um > 0.0))
-    return "Without scatter: neither probe nor scales of the slides nor targets have any.";
-  const std::string found = o.targets.tracker_um > 0.0
-                                ? fmt::format("by a tracker to {:g} µm", o.targets.tracker_um)
-                                : fmt::format("by the probe in {} touches each, to {:.2f} µm",
-                                              o.targets.touches, kUmPerMm * target_sigma_mm(o));
+  if (o.probe == 0 && !(o.tracer_um > 0.0))
+    return "Without scatter: neither probe nor scales of the slides nor tracer have any.";
   const FaceScatter scatter = scatter_of(o);
+  const sim::TracedPlan plan = traced_plan(scatter.slide_step_mm);
+  const std::string tracer = o.tracer_um > 0.0
+                                 ? fmt::format(
+                                       "its readings scatter by {:g} µm and what the scales leave, "
+                                       "the places of its four stations by {:g} µm (1σ)",
+                                       o.tracer_um, kUmPerMm * plan.station_mm)
+                                 : "neither its readings nor its stations scatter";
   return fmt::format(
       "Probe {}: {}; its radius {}; scales of the slides read to {:g} µm: {:.2f} µm (1σ) a touch, "
-      "{} touch{} of a point. Targets that identify the axes: found {} in each "
-      "coordinate (1σ).",
+      "{} touch{} of a point. Tracer that identifies the axes: {}.",
       sim::kProbeClasses.at(o.probe).name, sim::probe_text(sim::kProbeClasses.at(o.probe)),
       o.map_radius ? "mapped on a sphere" : "as the machine file has it",
       kUmPerMm * scatter.slide_step_mm, kUmPerMm * scatter.sigma_mm(), o.touches,
-      o.touches == 1 ? "" : "es", found);
+      o.touches == 1 ? "" : "es", tracer);
 }
 
 std::vector<PaperStatement> paper_statements() {
@@ -206,7 +209,11 @@ json face_gear_figures(const FaceGearResult& run) {
   j["gear"] = run.options.gear;
   j["probe"] = sim::kProbeClasses.at(run.options.probe).name;
   j["touches"] = run.options.touches;
-  j["target_um"] = kUmPerMm * target_sigma_mm(run.options);
+  j["tracer_um"] = run.options.tracer_um;
+  j["identify"] = {{"largest_um", kUmPerMm * run.identification.largest_mm},
+                   {"rms_um", kUmPerMm * run.identification.rms_mm},
+                   {"u_rms_um", kUmPerMm * run.identification.u_rms_mm},
+                   {"chi2_over_dof", run.identification.chi2_over_dof}};
   j["outliers"] = outliers_json(run);
   j["form"] = kFormTruths.at(static_cast<std::size_t>(run.options.form));
   j["seed"] = run.options.seed;

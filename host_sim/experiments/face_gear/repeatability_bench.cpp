@@ -4,7 +4,6 @@
 
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/measure/axis_errors.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/truth/seeds.hpp"
 
@@ -16,27 +15,13 @@ constexpr double kBeyondSurface_mm = 0.4;  // as far as it may go without one
 constexpr sim::ProbingFeeds kBenchFeeds{50.0, 5.0, 20.0};
 constexpr std::uint32_t kBenchSetUps = 1'000'000;  // beyond those of all stations
 
-MachineTables without_errors(const host::MachineFile& file) {
-  host::Identification none;
-  for (const host::AxisFile& axis : file.axes) {
-    host::IdentifiedAxis found;
-    found.letter = axis.letter;
-    for (std::size_t i = 0; i < axis.targets; ++i) {
-      found.nodes.push_back(axis.target(i));
-      found.motion.emplace_back(ErrorMotion::Zero());
-    }
-    none.axis.push_back(found);
-  }
-  return host::tables_of(none, file, file.chain.description(), host::TableKind::none,
-                         kDefaultKnots);
-}
-
 }  // namespace
 
 RepeatabilityBench::RepeatabilityBench(const FaceHall& hall)
     : hall_(hall), truth_(hall.truth), random_(sim::seed_of(hall.seed, sim::SeedOf::arm)) {
-  auto axes = hall.make_axes(host::bus_settings(hall.file, hall.cycle_hz),
-                             host::make_image(without_errors(hall.file)));
+  auto axes =
+      hall.make_axes(host::bus_settings(hall.file, hall.cycle_hz),
+                     host::make_image(host::constant_tables(hall.file, zero_errors())->tables));
   axes_ = axes.get();
   axes_->controller().use_probe(host::node_probe(hall.file));
   cell_ = std::make_unique<sim::MotionCell>(truth_, std::move(axes));

@@ -10,8 +10,11 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/faces/face_angle.hpp"
 #include "host_sim/experiments/face_gear/inspection_program.hpp"
+#include "host_sim/experiments/face_gear/traced_table.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/measure/gear_choice.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/truth/seeds.hpp"
 
 namespace volcomp::face_gear {
 namespace {
@@ -79,7 +82,7 @@ MapError map_error(const std::vector<FlankMap>& maps, const FaceGearErrors& erro
 
 // With the tables in the program instead of in the node.
 std::string program(const FaceHall& hall, const FaceGearResult& run, const KnownFrame& frame,
-                    host::TableKind kind, const host::Identification& identification) {
+                    FaceStage stage, const host::BuiltTables& built) {
   const MachineChain& chain = hall.file.chain;
   const FaceProgramSetup setup{run.gear,
                                run.grid,
@@ -87,20 +90,15 @@ std::string program(const FaceHall& hall, const FaceGearResult& run, const Known
                                hall.file.probe->radius_mm,
                                run.options.touches,
                                run.options.flanks};
-  if (kind == host::TableKind::none)
+  if (stage != FaceStage::compensated)
     return face_program(setup, "before compensation", no_face_offset);
-  const host::IdentifiedModel model(identification, kind, chain);
   return face_program(setup, "the identified errors of X, Y, Z and C compensated",
-                      [&](const Pose& pose) { return face_offset_at(model.volumetric(), pose); });
+                      [&](const Pose& pose) { return face_offset_at(built.model, pose); });
 }
 
 FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStage stage,
-                       const host::Identification& identification, const host::Progress& progress) {
-  const host::TableKind kind =
-      stage == FaceStage::compensated ? host::TableKind::identified : host::TableKind::none;
-  const MachineTables tables = host::tables_of(
-      identification, hall.file, hall.file.chain.description(), kind, run.options.knots);
-  FaceStation station(hall, tables, nominal_mounting(), static_cast<std::uint32_t>(stage));
+                       const host::BuiltTables& built, const host::Progress& progress) {
+  FaceStation station(hall, built.tables, nominal_mounting(), static_cast<std::uint32_t>(stage));
   FaceInspector inspector(station, run.gear, run.grid, hall.file.probe->radius_mm,
                           {run.options.touches, hall.scatter.sigma_mm()});
   FaceInspection result;
@@ -124,7 +122,7 @@ FaceInspection inspect(const FaceHall& hall, const FaceGearResult& run, FaceStag
   share(0.6, "pitch");
   for (std::size_t side = 0; side < kFaceSides.size(); ++side)
     result.pitch[side] = inspector.pitch(kFaceSides[side]);
-  result.program = program(hall, run, result.frame, kind, identification);
+  result.program = program(hall, run, result.frame, stage, built);
   result.node = inspector.agreement();
   result.outliers = inspector.outliers();
   return result;
@@ -152,9 +150,12 @@ FaceScatter scatter_of(const FaceGearOptions& options, const Vec3& stylus) {
   return scatter;
 }
 
-double target_sigma_mm(const FaceGearOptions& options) {
-  if (options.targets.tracker_um > 0.0) return options.targets.tracker_um / kUmPerMm;
-  return scatter_of(options).sigma_mm() / std::sqrt(static_cast<double>(options.targets.touches));
+sim::TracerScatter tracer_of(const FaceGearOptions& options) {
+  sim::TracerScatter scatter;
+  scatter.perfect = !(options.tracer_um > 0.0);
+  if (!scatter.perfect) scatter.reading_mm = options.tracer_um / kUmPerMm;
+  scatter.seed = sim::seed_of(options.seed, sim::SeedOf::instruments);
+  return scatter;
 }
 
 FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progress& progress) {
@@ -187,12 +188,15 @@ FaceGearResult run_face_gear(const FaceGearOptions& options, const host::Progres
                       scatter,
                       calibrated(run, scatter)};
   progress(0.0, "identification of the machine");
-  const host::Identification identification =
-      sim::identify_axes(hall.truth, run.machine, {target_sigma_mm(options), options.seed, 0})
-          .found;
+  run.identification =
+      sim::trace_errors(hall.truth, run.machine, traced_plan(scatter.slide_step_mm),
+                        tracer_of(options), options.knots);
+  const auto without = host::constant_tables(run.machine, zero_errors(), options.knots);
   for (const FaceStage stage : {FaceStage::one_ball, FaceStage::frame, FaceStage::compensated}) {
     const auto s = static_cast<std::size_t>(stage);
-    run.inspection[s] = inspect(hall, run, stage, identification, progress);
+    const host::BuiltTables& built =
+        stage == FaceStage::compensated ? *run.identification.built : *without;
+    run.inspection[s] = inspect(hall, run, stage, built, progress);
     run.map_error[s] = map_error(run.inspection[s].maps, run.errors);
   }
   progress(1.0, "done");

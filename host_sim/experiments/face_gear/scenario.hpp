@@ -12,17 +12,10 @@
 #include "host_sim/experiments/face_gear/truth.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/report/progress.hpp"
-#include "host_sim/sim/campaign/identification.hpp"
+#include "host_sim/sim/campaign/traced_errors.hpp"
 #include "host_sim/sim/instruments/probe_class.hpp"
 
 namespace volcomp::face_gear {
-
-// How the machine finds its own errors: from targets that the axes carry, each coordinate of which
-// scatters.
-struct TargetReading {
-  int touches = 10;         // of each target, by the probe of the machine
-  double tracker_um = 0.0;  // > 0: by a tracker instead, standard deviation of a coordinate
-};
 
 // Free of noise as it stands; the command line is not.
 struct FaceGearOptions {
@@ -34,7 +27,9 @@ struct FaceGearOptions {
   std::size_t probe = 0;   // of sim::kProbeClasses; with none the scales have no steps either
   bool map_radius = true;  // by direction, from a sphere; else the one radius of the file counts
   int touches = 1;         // of each point; their mean counts
-  TargetReading targets{};
+  // Standard deviation of a reading of the tracer that the axes are identified with; 0: nothing of
+  // the identification scatters.
+  double tracer_um = 0.0;
   std::size_t knots = kDefaultKnots;
   double cycle_hz = sim::kBusCycleOfFive_hz;
   sim::BusAxesFactory make_axes = sim::loopback_axes();
@@ -44,8 +39,8 @@ struct FaceGearOptions {
 // `stylus`: its axis in the tool frame.
 [[nodiscard]] FaceScatter scatter_of(const FaceGearOptions& options,
                                      const Vec3& stylus = Vec3::UnitZ());
-// Standard deviation of a coordinate of a target, mm.
-[[nodiscard]] double target_sigma_mm(const FaceGearOptions& options);
+// How the identification scatters: the tracer, its stations, the scales of the slides.
+[[nodiscard]] sim::TracerScatter tracer_of(const FaceGearOptions& options);
 
 // The three ways to measure, in their order.
 enum class FaceStage : std::uint8_t { one_ball, frame, compensated };
@@ -64,6 +59,7 @@ struct FaceGearResult {
   FaceGear gear;
   FaceGrid grid;
   FaceGearErrors errors;
+  sim::TracedErrors identification;
   std::array<FacePitch, 2> true_pitch;
   std::array<FaceInspection, 3> inspection;  // by FaceStage
   std::array<MapError, 3> map_error;

@@ -97,8 +97,7 @@ json settings_of(const FaceGearOptions& o, const std::vector<host::HashedInput>&
           {"probe", sim::kProbeClasses.at(o.probe).name},
           {"radius", o.map_radius ? "mapped" : "file"},
           {"touches", o.touches},
-          {"target_touches", o.targets.touches},
-          {"tracker_um", o.targets.tracker_um}};
+          {"tracer_um", o.tracer_um}};
 }
 
 std::size_t class_named(const std::string& name) {
@@ -182,8 +181,7 @@ SpreadResult collect_spread(const host::PartialRun& all) {
   r.options.seed = all.run.at("seed").get<std::uint64_t>();
   r.options.probe = class_named(all.run.at("probe").get<std::string>());
   r.options.touches = all.run.at("touches").get<int>();
-  r.options.targets = {all.run.at("target_touches").get<int>(),
-                       all.run.at("tracker_um").get<double>()};
+  r.options.tracer_um = all.run.at("tracer_um").get<double>();
   r.measurement = host::results_of_draws(all, measured_of);
   return r;
 }

@@ -11,7 +11,6 @@
 #include "firmware/node/node_objects.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/measure/axis_errors.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
 
 namespace volcomp::internal_helical {
@@ -32,16 +31,7 @@ constexpr std::int64_t kFiner = 512;  // 2^-40 turn
 
 // A machine that is as it was drawn.
 std::vector<std::uint8_t> image_without_errors(const host::MachineFile& machine) {
-  host::Identification nothing;
-  for (const host::AxisFile& file : machine.axes) {
-    host::IdentifiedAxis axis;
-    axis.letter = file.letter;
-    axis.nodes = file.all_targets();
-    axis.motion.assign(file.targets, ErrorMotion::Zero());
-    nothing.axis.push_back(axis);
-  }
-  return host::make_image(host::tables_of(nothing, machine, machine.chain.description(),
-                                          host::TableKind::none, node::kNodeKnots));
+  return host::make_image(host::constant_tables(machine, zero_errors(), node::kNodeKnots)->tables);
 }
 
 bool corrects(const MachineChain& chain, std::size_t axis) {

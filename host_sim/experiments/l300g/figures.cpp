@@ -17,7 +17,9 @@ using nlohmann::json;
 // Allowed difference of the total deviations from those of the gear: what tables of linear segments
 // leave of waves of 0.4 µm, and some room (docs/papers/l300g.md, "Options").
 constexpr double kAgreement_um = 0.4;
-constexpr double kRoundTrip = 1e-6;  // mm or rad
+// What splines leave anywhere in the travels of waves of 0.4 µm and 7 µrad, and some room. Of
+// constants and slopes they leave less than a nanometre.
+constexpr double kIdentified_mm = 0.25e-3;
 constexpr double kFeedSpread_nm = 10.0;
 constexpr double kLobing_um = 0.2;
 
@@ -111,7 +113,7 @@ bool feeds_agree(const L300gResult& r) {
 std::string claim(const L300gResult& r, bool found) {
   if (!found && r.options.scatters())
     return "with this scatter the gear does not show its own grades: more touches, a filter, or "
-           "better targets";
+           "a better tracer";
   if (!found)
     return "the tables do not hold what is wrong with this machine: the gear is not found as it is";
   const Picture profile = picture_of(r.before.profile, r.truth.profile);
@@ -134,7 +136,7 @@ std::string grade_text(const std::optional<int>& grade, GearStandard standard) {
 host::Verdict l300g_verdict(const L300gResult& r) {
   const bool found = found_as_it_is(r);
   host::Verdict v;
-  const bool identified = r.options.scatters() || r.identification.max_error() <= kRoundTrip;
+  const bool identified = r.options.scatters() || r.identification.largest_mm <= kIdentified_mm;
   v.ok = found && identified && feeds_agree(r) && r.lobing.corrected_um < kLobing_um;
   v.text = fmt::format(
       "Profile grade {} before, {} after, lead {} before, {} after; of the gear itself {} and {}. "
@@ -153,7 +155,11 @@ json l300g_figures(const L300gResult& r) {
                 {"u_rc", c.u_rc},
                 {"Y0", c.fit.geometric.y},
                 {"Z0", c.fit.geometric.z}};
-  j["identify"]["max_error"] = r.identification.max_error();
+  j["identify"] = {{"largest_um", kUmPerMm * r.identification.largest_mm},
+                   {"rms_um", kUmPerMm * r.identification.rms_mm},
+                   {"u_rms_um", kUmPerMm * r.identification.u_rms_mm},
+                   {"chi2_over_dof", r.identification.chi2_over_dof},
+                   {"readings", r.identification.readings}};
   const Vec3 orientation = host::kUradPerRad * r.orientation;
   j["orientation_urad"] = {orientation.x(), orientation.y(), orientation.z()};
   j["feed_spread_nm"] = {{"raw", r.feeds.raw_spread_nm()},
@@ -162,7 +168,7 @@ json l300g_figures(const L300gResult& r) {
   j["errors"] = r.options.errors;
   j["seed"] = r.options.seed;
   j["scatter"] = {{"probe", sim::kProbeClasses.at(r.options.probe).name},
-                  {"target_um", r.options.target_um()},
+                  {"tracer_um", r.options.tracer_um},
                   {"touches", r.options.rules.touches},
                   {"filter", r.options.rules.filter},
                   {"teeth", r.options.rules.traces.teeth},

@@ -7,8 +7,8 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/fits/lobing_fit.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
 #include "host_sim/sim/artefacts/sphere.hpp"
-#include "host_sim/sim/campaign/identification.hpp"
 
 namespace volcomp::l300g {
 namespace {
@@ -137,9 +137,7 @@ class SphereBench {
 LobingCheck check_lobing(const host::MachineFile& file, const sim::BusAxesFactory& make_axes,
                          double cycle_hz, std::uint64_t seed) {
   const GrinderHall hall{file, make_l300g_truth(file, {}, seed), make_axes, cycle_hz};
-  const MachineTables tables =
-      host::tables_of(sim::identify_axes(hall.truth, file).found, file, file.chain.description(),
-                      host::TableKind::none, kDefaultKnots);
+  const MachineTables tables = host::constant_tables(file, zero_errors())->tables;
   sim::Random random(seed);
   SphereBench bench(hall, tables, drawn(random));
   const LobingMap map = bench.map(random);

@@ -8,18 +8,18 @@
 #include "comp/core/units.hpp"
 #include "host_sim/experiments/l300g/figures.hpp"
 #include "host_sim/experiments/l300g/gear_charts.hpp"
+#include "host_sim/experiments/l300g/traced_grinder.hpp"
 #include "host_sim/host/io/user_error.hpp"
 #include "host_sim/host/report/before_after.hpp"
 #include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/error_functions.hpp"
 #include "host_sim/host/report/provenance.hpp"
+#include "host_sim/sim/campaign/tracer_stations.hpp"
 
 namespace volcomp::l300g {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kCoverage = 2.0;  // of the bands
 
 // --- probe
 
@@ -69,35 +69,41 @@ json sensitivities(const L300gResult& r) {
 // --- identification
 
 json error_functions(const L300gResult& r) {
-  std::vector<host::ErrorCurves> axes;
-  for (std::size_t a = 0; a < r.identification.found.axis.size(); ++a) {
-    const host::IdentifiedAxis& identified = r.identification.found.axis[a];
-    host::ErrorCurves curves{
-        identified.letter, r.machine.axes[a].rotary, identified.nodes, identified.motion, {}};
-    ErrorMotion half;
-    for (Eigen::Index c = 0; c < half.size(); ++c)
-      half(c) = kCoverage * r.identification.found.spread(c);
-    curves.half_width.assign(curves.at.size(), half);
-    axes.push_back(curves);
-  }
+  const sim::TracedErrors& found = r.identification;
   return host::error_functions_group(
-      fmt::format("The {} identified error functions", host::kChannels.size() * axes.size()), axes,
-      fmt::format("Motion of the body itself, in its moving frame. Largest difference from the "
-                  "simulated truth {:.1e} mm or rad. Bands: ±{:g} standard uncertainties that "
-                  "{:g} µm of each target would leave; condition of the targets {:.2f}.",
-                  r.identification.max_error(), kCoverage, kUmPerMm * host::kTracker_mm,
-                  r.identification.found.condition));
+      fmt::format("The {} identified error functions",
+                  host::kChannels.size() * found.functions.size()),
+      found.functions,
+      fmt::format("Motion of the body itself, in its moving frame, with the places of B and A and "
+                  "the constants of A in them; Y is along the bed by definition. {} unknowns from "
+                  "{} readings. Bands: ±2 standard uncertainties.",
+                  found.unknowns, found.readings));
+}
+
+json place_table(const L300gResult& r) {
+  json rows = json::array();
+  for (const sim::TracedValue& v : r.identification.values) {
+    const double scale = v.angular ? host::kUradPerRad : kUmPerMm;
+    rows.push_back({v.name, scale * v.found, scale * v.u, v.angular ? "µrad" : "µm"});
+  }
+  return host::with_id(
+      "places",
+      host::table_section("Where B, A and the gear on A are",
+                          {host::plain_column("value"), host::column("identified", "", 2),
+                           host::column("standard uncertainty", "", 2), host::plain_column("unit")},
+                          rows),
+      "0: location on the fixed side (ISO 230-7); 1: constant on the moving side, that is how the "
+      "datum of the gear, which the stations are measured from, lies on A.");
 }
 
 json printed_table(const L300gResult& r) {
   json rows = json::array();
-  for (std::size_t a = 0; a < r.identification.found.axis.size(); ++a) {
-    const host::IdentifiedAxis& axis = r.identification.found.axis[a];
+  for (std::size_t a = 0; a < r.printed.own.size(); ++a) {
     const bool rotary = r.machine.axes[a].rotary;
     const double scale = rotary ? host::kUradPerRad : kUmPerMm;
     const ReadingFigures& own = r.printed.own.at(a);
-    rows.push_back({std::string(1, axis.letter), scale * own.mean, scale * own.deviation,
-                    scale * own.range, rotary ? "µrad" : "µm"});
+    rows.push_back({std::string(1, r.machine.axes[a].letter), scale * own.mean,
+                    scale * own.deviation, scale * own.range, rotary ? "µrad" : "µm"});
   }
   return host::with_id(
       "printed",
@@ -142,9 +148,13 @@ json found_text(const L300gResult& r) {
                        "µm, Y0 {:.4f} mm, Z0 {:.4f} mm, rms {:.2f} µm",
                        c.y.size(), c.fit.geometric.radius, c.rc, kUmPerMm * c.u_rc,
                        c.fit.geometric.y, c.fit.geometric.z, kUmPerMm * c.fit.rms),
-           fmt::format("identification: 24 functions, largest error {:.1e} mm or rad; the paper's "
-                       "eq. 18 has rank {} of 6",
-                       r.identification.max_error(), r.printed.x.rank),
+           fmt::format("identification: 24 functions and the places of B, A and gear; error of the "
+                       "ball {:.3f} µm rms all over the travels, {:.3f} µm at most, predicted "
+                       "{:.3f} µm; chi-square {:.2f} a degree of freedom; the paper's eq. 18 has "
+                       "rank {} of 6",
+                       kUmPerMm * r.identification.rms_mm, kUmPerMm * r.identification.largest_mm,
+                       kUmPerMm * r.identification.u_rms_mm, r.identification.chi2_over_dof,
+                       r.printed.x.rank),
            fmt::format("orientation of the probe against the gear at the pitch point: {:.1f}, "
                        "{:.1f}, {:.1f} µrad; X, Y and B correct what it does to the ball, not "
                        "itself",
@@ -202,9 +212,17 @@ std::string scatter_text(const L300gOptions& o) {
                      o.rules.filter ? ", filtered" : "");
 }
 
-std::string found_by(const L300gOptions& o) {
-  if (o.tracker_um) return "read by an instrument beside the machine";
-  return fmt::format("found by {} touches of the machine's own probe", o.target_touches);
+std::string tracer_text(const L300gOptions& o) {
+  const sim::TracedPlan plan = traced_plan();
+  const std::string scatter =
+      o.tracer_um > 0.0 ? fmt::format(
+                              "readings scatter by {:g} µm and {:g} ppm of a set-up, places of the "
+                              "stations by {:g} µm",
+                              o.tracer_um, 1e6 * sim::kWavelength, kUmPerMm * plan.station_mm)
+                        : "neither readings nor stations scatter";
+  return fmt::format(
+      "tracing interferometer at four stations, {} places and {} reflectors each: {}", plan.places,
+      plan.reflectors.size() + 1, scatter);
 }
 
 host::Origins origins(const L300gResult& r) {
@@ -214,13 +232,11 @@ host::Origins origins(const L300gResult& r) {
       {"errors of the machine", o.errors},
       {"path", o.path == PathStyle::fixed_a ? "A stands still, B touches" : "generating"},
       {"origin", o.origin == Origin::nominal ? "machine file" : "fit of the mandrel"},
-      {"tables", host::kTableKinds.at(static_cast<std::size_t>(o.tables))},
+      {"tables", kTableKinds.at(static_cast<std::size_t>(o.tables))},
       {"seed", fmt::format("{} (phases of waves, noise of the lobing check)", o.seed)}};
   origins.inputs = r.inputs;
   origins.instruments = {
-      fmt::format("targets of the identification: {:g} µm of each assumed for the bands, {:.2g} µm "
-                  "added to each coordinate, {}",
-                  kUmPerMm * host::kTracker_mm, o.target_um(), found_by(o)),
+      tracer_text(o),
       "touch probe of the machine: delays and radius of the machine file, corrected by the node" +
           scatter_text(o)};
   if (r.on_centre)
@@ -243,8 +259,9 @@ json l300g_document(const L300gResult& r, const host::RunContext& run) {
   parts.verdict = l300g_verdict(r);
   parts.before_after = before_after(r);
   parts.plots = {profile_charts(r), lead_charts(r), pitch_charts(r), error_functions(r)};
-  parts.details = {gear_table(r),    found_text(r),    residual_chart(r.calibration),
-                   sensitivities(r), printed_table(r), feed_chart(r)};
+  parts.details = {gear_table(r),    found_text(r),  residual_chart(r.calibration),
+                   sensitivities(r), place_table(r), printed_table(r),
+                   feed_chart(r)};
   parts.ticks = run.ticks;
   parts.provenance = host::provenance(run, origins(r));
   return host::report_document(std::move(parts));

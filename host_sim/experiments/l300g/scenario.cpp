@@ -8,6 +8,10 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/tables/volumetric.hpp"
 #include "host_sim/experiments/l300g/inspection_program.hpp"
+#include "host_sim/experiments/l300g/traced_grinder.hpp"
+#include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/truth/seeds.hpp"
 
 namespace volcomp::l300g {
 namespace {
@@ -47,19 +51,27 @@ FeedCheck check_feeds(Grinder& grinder, GearInspector& inspector, const Involute
   return check;
 }
 
-// What both measurements of the gear share.
+enum class When : std::uint8_t { before, after };
+
+// What all measurements of a run share.
 struct Inspection {
   const L300gOptions& options;
   const GrinderHall& hall;
-  const host::Identification& identification;
+  const host::BuiltTables& without;      // nothing compensated
+  const host::BuiltTables& compensated;  // of the kind that is asked for
   const sim::Gear& gear;
   const InvoluteGear& involute;
   double rc;  // as calibrated before anything was compensated
+
+  [[nodiscard]] const host::BuiltTables& built(When when) const {
+    return when == When::before ? without : compensated;
+  }
 };
 
-MachineTables tables_at(const Inspection& run, host::TableKind kind,
-                        const MachineDescription& machine) {
-  return host::tables_of(run.identification, run.hall.file, machine, kind, run.options.knots);
+MachineTables tables_at(const host::BuiltTables& built, const MachineDescription& machine) {
+  MachineTables tables = built.tables;
+  tables.machine = machine;
+  return tables;
 }
 
 // A probe that gives way by direction is calibrated on a sphere, too.
@@ -75,24 +87,22 @@ host::NodeProbe probe_of(const Inspection& run) {
 
 // The axis of A as found on the mandrel with these tables in force: it contains the part of the
 // errors that is the same everywhere, which must not be subtracted twice.
-MachineDescription zeroed_on_mandrel(const Inspection& run, host::TableKind kind) {
+MachineDescription zeroed_on_mandrel(const Inspection& run, When when) {
   const MachineChain& nominal = run.hall.file.chain;
-  Grinder grinder(run.hall, tables_at(run, kind, nominal.description()));
-  const Mounted as =
-      kind == host::TableKind::none ? Mounted::mandrel_before : Mounted::mandrel_after;
+  Grinder grinder(run.hall, run.built(when).tables);
+  const Mounted as = when == When::before ? Mounted::mandrel_before : Mounted::mandrel_after;
   const Circle circle = calibrate_on_mandrel(grinder, {}, as).fit.geometric;
   return with_origin(nominal, circle.y, circle.z);
 }
 
 // As an NC program: with the tables in the program instead of in the node.
-std::string program(const Inspection& run, host::TableKind kind, const InspectionSetup& setup,
+std::string program(const Inspection& run, When when, const InspectionSetup& setup,
                     const MachineChain& chain) {
-  if (kind == host::TableKind::none)
-    return inspection_program(setup, "before compensation", no_offset);
-  const host::IdentifiedModel model(run.identification, kind, chain);
-  return inspection_program(
-      setup, "the geometric error chain of X, Y, B and A compensated",
-      [&model](const Pose& pose) { return compensation_at(model.volumetric(), pose); });
+  if (when == When::before) return inspection_program(setup, "before compensation", no_offset);
+  VolumetricModel model = run.compensated.model;
+  model.chain = chain;
+  return inspection_program(setup, "the geometric error chain of X, Y, B and A compensated",
+                            [&model](const Pose& pose) { return compensation_at(model, pose); });
 }
 
 // Where pitch is taken, at the left flank of tooth 0.
@@ -100,23 +110,22 @@ Vec3 orientation_at_pitch_point(const Inspection& run) {
   const MachineChain& chain = run.hall.file.chain;
   const InspectionSetup setup{grinder_geometry(chain), run.involute, run.options.path, run.rc};
   const FlankTouch touch{{FlankSide::left, 0}, pitch_roll(run.involute), 0.5 * run.involute.width};
-  const host::IdentifiedModel model(run.identification, host::TableKind::identified, chain);
-  return model.orientation_error(flank_move(setup, touch, 0.0).contact);
+  return run.hall.truth.error(flank_move(setup, touch, 0.0).contact, {}, chain.tool_point())
+      .orientation_work;
 }
 
-GearInspection inspect(const Inspection& run, host::TableKind kind, FeedCheck* feeds) {
+GearInspection inspect(const Inspection& run, When when, FeedCheck* feeds) {
   const MachineDescription machine = run.options.origin == Origin::nominal
                                          ? run.hall.file.chain.description()
-                                         : zeroed_on_mandrel(run, kind);
-  Grinder grinder(run.hall, tables_at(run, kind, machine));
-  grinder.mount(run.gear,
-                kind == host::TableKind::none ? Mounted::gear_before : Mounted::gear_after);
+                                         : zeroed_on_mandrel(run, when);
+  Grinder grinder(run.hall, tables_at(run.built(when), machine));
+  grinder.mount(run.gear, when == When::before ? Mounted::gear_before : Mounted::gear_after);
   grinder.prober().configure(probe_of(run));
   const InspectionSetup setup{grinder.geometry(), run.involute, run.options.path, run.rc,
                               run.options.rules.traces};
   GearInspector inspector(grinder, setup, run.options.rules);
   GearInspection result = inspector.inspect();
-  result.program = program(run, kind, setup, grinder.chain());
+  result.program = program(run, when, setup, grinder.chain());
   if (feeds != nullptr) *feeds = check_feeds(grinder, inspector, run.involute);
   return result;
 }
@@ -130,19 +139,32 @@ ProbeScatter scatter_of(const L300gOptions& options, const Vec3& stylus) {
   return scatter;
 }
 
-MandrelCalibration calibrate_first(const GrinderHall& hall,
-                                   const host::Identification& identification, std::size_t knots) {
-  Grinder grinder(hall, host::tables_of(identification, hall.file, hall.file.chain.description(),
-                                        host::TableKind::none, knots));
+MandrelCalibration calibrate_first(const GrinderHall& hall, const host::BuiltTables& without) {
+  Grinder grinder(hall, without.tables);
   return calibrate_on_mandrel(grinder, {});
 }
 
-}  // namespace
-
-double L300gOptions::target_um() const {
-  const double of_touch = 0.5 * sim::kProbeClasses.at(probe).repeatability_2s_um;
-  return tracker_um.value_or(of_touch / std::sqrt(static_cast<double>(target_touches)));
+sim::TracerScatter tracer_of(const L300gOptions& options) {
+  sim::TracerScatter scatter;
+  scatter.perfect = !(options.tracer_um > 0.0);
+  if (!scatter.perfect) scatter.reading_mm = options.tracer_um / kUmPerMm;
+  scatter.seed = sim::seed_of(options.seed, sim::SeedOf::instruments);
+  scatter.draw = options.draw;
+  return scatter;
 }
+
+std::shared_ptr<const host::BuiltTables> compensation_of(const L300gResult& result,
+                                                         const sim::TrueMachine& truth) {
+  const std::size_t knots = result.options.knots;
+  if (result.options.tables == TableKind::identified) return result.identification.built;
+  return host::constant_tables(result.machine,
+                               result.options.tables == TableKind::means
+                                   ? mean_errors(truth, result.machine)
+                                   : zero_errors(),
+                               knots);
+}
+
+}  // namespace
 
 double FeedCheck::raw_spread_nm() const { return spread(raw_nm); }
 double FeedCheck::corrected_spread_nm() const { return spread(corrected_nm); }
@@ -171,24 +193,26 @@ L300gResult run_l300g(const L300gOptions& options, const host::Progress& progres
                                         const Flank&, double s, double x) { return own(s, x); });
 
   progress(0.0, "identification of 24 error functions");
-  result.identification = sim::identify_axes(
-      hall.truth, result.machine, {options.target_um() / kUmPerMm, options.seed, options.draw});
-  result.printed = printed_procedure(result.identification, result.machine);
+  result.identification = sim::trace_errors(hall.truth, result.machine, traced_plan(),
+                                            tracer_of(options), options.knots);
+  result.printed = printed_procedure(hall.truth, result.machine);
   progress(0.05, "probe calibration on the mandrel");
-  result.calibration = calibrate_first(hall, result.identification.found, options.knots);
+  const auto without = host::constant_tables(result.machine, zero_errors(), options.knots);
+  const auto compensated = compensation_of(result, hall.truth);
+  result.calibration = calibrate_first(hall, *without);
   const SwingArm arm = grinder_geometry(result.machine.chain).arm;
   result.longer_arm = effect_of_arm(arm, kLongerArm_mm);
   for (const double higher : kHigherPivots_mm)
     result.higher_pivot.push_back(effect_of_pivot(arm, higher));
 
-  const Inspection run{options, hall,        result.identification.found,
-                       gear,    result.gear, result.calibration.rc};
+  const Inspection run{
+      options, hall, *without, *compensated, gear, result.gear, result.calibration.rc};
   result.truth = true_gear(result.gear);
   result.orientation = orientation_at_pitch_point(run);
   progress(0.2, "gear, uncompensated");
-  result.before = inspect(run, host::TableKind::none, nullptr);
+  result.before = inspect(run, When::before, nullptr);
   progress(0.6, "gear, compensated");
-  result.after = inspect(run, options.tables, &result.feeds);
+  result.after = inspect(run, When::after, &result.feeds);
   if (options.scatters())
     result.on_centre = gear_on_centre(result.gear, {}, options.seed, options.draw);
   progress(0.95, "lobing of the probe");

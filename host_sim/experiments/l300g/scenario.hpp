@@ -14,6 +14,7 @@
 #include "host_sim/experiments/l300g/printed_procedure.hpp"
 #include "host_sim/host/io/hashed_input.hpp"
 #include "host_sim/host/report/progress.hpp"
+#include "host_sim/sim/campaign/traced_errors.hpp"
 #include "host_sim/sim/instruments/probe_class.hpp"
 
 namespace volcomp::l300g {
@@ -38,7 +39,14 @@ enum class Origin : std::uint8_t {
 // measurements with a probe of this of sim::kProbeClasses (docs/papers/l300g.md, "With a probe that
 // scatters").
 inline constexpr std::array<std::size_t, sim::kProbeClasses.size()> kLeastTouches{1, 1, 3};
-inline constexpr std::size_t kTargetTouches = 10;
+
+// What the compensation takes away.
+enum class TableKind : std::uint8_t {
+  none,        // nothing: the machine as drawn
+  identified,  // the identified functions
+  means,       // the mean of each true function, the most that the procedure of the paper can find
+};
+inline constexpr std::array<const char*, 3> kTableKinds{"none", "identified", "means"};
 
 struct L300gOptions {
   std::filesystem::path machine;
@@ -46,23 +54,20 @@ struct L300gOptions {
   std::string errors = "p8";   // machine_errors.hpp
   PathStyle path = PathStyle::fixed_a;
   Origin origin = Origin::nominal;
-  host::TableKind tables = host::TableKind::identified;  // of the compensation
-  std::uint64_t seed = 1;                                // of the phases of waves
-  std::size_t knots = kDefaultKnots;                     // per table: what the node has room for
+  TableKind tables = TableKind::identified;  // of the compensation
+  std::uint64_t seed = 1;                    // of the phases of waves
+  std::size_t knots = kDefaultKnots;         // per table: what the node has room for
   double cycle_hz = sim::kBusCycleOfFive_hz;
   sim::BusAxesFactory make_axes = sim::loopback_axes();
   std::size_t probe = 0;   // of sim::kProbeClasses
   bool map_radius = true;  // by direction, from a sphere; else the one radius of the mandrel counts
-  // Standard deviation of each coordinate of a target where an instrument beside the machine reads
-  // them; none: its own probe finds them, as in section 2.2 of the paper.
-  std::optional<double> tracker_um;
-  std::size_t target_touches = kTargetTouches;  // of a coordinate of a target; their mean counts
+  // Standard deviation of a reading of the tracer that the axes are identified with; 0: nothing of
+  // the identification scatters.
+  double tracer_um = 0.0;
   InspectionRules rules;
   std::uint32_t draw = 0;  // which of several measurements with that seed
 
-  // How far targets of the identification scatter: standard deviation of a coordinate, µm.
-  [[nodiscard]] double target_um() const;
-  [[nodiscard]] bool scatters() const { return probe != 0 || target_um() > 0.0; }
+  [[nodiscard]] bool scatters() const { return probe != 0 || tracer_um > 0.0; }
 };
 
 struct L300gResult {
@@ -73,7 +78,7 @@ struct L300gResult {
   MandrelCalibration calibration;  // uncompensated: what the machine knows of its probe at first
   MandrelEffect longer_arm;        // per kLongerArm_mm
   std::vector<MandrelEffect> higher_pivot;  // by kHigherPivots_mm
-  sim::Identification identification;
+  sim::TracedErrors identification;
   PrintedProcedure printed;
   Vec3 orientation;      // of the probe against the gear, at the pitch point, rad: stays
   GearInspection truth;  // what a perfect machine would find

@@ -128,14 +128,14 @@ json table(const SpreadResult& r) {
   return host::in_summary(
       host::with_id("spread", std::move(made),
                     fmt::format("Probe {}: {}; radius {}; {} touch{} of a point, {} points within "
-                                "a range, {}. Targets of "
-                                "the identification scatter by {:.2g} µm in each direction.",
+                                "a range, {}. Readings of the tracer that "
+                                "identifies the axes scatter by {:.2g} µm.",
                                 sim::kProbeClasses.at(r.options.probe).name,
                                 sim::probe_text(sim::kProbeClasses.at(r.options.probe)),
                                 r.options.map_radius ? "mapped on a sphere" : "that of the mandrel",
                                 r.options.rules.touches, r.options.rules.touches == 1 ? "" : "es",
                                 r.options.rules.traces.points, filter_text(r.options.rules),
-                                r.options.target_um())));
+                                r.options.tracer_um)));
 }
 
 json histogram(const SpreadResult& r) {
@@ -175,12 +175,12 @@ json settings_of(const L300gOptions& o, const std::vector<host::HashedInput>& in
           {"errors", o.errors},
           {"path", o.path == PathStyle::fixed_a ? "fixed-a" : "generate"},
           {"origin", o.origin == Origin::nominal ? "nominal" : "mandrel"},
-          {"tables", host::kTableKinds.at(static_cast<std::size_t>(o.tables))},
+          {"tables", kTableKinds.at(static_cast<std::size_t>(o.tables))},
           {"seed", o.seed},
           {"cycle_hz", o.cycle_hz},
           {"probe", sim::kProbeClasses.at(o.probe).name},
           {"radius", o.map_radius ? "mapped" : "mandrel"},
-          {"target_um", o.target_um()},
+          {"tracer_um", o.tracer_um},
           {"touches", o.rules.touches},
           {"filter", o.rules.filter},
           {"teeth", o.rules.traces.teeth},
@@ -233,7 +233,7 @@ SpreadResult collect_spread(const host::PartialRun& all) {
   r.options.seed = all.run.at("seed").get<std::uint64_t>();
   r.options.probe = probe_named(all.run.at("probe").get<std::string>());
   r.options.map_radius = all.run.at("radius").get<std::string>() == "mapped";
-  r.options.tracker_um = all.run.at("target_um").get<double>();
+  r.options.tracer_um = all.run.at("tracer_um").get<double>();
   r.options.rules = {
       all.run.at("touches").get<std::size_t>(),
       all.run.at("filter").get<bool>(),
@@ -268,11 +268,11 @@ nlohmann::json spread_document(const SpreadResult& r, const host::RunContext& ru
       {"errors of the machine", r.options.errors},
       {"seed", fmt::format("{}, draws 0 to {}", r.options.seed, r.measurement.size() - 1)}};
   origins.inputs = r.inputs;
-  origins.instruments = {fmt::format("touch probe of the class {}: scatter of each touch, on the "
-                                     "mandrel and on the gear",
-                                     sim::kProbeClasses.at(r.options.probe).name),
-                         fmt::format("targets of the identification: {:.2g} µm of each coordinate",
-                                     r.options.target_um())};
+  origins.instruments = {
+      fmt::format("touch probe of the class {}: scatter of each touch, on the "
+                  "mandrel and on the gear",
+                  sim::kProbeClasses.at(r.options.probe).name),
+      fmt::format("tracer of the identification: {:.2g} µm of a reading", r.options.tracer_um)};
   origins.chosen = {"amounts and signs of the errors, such that they add up"};
   parts.provenance = host::provenance(run, origins);
   return host::report_document(std::move(parts));

@@ -23,10 +23,9 @@ Planes difference_on(const sim::TrueMachine& truth, const host::SquarenessFile& 
   lines.circle_radius.reset();
   host::SquarenessFile circles = place;
   circles.circle_radius = kBallBar_mm;
-  sim::Random unused(0);
   const XyfzSquareness less =
-      close_squareness(sim::measure_squareness(truth, circles, sim::no_noise(), unused),
-                       sim::measure_squareness(truth, lines, sim::no_noise(), unused));
+      close_squareness(sim::measure_squareness(truth, circles, sim::no_noise(), {}),
+                       sim::measure_squareness(truth, lines, sim::no_noise(), {}));
   return {host::kUradPerRad * less.a_xy, host::kUradPerRad * less.a_xz,
           host::kUradPerRad * less.a_yz};
 }

@@ -239,9 +239,11 @@ void describe_machine(const MachineFile& machine, BuiltTables& out) {
 }  // namespace
 
 std::unique_ptr<BuiltTables> tables_of_errors(const MachineFile& machine,
-                                              const std::vector<ErrorTable>& errors) {
+                                              const std::vector<ErrorTable>& errors,
+                                              std::size_t knots) {
   require_authority(machine);
-  const BuildOptions options;
+  BuildOptions options;
+  options.knots = knots;
   auto out = std::make_unique<BuiltTables>();
   out->chain = out->model.chain = machine.chain;
   out->model.tool_point = out->chain.tool_point();
@@ -257,6 +259,22 @@ std::unique_ptr<BuiltTables> tables_of_errors(const MachineFile& machine,
   }
   describe_machine(machine, *out);
   return out;
+}
+
+std::unique_ptr<BuiltTables> constant_tables(const MachineFile& machine, const ErrorSet& errors,
+                                             std::size_t knots) {
+  std::vector<ErrorTable> tables;
+  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    const AxisFile& axis = machine.axes[a];
+    ErrorTable table;
+    table.q0 = axis.lo;
+    table.knots = axis.targets;
+    table.pitch = (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
+    for (std::size_t i = 0; i < table.knots; ++i)
+      table.forward.at(i) = table.backward.at(i) = errors.at(a);
+    tables.push_back(table);
+  }
+  return tables_of_errors(machine, tables, knots);
 }
 
 std::unique_ptr<BuiltTables> build_tables(const MachineFile& machine,

@@ -76,7 +76,13 @@ struct BuiltTables {
 // convention, both directions, place of rotary axes and slopes of straightness in them. Squareness
 // of the machine file does not count. Throws UserError.
 [[nodiscard]] std::unique_ptr<BuiltTables> tables_of_errors(const MachineFile& machine,
-                                                            const std::vector<ErrorTable>& errors);
+                                                            const std::vector<ErrorTable>& errors,
+                                                            std::size_t knots = kDefaultKnots);
+
+// Tables of errors that are the same everywhere, by NC axis, internal convention, mm and rad.
+[[nodiscard]] std::unique_ptr<BuiltTables> constant_tables(const MachineFile& machine,
+                                                           const ErrorSet& errors,
+                                                           std::size_t knots = kDefaultKnots);
 
 [[nodiscard]] std::vector<std::uint8_t> make_image(const MachineTables& tables);
 

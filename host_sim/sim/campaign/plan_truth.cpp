@@ -15,7 +15,8 @@ class Draws {
       : floor_(floor), stream_(stream), setup_(setup) {}
 
   double next(double sigma) {
-    return sigma * normal(floor_.seed, {static_cast<std::uint32_t>(stream_), 0, setup_, number_++});
+    return sigma * normal(floor_.seed,
+                          {static_cast<std::uint32_t>(stream_), floor_.draw, setup_, number_++});
   }
   Vec3 next3(double sigma) {
     Vec3 v;
@@ -82,6 +83,9 @@ TrueSetUp draw_setup(const identify::SetUp& s, const TrueMachine& machine, const
   if (s.pose) t.pose = {identify::exponential(turn) * s.pose->R, s.pose->t + way};
   const Vec3 aside = draws.next3(floor.station_mm);
   if (s.station) t.station = *s.station + aside;
+  if (s.station && s.station_prior)
+    t.station =
+        *s.station + (floor.perfect ? 0.0 : stated(s.station_prior) / floor.station_mm) * aside;
   // A bar sees nothing of its socket along the normal of the circle, and little else is free.
   constexpr double kSocket = 0.02;
   if (s.kind == identify::ObservationKind::bar)

@@ -18,13 +18,14 @@ struct ShopFloor {
   double stylus_mm = 0.02;      // of each coordinate of a tip, after a tool setter
   double pose_mm = 0.3;         // of a placement against the plan
   double pose_rad = 1e-3;       // likewise
-  double station_mm = 1.0;      // of a tracer, a socket or a ball
+  double station_mm = 1.0;      // of a tracer whose place is not known, a socket or a ball
   double dead_length_mm = 5.0;  // of whatever counts from an unknown zero
   double mirror_rad = 1e-4;     // tilt of a mirror
   double drift_mm = 0.2e-3;     // of a tracer in an hour, as a walk
   double dwell_s = 5.0;         // from one of its readings to the next
 
   std::uint64_t seed = 1;
+  std::uint32_t draw = 0;  // one of several with that seed
 };
 
 struct TrueSetUp {

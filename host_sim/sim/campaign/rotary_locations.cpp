@@ -11,38 +11,15 @@
 #include "host_sim/host/measure/identify/planned_places.hpp"
 #include "host_sim/host/measure/identify/rank.hpp"
 #include "host_sim/sim/campaign/simulated_readings.hpp"
+#include "host_sim/sim/campaign/tracer_stations.hpp"
 
 namespace volcomp::sim {
 namespace {
 
 namespace identify = host::identify;
 
-// A tracking interferometer and what a machine of this class repeats, 1 sigma; figures of makers,
-// from memory.
-constexpr double kReading_mm = 0.1e-3;
-constexpr double kRepeatability_mm = 0.7e-3;
-constexpr double kWavelength = 0.15e-6;
-constexpr std::size_t kPlaces = 60;  // a station
-
-// Four corners of a cube about all places of the tool, no three of them in a plane with the fourth.
-std::vector<Vec3> stations_about(const identify::Machine& machine) {
-  constexpr std::size_t kSamples = 200;
-  constexpr double kBeyond = 1.5;  // of the farthest place
-  const Vec3 tool = machine.chain.tool_point();
-  std::vector<Vec3> at;
-  for (const Pose& q : identify::places_of(machine, kSamples))
-    at.push_back(identify::ideal_geometry(machine.chain, q).in_work(tool));
-  Vec3 centre = Vec3::Zero();
-  for (const Vec3& p : at)
-    centre += p / static_cast<double>(kSamples);
-  double farthest = 0.0;
-  for (const Vec3& p : at)
-    farthest = std::max(farthest, (p - centre).norm());
-  std::vector<Vec3> stations;
-  for (const Vec3& corner : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
-    stations.emplace_back(centre + kBeyond * farthest / std::sqrt(3.0) * corner);
-  return stations;
-}
+constexpr double kRepeatability_mm = 0.7e-3;  // of a machine of this class, 1 sigma, from memory
+constexpr std::size_t kPlaces = 60;           // a station
 
 // Errors that the tables hold, as an instrument finds them; the directions of the axes as errors of
 // their carriages.
@@ -64,11 +41,7 @@ identify::MeasurementPlan plan_of(const host::MachineFile& file, const Volumetri
   identify::MeasurementPlan plan;
   plan.path = file.path;
   plan.machine = file;
-  plan.problem.machine.chain = file.chain;
-  for (std::size_t a = 0; a < file.axes.size(); ++a) {
-    const host::AxisFile& axis = file.axes[a];
-    plan.problem.machine.travel.at(a) = {axis.lo, axis.hi, axis.reference, axis.full_turn()};
-  }
+  plan.problem.machine = machine_of(file);
   identify::ask_for_locations(plan.problem);
   for (const Vec3& station : stations_about(plan.problem.machine)) {
     identify::SetUp s;
@@ -79,7 +52,7 @@ identify::MeasurementPlan plan_of(const host::MachineFile& file, const Volumetri
     identify::PlaceChoice choice;
     choice.count = kPlaces;
     identify::add_planned_places(plan, choice, s);
-    s.sigma.assign(s.q.size(), std::hypot(kReading_mm, kRepeatability_mm));
+    s.sigma.assign(s.q.size(), std::hypot(kTracer_mm, kRepeatability_mm));
     for (std::size_t i = 0; i < s.q.size(); ++i)
       s.known.push_back(errors_known(known, s.q[i], s.d[i]));
     plan.problem.setups.push_back(std::move(s));

@@ -21,7 +21,7 @@ using namespace host::identify;
 double noise(const PlanTruth& truth, RandomStream stream, std::size_t setup, std::uint32_t reading,
              double sigma) {
   if (truth.floor.perfect) return 0.0;
-  return sigma * normal(truth.floor.seed, {static_cast<std::uint32_t>(stream), 0,
+  return sigma * normal(truth.floor.seed, {static_cast<std::uint32_t>(stream), truth.floor.draw,
                                            static_cast<std::uint32_t>(setup), reading});
 }
 

@@ -200,15 +200,20 @@ void Equations::visit_weak(const Estimate& e, const VisitKnown& visit) const {
 
 void Equations::visit_known(const Estimate& e, const KnownBefore& which,
                             const VisitKnown& visit) const {
-  if (which.styli) visit_styli(e, visit);
+  if (which.places) visit_styli(e, visit);
   visit_artefacts(e, visit);
   for (std::size_t k = 0; k < problem_.setups.size(); ++k) {
     const SetUp& s = problem_.setups[k];
-    const auto about_zero = [&](Index at, double sigma) {
+    const auto about = [&](double value, Index at, double sigma) {
       VectorXd row = VectorXd::Zero(unknowns_.size());
       row(at) = 1.0 / sigma;
-      visit(row, -e.x(at) / sigma);
+      visit(row, (value - e.x(at)) / sigma);
     };
+    const auto about_zero = [&](Index at, double sigma) { about(0.0, at, sigma); };
+    if (which.places && s.kind == ObservationKind::tracer && s.station_prior &&
+        std::isfinite(*s.station_prior))
+      for (Index c = 0; c < 3; ++c)
+        about((*s.station)(c), unknowns_.local(k) + c, *s.station_prior);
     if (s.scale && std::isfinite(*s.scale)) about_zero(*unknowns_.setup_scale(k), *s.scale);
     if (s.kind == ObservationKind::bar && s.length_prior && std::isfinite(*s.length_prior))
       about_zero(unknowns_.local(k) + 2, *s.length_prior);

@@ -24,8 +24,8 @@ struct ReadingPlace {
 
 // What is known beforehand and counts.
 struct KnownBefore {
-  bool styli = true;  // places and radii of styli
-  bool weak = false;  // so much of everything that every part of a plan can be solved
+  bool places = true;  // places and radii of styli, places of stations
+  bool weak = false;   // so much of everything that every part of a plan can be solved
 };
 
 class Equations {

@@ -68,11 +68,14 @@ std::vector<Residual> residuals_of(const Equations& equations, const Estimate& e
   return out;
 }
 
-std::unique_ptr<BuiltTables> tables_of(const MeasurementPlan& plan, const Unknowns& unknowns,
-                                       const VectorXd& x) {
+}  // namespace
+
+std::unique_ptr<BuiltTables> tables_of_estimate(const MachineFile& machine,
+                                                const Unknowns& unknowns, const VectorXd& x,
+                                                std::size_t knots) {
   std::vector<ErrorTable> tables;
-  for (std::size_t a = 0; a < plan.machine.axes.size(); ++a) {
-    const AxisFile& axis = plan.machine.axes[a];
+  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    const AxisFile& axis = machine.axes[a];
     ErrorTable table;
     table.q0 = axis.lo;
     table.knots = axis.targets;
@@ -83,10 +86,8 @@ std::unique_ptr<BuiltTables> tables_of(const MeasurementPlan& plan, const Unknow
     }
     tables.push_back(table);
   }
-  return tables_of_errors(plan.machine, tables);
+  return tables_of_errors(machine, tables, knots);
 }
-
-}  // namespace
 
 Identified identify(const MeasurementPlan& plan, const IdentifySettings& settings,
                     const Progress& progress) {
@@ -129,7 +130,7 @@ Identified identify(const MeasurementPlan& plan, const IdentifySettings& setting
   out.visited = visited_of(problem);
   out.unknowns = unknowns.size();
   out.rows = solution.triangle.rows();
-  out.tables = tables_of(plan, unknowns, solution.estimate.x);
+  out.tables = tables_of_estimate(plan.machine, unknowns, solution.estimate.x);
   progress(1.0, "done");
   return out;
 }

@@ -69,4 +69,10 @@ struct IdentifySettings {
 [[nodiscard]] Identified identify(const MeasurementPlan& plan, const IdentifySettings& settings,
                                   const Progress& progress);
 
+// Errors of an estimate at the targets of the machine file, as tables.
+[[nodiscard]] std::unique_ptr<BuiltTables> tables_of_estimate(const MachineFile& machine,
+                                                              const Unknowns& unknowns,
+                                                              const VectorXd& x,
+                                                              std::size_t knots = kDefaultKnots);
+
 }  // namespace volcomp::host::identify

@@ -43,8 +43,9 @@ class SetUpReader {
   void read_fields() {
     switch (setup_.kind) {
       case Kind::tracer:
-        allow({"u_um", "station_mm", "frame", "tips", "places"});
+        allow({"u_um", "station_mm", "station_u_um", "frame", "tips", "places"});
         setup_.station = vector_of(s_, "station_mm");
+        if (s_.has("station_u_um")) setup_.station_prior = kMmPerUm * positive(s_, "station_u_um");
         setup_.in_bed = s_.has("frame") && s_.choice("frame", {"work", "bed"}) == 1;
         break;
       case Kind::bar:

@@ -124,6 +124,7 @@ struct SetUp {
   Prior scale;                      // of its lengths
   std::vector<std::size_t> stylus;  // one an observation; empty: the reference
   std::optional<Vec3> station;      // tracer, bar: socket
+  Prior station_prior;              // tracer: of each coordinate of its station; none: free
   bool in_bed = false;              // tracer: station on the bed, else on the work
   double length = 0.0;              // bar
   Prior length_prior;               // bar

@@ -127,7 +127,7 @@ PlanRank rank_of(const Problem& problem) {
   const Equations equations(consistent, false);
   const Unknowns& unknowns = equations.unknowns();
   KnownBefore known;
-  known.styli = false;
+  known.places = false;
   const Triangle triangle = triangle_at(equations, equations.start(), known);
   PlanRank out;
   out.unknowns = static_cast<std::size_t>(unknowns.size());

@@ -24,8 +24,8 @@ struct PlanRank {
   double least = 0.0;                              // singular value over the largest one
 };
 
-// Without gauge rows and without what is known of styli, on consistent ideal geometry: a misfit of
-// 30 µm would lift the gauge and hide it.
+// Without gauge rows and without what is known of styli and stations, on consistent ideal geometry:
+// a misfit of 30 µm would lift the gauge and hide it.
 [[nodiscard]] PlanRank rank_of(const Problem& problem);
 
 // Least singular value over the largest, with gauge and everything known.

@@ -8,6 +8,7 @@
 #include "comp/core/units.hpp"
 #include "host_sim/host/io/version.hpp"
 #include "host_sim/host/measure/whole_way/whole_way_charts.hpp"
+#include "host_sim/host/report/charts.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 
 namespace volcomp::host {

@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 #include "comp/core/units.hpp"
-#include "comp/metrology/fits/axis_identification.hpp"
 #include "comp/metrology/fits/effective_radius.hpp"
 #include "comp/metrology/gears/gear_deviations.hpp"
 #include "comp/metrology/gears/involute_gear.hpp"
 #include "comp/metrology/gears/pitch.hpp"
 #include "tests/not_numbers.hpp"
+#include "tests/oracle/axis_identification.hpp"
 #include "tests/oracle/l300g_machine.hpp"
 #include "tests/oracle/paper_gear.hpp"
 

@@ -7,12 +7,12 @@
 
 #include "comp/metrology/faces/face_angle.hpp"
 #include "comp/metrology/faces/face_frame.hpp"
-#include "comp/metrology/fits/axis_identification.hpp"
 #include "comp/metrology/fits/circle_fit.hpp"
 #include "comp/metrology/fits/lobing_fit.hpp"
 #include "comp/metrology/fits/printed_procedure.hpp"
 #include "comp/metrology/fits/sphere_fit.hpp"
 #include "tests/not_numbers.hpp"
+#include "tests/oracle/axis_identification.hpp"
 #include "tests/oracle/face_gears.hpp"
 #include "tests/oracle/stylus.hpp"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include "comp/metrology/fits/rigid_fit.hpp"
+#include "tests/oracle/rigid_fit.hpp"
 
 namespace volcomp::test {
 namespace {

@@ -9,6 +9,7 @@
 #include "comp/core/units.hpp"
 #include "comp/metrology/statistics/random_stream.hpp"
 #include "host_sim/experiments/face_gear/scenario.hpp"
+#include "host_sim/experiments/face_gear/traced_table.hpp"
 
 namespace volcomp::face_gear {
 namespace {
@@ -132,14 +133,32 @@ TEST(FaceScatter, TakesTheNumberOfItsTouch) {
     EXPECT_DOUBLE_EQ(touch(k), 1e-3 * normal(5, {1, 0, 7, k}));
 }
 
-TEST(FaceTargets, AreFoundByTheProbeInManyTouchesOrByATracker) {
-  FaceGearOptions options;
-  options.targets.touches = 16;
-  EXPECT_DOUBLE_EQ(target_sigma_mm(options), 0.0);
-  options.probe = 2;
-  EXPECT_NEAR(target_sigma_mm(options), scatter_of(options).sigma_mm() / 4.0, 1e-12);
-  options.targets.tracker_um = 2.0;
-  EXPECT_DOUBLE_EQ(target_sigma_mm(options), 2e-3);
+TEST(FaceIdentification, ThePlanSeesEverything) {
+  EXPECT_EQ(sim::refusal_of(yk7280(), traced_plan(0.0)), std::vector<std::string>{});
+}
+
+// Without noise what splines leave of waves of 1.5 to 3 µm and three to the turn.
+TEST(FaceIdentification, FindsTheMachineWithoutNoise) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const sim::TracedErrors found =
+        sim::trace_errors(make_yk7280_truth(yk7280(), seed), yk7280(), traced_plan(0.0), {true});
+    EXPECT_LT(found.largest_mm, 0.05e-3) << seed;
+    EXPECT_LT(found.largest_rad, 1e-6) << seed;
+  }
+}
+
+// With tracer, stations and the steps of the scales.
+TEST(FaceIdentification, ScattersAsItPredicts) {
+  constexpr std::uint32_t kDraws = 10;
+  double ratio = 0.0;
+  for (std::uint32_t draw = 0; draw < kDraws; ++draw) {
+    const sim::TracedErrors found =
+        sim::trace_errors(make_yk7280_truth(yk7280(), 1), yk7280(), traced_plan(kSlideStep_mm),
+                          {false, 0.1e-3, 5, draw});
+    EXPECT_NEAR(found.chi2_over_dof, 1.0, 0.2) << draw;
+    ratio += std::pow(found.rms_mm / found.u_rms_mm, 2.0) / kDraws;
+  }
+  EXPECT_NEAR(std::sqrt(ratio), 1.0, 0.3);
 }
 
 TEST(FacePlan, TouchesEveryCellOfAMapAndEveryFlankOnce) {

@@ -129,5 +129,37 @@ TEST(Identification, ABallWithAWrongNumberIsFound) {
   }
 }
 
+// Three rows about where the plan has the station, which a test of what readings see leaves out.
+TEST(Identification, AStationWhosePlaceIsKnownIsKnownBeforehand) {
+  VectorXd truth;
+  Problem problem = touched_plan(1, truth).problem;
+  problem.setups.clear();
+  host::identify::SetUp s;
+  s.name = "station";
+  s.station = Vec3(-300.0, -100.0, 200.0);
+  s.station_prior = 2e-3;
+  s.q = {Pose{}};
+  s.d = {Directions{}};
+  s.sigma = {1e-4};
+  problem.setups.push_back(s);
+  const Equations equations(problem, true);
+  Estimate e = equations.start();
+  const Index station = equations.unknowns().local(0);
+  e.x(station + 1) += 1e-3;
+  const auto rows_of_station = [&](bool places) {
+    std::vector<double> residuals;
+    KnownBefore known;
+    known.places = places;
+    equations.visit_known(e, known, [&](const VectorXd& row, double residual) {
+      if (row.segment<3>(station).norm() > 0.0) residuals.push_back(residual);
+    });
+    return residuals;
+  };
+  EXPECT_THAT(rows_of_station(true),
+              testing::ElementsAre(testing::DoubleNear(0.0, 1e-12), testing::DoubleNear(-0.5, 1e-9),
+                                   testing::DoubleNear(0.0, 1e-12)));
+  EXPECT_TRUE(rows_of_station(false).empty());
+}
+
 }  // namespace
 }  // namespace volcomp::test

@@ -4,7 +4,7 @@
 // pose, where they are an erroneous, already identified parent.
 
 #include "comp/machine/machine_chain.hpp"
-#include "comp/metrology/fits/rigid_fit.hpp"
+#include "tests/oracle/rigid_fit.hpp"
 
 namespace volcomp {
 

@@ -1,4 +1,4 @@
-#include "comp/metrology/fits/axis_identification.hpp"
+#include "tests/oracle/axis_identification.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "comp/metrology/fits/rigid_fit.hpp"
+#include "tests/oracle/rigid_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
