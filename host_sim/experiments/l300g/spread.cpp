@@ -1,32 +1,15 @@
 #include "host_sim/experiments/l300g/spread.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "host_sim/experiments/l300g/machine_errors.hpp"
-#include "host_sim/host/io/version.hpp"
-#include "host_sim/host/report/charts.hpp"
-#include "host_sim/host/report/provenance.hpp"
-#include "host_sim/host/report/range_of_draws.hpp"
-#include "host_sim/host/report/text_of.hpp"
 
 namespace volcomp::l300g {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kWantedShare = 0.95;
-
-bool same_grades(const GearInspection& a, const GearInspection& b) {
-  for (std::size_t side = 0; side < kSides.size(); ++side) {
-    if (a.profile[side].grade_1995 != b.profile[side].grade_1995 ||
-        a.lead[side].grade_1995 != b.lead[side].grade_1995)
-      return false;
-  }
-  return true;
-}
 
 bool worse(const std::optional<int>& a, const std::optional<int>& b) {
   return a.value_or(99) > b.value_or(99);
@@ -38,23 +21,20 @@ MeasuredOnce figures_of(const L300gResult& r) {
     m.profile[side] = r.after.profile[side].figures.total;
     m.lead[side] = r.after.lead[side].figures.total;
     m.pitch[side] = r.after.pitch[side].figures.total;
+    m.own_profile[side] = r.after.profile[side].grade_1995 == r.truth.profile[side].grade_1995;
+    m.own_lead[side] = r.after.lead[side].grade_1995 == r.truth.lead[side].grade_1995;
     m.before_worse = m.before_worse ||
                      worse(r.before.profile[side].grade_1995, r.truth.profile[side].grade_1995) ||
                      worse(r.before.lead[side].grade_1995, r.truth.lead[side].grade_1995);
   }
-  m.own_grades = same_grades(r.after, r.truth);
   m.profile_teeth = r.after.profile_teeth;
   m.lead_teeth = r.after.lead_teeth;
+  if (r.on_centre) {
+    const auto total = [](const host::FlankTrace& trace) { return trace.figures.total; };
+    m.on_centre = {total(r.on_centre->profile[0]), total(r.on_centre->profile[1]),
+                   total(r.on_centre->lead[0]), total(r.on_centre->lead[1])};
+  }
   return m;
-}
-
-std::string filter_text(const InspectionRules& rules) {
-  constexpr std::size_t kWanted = 150;
-  if (!rules.filter) return "no filter";
-  return fmt::format(
-      "Gaussian filter of ISO 1328-1:2013, a thirtieth of the range and at least 0.25 mm{}",
-      rules.traces.points < kWanted ? fmt::format(" (that edition asks for {} points)", kWanted)
-                                    : "");
 }
 
 json teeth_of(const std::array<SeveralTeeth, 2>& teeth) {
@@ -73,79 +53,25 @@ json measured_json(const MeasuredOnce& m) {
           {"lead_um", m.lead},
           {"pitch_um", m.pitch},
           {"before_worse", m.before_worse},
-          {"own_grades", m.own_grades},
+          {"own_profile", m.own_profile},
+          {"own_lead", m.own_lead},
+          {"on_centre_um", m.on_centre ? json(*m.on_centre) : json()},
           {"profile_teeth", teeth_of(m.profile_teeth)},
           {"lead_teeth", teeth_of(m.lead_teeth)}};
 }
 
 MeasuredOnce measured_from(const json& m) {
+  const json& centre = m.at("on_centre_um");
   return {host::numbers_of<2>(m.at("profile_um"), "profile_um"),
           host::numbers_of<2>(m.at("lead_um"), "lead_um"),
           host::numbers_of<2>(m.at("pitch_um"), "pitch_um"),
           m.at("before_worse").get<bool>(),
-          m.at("own_grades").get<bool>(),
+          m.at("own_profile").get<std::array<bool, 2>>(),
+          m.at("own_lead").get<std::array<bool, 2>>(),
           teeth_from(m.at("profile_teeth")),
-          teeth_from(m.at("lead_teeth"))};
-}
-
-// One row a deviation and flank.
-json table(const SpreadResult& r) {
-  json rows = json::array();
-  const std::size_t teeth = r.options.rules.traces.teeth;
-  const auto add = [&](const std::string& what, std::size_t side, double own, auto value) {
-    std::vector<double> values;
-    for (const MeasuredOnce& m : r.measurement)
-      values.push_back(value(m));
-    const host::RangeOfDraws range = host::range_of_draws(values);
-    rows.push_back({what, kSideNames.at(side), own, range.median, range.least, range.most});
-  };
-  // Of several teeth the worst, the mean of their figures, and the figure of their mean trace.
-  const auto add_trace = [&](const std::string& what, std::size_t side, double own, auto worst,
-                             auto several) {
-    const auto mean = [&](const MeasuredOnce& m) { return (m.*several)[side].mean; };
-    const auto of_mean = [&](const MeasuredOnce& m) { return (m.*several)[side].of_mean_trace; };
-    add(teeth > 1 ? fmt::format("{}, worst of {} teeth", what, teeth) : what, side, own,
-        [&](const MeasuredOnce& m) { return (m.*worst)[side]; });
-    if (teeth == 1) return;
-    add(what + ", mean of them", side, own, mean);
-    add(what + " of the mean trace", side, own, of_mean);
-  };
-  for (std::size_t side = 0; side < kSides.size(); ++side) {
-    add_trace("F_alpha", side, r.truth.profile[side].figures.total, &MeasuredOnce::profile,
-              &MeasuredOnce::profile_teeth);
-    add_trace("F_beta", side, r.truth.lead[side].figures.total, &MeasuredOnce::lead,
-              &MeasuredOnce::lead_teeth);
-    add("F_p", side, r.truth.pitch[side].figures.total,
-        [side](const MeasuredOnce& m) { return m.pitch[side]; });
-  }
-  json made = host::table_section(
-      fmt::format("{} measurements of the gear, compensated", r.measurement.size()),
-      {host::plain_column("figure", "figure"), host::plain_column("flank", "flank"),
-       host::column("of the gear", "µm", 2, "own_um"), host::column("median", "µm", 2, "median_um"),
-       host::column("least", "µm", 2, "least_um"), host::column("most", "µm", 2, "most_um")},
-      rows);
-  made["name"] = "spread";
-  return host::in_summary(
-      host::with_id("spread", std::move(made),
-                    fmt::format("Probe {}: {}; radius {}; {} touch{} of a point, {} points within "
-                                "a range, {}. Readings of the tracer that "
-                                "identifies the axes scatter by {:.2g} µm.",
-                                sim::kProbeClasses.at(r.options.probe).name,
-                                sim::probe_text(sim::kProbeClasses.at(r.options.probe)),
-                                r.options.map_radius ? "mapped on a sphere" : "that of the mandrel",
-                                r.options.rules.touches, r.options.rules.touches == 1 ? "" : "es",
-                                r.options.rules.traces.points, filter_text(r.options.rules),
-                                r.options.tracer_um)));
-}
-
-json histogram(const SpreadResult& r) {
-  std::vector<double> values;
-  for (const MeasuredOnce& m : r.measurement)
-    values.insert(values.end(), m.profile.begin(), m.profile.end());
-  return host::with_id("histogram", {{"type", "histogram"},
-                                     {"title", "Total profile deviation F_alpha, both flanks"},
-                                     {"x", host::axis_label("F_alpha", "µm")},
-                                     {"series", {{{"name", "measured"}, {"values", values}}}}});
+          teeth_from(m.at("lead_teeth")),
+          centre.is_null() ? std::optional<std::array<double, 4>>{}
+                           : host::numbers_of<4>(centre, "on_centre_um")};
 }
 
 // So that parts can be put together without its file.
@@ -197,7 +123,7 @@ std::size_t probe_named(const std::string& name) {
 
 double SpreadResult::share_of_own_grades() const {
   const auto own = std::count_if(measurement.begin(), measurement.end(),
-                                 [](const MeasuredOnce& m) { return m.own_grades; });
+                                 [](const MeasuredOnce& m) { return m.own_grades(); });
   return static_cast<double>(own) / static_cast<double>(measurement.size());
 }
 
@@ -240,55 +166,6 @@ SpreadResult collect_spread(const host::PartialRun& all) {
       {all.run.at("teeth").get<std::size_t>(), all.run.at("points").get<std::size_t>()}};
   r.measurement = host::results_of_draws(all, measured_from);
   return r;
-}
-
-host::Verdict spread_verdict(const SpreadResult& r) {
-  const double share = r.share_of_own_grades();
-  const bool good = share >= kWantedShare;
-  const auto worse_before = std::count_if(r.measurement.begin(), r.measurement.end(),
-                                          [](const MeasuredOnce& m) { return m.before_worse; });
-  return {
-      good,
-      fmt::format(
-          "the compensated machine gives the gear its own grades in {:.0f} % of {} "
-          "measurements, profile and lead ({:g} % wanted); uncompensated it gave a worse one in {}",
-          100.0 * share, r.measurement.size(), 100.0 * kWantedShare, worse_before)};
-}
-
-nlohmann::json spread_document(const SpreadResult& r, const host::RunContext& run) {
-  host::ReportParts parts;
-  parts.title = "L300G: the gear measured with a probe that scatters";
-  parts.subtitle =
-      "Simulated gear grinder after Yang et al.; every touch through drives, bus and node";
-  parts.verdict = spread_verdict(r);
-  parts.before_after = table(r);
-  parts.plots = json::array({histogram(r)});
-  host::Origins origins;
-  origins.settings = {
-      {"errors of the machine", r.options.errors},
-      {"seed", fmt::format("{}, draws 0 to {}", r.options.seed, r.measurement.size() - 1)}};
-  origins.inputs = r.inputs;
-  origins.instruments = {
-      fmt::format("touch probe of the class {}: scatter of each touch, on the "
-                  "mandrel and on the gear",
-                  sim::kProbeClasses.at(r.options.probe).name),
-      fmt::format("tracer of the identification: {:.2g} µm of a reading", r.options.tracer_um)};
-  origins.chosen = {"amounts and signs of the errors, such that they add up"};
-  parts.provenance = host::provenance(run, origins);
-  return host::report_document(std::move(parts));
-}
-
-std::string spread_summary(const SpreadResult& r) {
-  return host::terminal_text(spread_document(r, {}));
-}
-
-nlohmann::json spread_figures(const SpreadResult& r) {
-  json figures = r.settings;
-  figures.update({{"version", host::kVersion},
-                  {"measurements", r.measurement.size()},
-                  {"share_of_own_grades", r.share_of_own_grades()},
-                  {"spread", host::figures_of_table(table(r))}});
-  return figures;
 }
 
 }  // namespace volcomp::l300g

@@ -9,13 +9,20 @@ namespace volcomp::l300g {
 
 // One measurement after compensation, by kSides; µm.
 struct MeasuredOnce {
-  std::array<double, 2> profile{};  // F_α, of the worst tooth
-  std::array<double, 2> lead{};     // F_β, likewise
-  std::array<double, 2> pitch{};    // F_p
-  bool before_worse = false;        // a profile or lead had a worse grade uncompensated
-  bool own_grades = false;          // profile and lead have the grades of the gear
+  std::array<double, 2> profile{};    // F_α, of the worst tooth
+  std::array<double, 2> lead{};       // F_β, likewise
+  std::array<double, 2> pitch{};      // F_p
+  bool before_worse = false;          // a profile or lead had a worse grade uncompensated
+  std::array<bool, 2> own_profile{};  // whether F_α has the grade of the gear
+  std::array<bool, 2> own_lead{};     // likewise F_β
   std::array<SeveralTeeth, 2> profile_teeth{};
   std::array<SeveralTeeth, 2> lead_teeth{};
+  // By the measuring centre: F_α, then F_β; none: nothing scatters.
+  std::optional<std::array<double, 4>> on_centre;
+
+  [[nodiscard]] bool own_grades() const {
+    return own_profile[0] && own_profile[1] && own_lead[0] && own_lead[1];
+  }
 };
 
 struct SpreadResult {

@@ -1,5 +1,7 @@
 #include "host_sim/sim/campaign/plan_truth.hpp"
 
+#include <cmath>
+
 #include "comp/metrology/statistics/random_stream.hpp"
 #include "host_sim/host/measure/identify/chain_geometry.hpp"
 
@@ -103,6 +105,12 @@ TrueSetUp draw_setup(const identify::SetUp& s, const TrueMachine& machine, const
 }
 
 }  // namespace
+
+double tracer_drift_mm(const ShopFloor& floor, std::size_t places) {
+  constexpr double kHour_s = 3600.0;
+  const double hours = floor.dwell_s * static_cast<double>(places) / kHour_s;
+  return floor.drift_mm * std::sqrt(hours / 6.0);
+}
 
 PlanTruth draw_plan_truth(const identify::Problem& problem, const TrueMachine& machine,
                           const ShopFloor& floor) {

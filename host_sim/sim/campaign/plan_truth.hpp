@@ -28,6 +28,10 @@ struct ShopFloor {
   std::uint32_t draw = 0;  // one of several with that seed
 };
 
+// Root mean square of what a tracer drifts by during so many places of a station, about the mean,
+// which its unknown length takes; mm.
+[[nodiscard]] double tracer_drift_mm(const ShopFloor& floor, std::size_t places);
+
 struct TrueSetUp {
   TrueMachine machine;             // as warm as it is then
   host::identify::Placement pose;  // of the artefact

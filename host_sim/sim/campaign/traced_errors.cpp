@@ -66,6 +66,11 @@ void read_all(const TrueMachine& truth, const TracerScatter& scatter,
   const PlanTruth shop = draw_plan_truth(plan.problem, truth, floor);
   for (std::size_t k = 0; k < plan.problem.setups.size(); ++k)
     read_instrument(plan, shop, k, plan.problem.setups[k]);
+  if (scatter.perfect) return;
+  // The estimate knows of the drift, though not how it goes.
+  for (identify::SetUp& s : plan.problem.setups)
+    for (double& sigma : s.sigma)
+      sigma = std::hypot(sigma, tracer_drift_mm(floor, s.q.size()));
 }
 
 // Largest uncertainties at a few places of an axis, between them in a straight line.
