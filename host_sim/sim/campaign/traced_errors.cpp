@@ -20,7 +20,8 @@ namespace {
 namespace identify = host::identify;
 
 constexpr double kReflector_mm = 0.02;  // of each coordinate of a reflector, after a tool setter
-constexpr double kGrowth_K = 0.0;       // the machine keeps its temperature meanwhile
+constexpr double kGrowth_K = 0.1;       // of each linear axis at each station
+constexpr double kExpansion = 11.7e-6;  // steel, per K
 
 identify::MeasurementPlan plan_of(const host::MachineFile& file, const TracedPlan& traced,
                                   double reading_mm) {
@@ -48,6 +49,7 @@ identify::MeasurementPlan plan_of(const host::MachineFile& file, const TracedPla
     s.station = station;
     s.station_prior = traced.station_mm;
     s.scale = kWavelength;
+    s.growth = kExpansion * kGrowth_K;
     identify::add_planned_places(plan, choice, s);
     s.sigma.assign(s.q.size(), std::hypot(reading_mm, traced.repeatability_mm));
     problem.setups.push_back(std::move(s));

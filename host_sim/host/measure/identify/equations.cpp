@@ -11,6 +11,15 @@ Vec3 vector_at(const std::optional<Index>& at, const VectorXd& x) {
   return at ? Vec3(x.segment<3>(*at)) : Vec3(Vec3::Zero());
 }
 
+// Error of a slide that has grown by 1, body value: it goes farther than its scale says.
+double grown(const Problem& problem, std::size_t axis, double q) {
+  return problem.machine.chain.axis(axis).sign * q;
+}
+
+Index along(const Problem& problem, std::size_t axis) {
+  return static_cast<Index>(problem.machine.chain.axis(axis).axis);
+}
+
 }  // namespace
 
 Circumstances Equations::circumstances(std::size_t setup, std::size_t i, const Estimate& e) const {
@@ -21,6 +30,9 @@ Circumstances Equations::circumstances(std::size_t setup, std::size_t i, const E
   if (!s.known.empty())
     for (std::size_t a = 0; a < problem_.machine.chain.axis_count(); ++a)
       at.errors.at(a) += s.known[i].at(a);
+  for (std::size_t a = 0; a < problem_.machine.chain.axis_count(); ++a)
+    if (const auto growth = unknowns_.setup_growth(setup, a))
+      at.errors.at(a)(along(problem_, a)) += e.x(*growth) * grown(problem_, a, at.q.at(a));
   at.tip = problem_.machine.chain.tool_point();
   if (const auto stylus = problem_.stylus_of(s, i)) {
     at.tip = problem_.styli[*stylus].offset;
@@ -50,8 +62,11 @@ VectorXd Equations::row_of(std::size_t setup, std::size_t i, const Reading& read
                            const Circumstances& at) const {
   const SetUp& s = problem_.setups[setup];
   VectorXd row = VectorXd::Zero(unknowns_.size());
-  for (std::size_t a = 0; a < problem_.machine.chain.axis_count(); ++a)
+  for (std::size_t a = 0; a < problem_.machine.chain.axis_count(); ++a) {
     unknowns_.add_errors(a, at.q.at(a), s.d[i].at(a), reading.by_error.at(a), row);
+    if (const auto growth = unknowns_.setup_growth(setup, a))
+      row(*growth) += reading.by_error.at(a)(along(problem_, a)) * grown(problem_, a, at.q.at(a));
+  }
   row.segment(unknowns_.local(setup), reading.by_local.cols()) += reading.by_local.transpose();
   if (const auto scale = unknowns_.setup_scale(setup)) row(*scale) += reading.by_kappa;
   if (const auto stylus = problem_.stylus_of(s, i)) {
@@ -188,8 +203,11 @@ void Equations::visit_weak(const Estimate& e, const VisitKnown& visit) const {
   const auto mark = [&](const std::optional<Index>& at) {
     if (at) is_scale[static_cast<std::size_t>(*at)] = true;
   };
-  for (std::size_t k = 0; k < problem_.setups.size(); ++k)
+  for (std::size_t k = 0; k < problem_.setups.size(); ++k) {
     mark(unknowns_.setup_scale(k));
+    for (std::size_t a = 0; a < kMaxAxes; ++a)
+      mark(unknowns_.setup_growth(k, a));
+  }
   for (std::size_t k = 0; k < problem_.artefacts.size(); ++k)
     mark(unknowns_.artefact_scale(k));
   for (Index i = unknowns_.of_machine(); i < unknowns_.size(); ++i) {
@@ -215,6 +233,9 @@ void Equations::visit_known(const Estimate& e, const KnownBefore& which,
       for (Index c = 0; c < 3; ++c)
         about((*s.station)(c), unknowns_.local(k) + c, *s.station_prior);
     if (s.scale && std::isfinite(*s.scale)) about_zero(*unknowns_.setup_scale(k), *s.scale);
+    for (std::size_t a = 0; a < kMaxAxes; ++a)
+      if (const auto growth = unknowns_.setup_growth(k, a); growth && std::isfinite(*s.growth))
+        about_zero(*growth, *s.growth);
     if (s.kind == ObservationKind::bar && s.length_prior && std::isfinite(*s.length_prior))
       about_zero(unknowns_.local(k) + 2, *s.length_prior);
   }

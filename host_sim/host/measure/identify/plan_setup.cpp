@@ -23,9 +23,11 @@ class SetUpReader {
     setup_.name = name_of(s_, "name");
     setup_.kind =
         static_cast<ObservationKind>(s_.choice("kind", {kKindNames.begin(), kKindNames.end()}));
-    if (s_.has("scale_ppm") && setup_.kind == Kind::runs)
-      s_.complain("scale_ppm", "'scale_ppm' is not for runs: state it with u_um");
+    for (const char* key : {"scale_ppm", "growth_ppm"})
+      if (s_.has(key) && setup_.kind == Kind::runs)
+        s_.complain(key, fmt::format("'{}' is not for runs: state it with u_um", key));
     if (s_.has("scale_ppm")) setup_.scale = prior_of(s_, "scale_ppm", kPpm);
+    if (s_.has("growth_ppm")) setup_.growth = prior_of(s_, "growth_ppm", kPpm);
     read_fields();
     read_readings(plan_, files, s_, setup_);
     problem_.setups.push_back(std::move(setup_));
@@ -35,7 +37,8 @@ class SetUpReader {
   using Kind = ObservationKind;
 
   void allow(std::vector<std::string> own) {
-    const std::vector<std::string> all{"name", "kind", "file", "scale_ppm", "machine_um"};
+    const std::vector<std::string> all{"name",      "kind",       "file",
+                                       "scale_ppm", "growth_ppm", "machine_um"};
     own.insert(own.end(), all.begin(), all.end());
     s_.allow_only(own);
   }

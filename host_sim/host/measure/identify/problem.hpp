@@ -122,6 +122,7 @@ struct SetUp {
   std::vector<double> y;            // by observation, then component; a plan has none
   std::vector<double> sigma;        // as y
   Prior scale;                      // of its lengths
+  Prior growth;                     // of each linear axis meanwhile, relative; not runs
   std::vector<std::size_t> stylus;  // one an observation; empty: the reference
   std::optional<Vec3> station;      // tracer, bar: socket
   Prior station_prior;              // tracer: of each coordinate of its station; none: free

@@ -204,6 +204,12 @@ void Unknowns::count_setups() {
     const Index at = size_;
     setup_scale_.push_back(s.scale ? std::optional<Index>{at} : std::nullopt);
     if (s.scale) take(1, true);
+    auto& growth = setup_growth_.emplace_back();
+    for (std::size_t a = 0; s.growth && a < problem_.machine.chain.axis_count(); ++a) {
+      if (!problem_.is_slide(a)) continue;
+      growth.at(a) = size_;
+      take(1, true);
+    }
   }
 }
 

@@ -53,6 +53,10 @@ class Unknowns {
   [[nodiscard]] std::optional<Index> setup_scale(std::size_t setup) const {
     return setup_scale_[setup];
   }
+  // How much a linear axis has grown at that set-up, relative.
+  [[nodiscard]] std::optional<Index> setup_growth(std::size_t setup, std::size_t axis) const {
+    return setup_growth_[setup].at(axis);
+  }
   // Whether a step of an unknown is an angle, of which 300 mm count.
   [[nodiscard]] bool is_angle(Index i) const { return angle_[static_cast<std::size_t>(i)]; }
 
@@ -102,6 +106,7 @@ class Unknowns {
   std::size_t coefficients_ = 0;
   std::vector<std::vector<Term>> coefficient_;  // each in terms of the unknowns
   std::vector<std::optional<Index>> stylus_, radius_, spheres_, scale_, setup_scale_;
+  std::vector<std::array<std::optional<Index>, kMaxAxes>> setup_growth_;
   std::vector<Index> local_;
   std::vector<bool> angle_;
   std::vector<Quantity> quantities_;

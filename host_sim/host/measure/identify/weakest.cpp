@@ -142,6 +142,9 @@ std::vector<std::string> unknown_names(const Unknowns& unknowns) {
     for (std::size_t i = 0; i < local.size(); ++i)
       put(unknowns.local(k), i, fmt::format("{}: {}", s.name, local[i]));
     put(unknowns.setup_scale(k), 0, fmt::format("{}: scale", s.name));
+    for (std::size_t a = 0; a < problem.machine.chain.axis_count(); ++a)
+      put(unknowns.setup_growth(k, a), 0,
+          fmt::format("{}: growth of {}", s.name, problem.machine.name_of(a)));
   }
   return names;
 }

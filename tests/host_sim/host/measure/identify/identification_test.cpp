@@ -161,5 +161,39 @@ TEST(Identification, AStationWhosePlaceIsKnownIsKnownBeforehand) {
   EXPECT_TRUE(rows_of_station(false).empty());
 }
 
+// The table goes by −X in the base: a beam along X reads a way of 100 mm by 100 mm · 3e-6 longer
+// where X has grown by 3e-6, and nothing of the growth of Y and Z.
+TEST(Identification, AGrownAxisReadsLongerByItsWay) {
+  Problem problem = empty_plan().problem;
+  host::identify::SetUp s;
+  s.name = "beam";
+  s.kind = ObservationKind::diagonal;
+  s.along = Vec3::UnitX();
+  s.growth = 1e-6;
+  s.q = {Pose{}, Pose{-100.0}};
+  s.d = {Directions{}, Directions{}};
+  s.sigma = {1.0, 1.0};
+  problem.setups.push_back(s);
+  const Equations equations(problem, true);
+  const Unknowns& unknowns = equations.unknowns();
+  const Index x = unknowns.setup_growth(0, 0).value();
+  Estimate e = equations.start();
+  const auto read = [&] {
+    std::vector<double> residual;
+    std::vector<double> slope;
+    equations.visit_readings(e, [&](const ReadingPlace&, const VectorXd& row, double r) {
+      residual.push_back(r);
+      slope.push_back(row(x));
+      EXPECT_EQ(row(unknowns.setup_growth(0, 1).value()), 0.0);
+      EXPECT_EQ(row(unknowns.setup_growth(0, 2).value()), 0.0);
+    });
+    return std::array<double, 2>{residual[0] - residual[1], slope[1] - slope[0]};
+  };
+  const auto [as_cold, slope] = read();
+  EXPECT_NEAR(std::abs(slope), 100.0, 1e-6);
+  e.x(x) = 3e-6;
+  EXPECT_NEAR(read()[0] - as_cold, slope * 3e-6, 1e-9);
+}
+
 }  // namespace
 }  // namespace volcomp::test
