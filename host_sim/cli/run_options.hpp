@@ -69,6 +69,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Choice& value,
   // As CLI::IsMember describes itself.
   return app.add_option(name, value, what)
       ->transform(CLI::Transformer(words, CLI::ignore_case).description("{" + list + "}"))
+      ->type_name("ENUM")  // also where two words stand for yes and no
       ->default_str(usual);
 }
 

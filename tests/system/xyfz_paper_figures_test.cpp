@@ -85,7 +85,7 @@ TEST_F(XyfzPaperFigures, WithNoiseTheyAgreeAsInTheReference) {
 // The raw figures are tuned to the paper's, the prediction of the closed model is not.
 TEST_F(XyfzPaperFigures, PredictsThePapersDiagonal) {
   const host::TemporaryFolder folder;
-  xyfz::MeasuredCampaign measured = xyfz::noise_free_campaign(*bench, folder.path());
+  xyfz::CheckedCampaign measured = xyfz::noise_free_campaign(*bench, folder.path());
   const xyfz::Prediction p = xyfz::predict_pnp(*bench, measured);
   EXPECT_NEAR(p.measured_max_um(), 41.15, 0.01);
   EXPECT_NEAR(p.left_um(0), 16.37, 0.02);

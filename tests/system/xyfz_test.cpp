@@ -68,7 +68,7 @@ TEST(Xyfz, ClosedModelKeepsThePapersRateAlongLines) {
   const host::TemporaryFolder folder;
   std::vector<xyfz::DrawResult> draws(kDraws);
   host::in_parallel(kDraws, options.threads, [&](std::size_t i) {
-    xyfz::MeasuredCampaign measured =
+    xyfz::CheckedCampaign measured =
         xyfz::noisy_campaign(bench, folder.path() / std::to_string(i), i);
     draws[i] = xyfz::compensate(bench, measured).pnp;
   });

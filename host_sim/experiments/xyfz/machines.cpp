@@ -63,7 +63,7 @@ void measure_noise_free(const std::vector<std::unique_ptr<Bench>>& benches,
   host::SharedProgress shared(progress, benches.size(), kTuned, kNoiseFree);
   host::in_parallel(benches.size(), result.options.threads, [&](std::size_t m) {
     const host::TemporaryFolder folder;
-    MeasuredCampaign measured = noise_free_campaign(*benches[m], folder.path());
+    CheckedCampaign measured = noise_free_campaign(*benches[m], folder.path());
     result.machine[m].noise_free = compensate(*benches[m], measured).pnp;
     result.machine[m].functionals = circles_less_lines(benches[m]->truth, benches[m]->machine);
     shared.show(m, 1.0, fmt::format("machine {} without noise", result.machine[m].seed));
@@ -79,7 +79,7 @@ void measure_with_noise(const std::vector<std::unique_ptr<Bench>>& benches,
   host::in_parallel(own.size(), options.threads, [&](std::size_t i) {
     const std::size_t machine = own[i] / options.draws;
     const host::TemporaryFolder folder;
-    MeasuredCampaign measured = noisy_campaign(*benches[machine], folder.path(), own[i]);
+    CheckedCampaign measured = noisy_campaign(*benches[machine], folder.path(), own[i]);
     draws[i] = compensate(*benches[machine], measured).pnp;
     shared.show(i, 1.0,
                 fmt::format("campaign {} of {} on machine {}", own[i] % options.draws + 1,

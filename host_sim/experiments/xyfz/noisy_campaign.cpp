@@ -22,13 +22,13 @@ sim::Campaign through_files(const sim::Campaign& campaign, const std::filesystem
   return reread;
 }
 
-sim::MeasuredDiagonal MeasuredCampaign::pnp(const Bench& bench,
-                                            const std::vector<std::uint8_t>& image) {
+sim::MeasuredDiagonal CheckedCampaign::pnp(const Bench& bench,
+                                           const std::vector<std::uint8_t>& image) {
   return bench.pnp(at_check, image, sim::kDiagonalPoints, interferometer, random);
 }
 
-MeasuredCampaign noisy_campaign(const Bench& bench, const std::filesystem::path& folder,
-                                std::size_t draw) {
+CheckedCampaign noisy_campaign(const Bench& bench, const std::filesystem::path& folder,
+                               std::size_t draw) {
   const sim::NoiseClasses classes = bench.noise();
   const sim::Campaign measured = sim::measure_machine(bench.truth, bench.noisy_machine, classes,
                                                       bench.options.runs, bench.draw(draw));
@@ -41,14 +41,14 @@ MeasuredCampaign noisy_campaign(const Bench& bench, const std::filesystem::path&
   return {through_files(measured, folder), at_check, setup, random};
 }
 
-MeasuredCampaign noise_free_campaign(const Bench& bench, const std::filesystem::path& folder) {
+CheckedCampaign noise_free_campaign(const Bench& bench, const std::filesystem::path& folder) {
   return {through_files(sim::perfect_campaign(bench.truth, bench.machine), folder),
           bench.truth,
           {},
           sim::Random(0)};
 }
 
-Compensated compensate(const Bench& bench, MeasuredCampaign& measured) {
+Compensated compensate(const Bench& bench, CheckedCampaign& measured) {
   Compensated out;
   out.pnp.raw_um = measured.pnp(bench, {}).max_abs_um;
   for (std::size_t m = 0; m < kModels.size(); ++m) {

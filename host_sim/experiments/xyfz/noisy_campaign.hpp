@@ -13,7 +13,7 @@ inline constexpr std::array<host::ModelKind, 3> kModels{
                                           const std::filesystem::path& folder);
 
 // What a campaign leaves behind, and how PNP is measured after it.
-struct MeasuredCampaign {
+struct CheckedCampaign {
   sim::Campaign campaign;
   sim::TrueMachine at_check;  // as warm as it is then
   sim::InterferometerSetup interferometer;
@@ -25,17 +25,16 @@ struct MeasuredCampaign {
 };
 
 // Number `draw` of options.seed. Its random numbers depend on these two alone.
-[[nodiscard]] MeasuredCampaign noisy_campaign(const Bench& bench,
-                                              const std::filesystem::path& folder,
-                                              std::size_t draw);
-[[nodiscard]] MeasuredCampaign noise_free_campaign(const Bench& bench,
-                                                   const std::filesystem::path& folder);
+[[nodiscard]] CheckedCampaign noisy_campaign(const Bench& bench,
+                                             const std::filesystem::path& folder, std::size_t draw);
+[[nodiscard]] CheckedCampaign noise_free_campaign(const Bench& bench,
+                                                  const std::filesystem::path& folder);
 
 // PNP with none and with each of the models, by a machine that moves.
 struct Compensated {
   DrawResult pnp;
   std::unique_ptr<host::BuiltTables> closed;
 };
-[[nodiscard]] Compensated compensate(const Bench& bench, MeasuredCampaign& measured);
+[[nodiscard]] Compensated compensate(const Bench& bench, CheckedCampaign& measured);
 
 }  // namespace volcomp::xyfz

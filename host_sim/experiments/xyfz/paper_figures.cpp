@@ -27,7 +27,7 @@ void run_noise_free_figures(const Bench& bench, PaperFigures& result) {
   for (LeverResult& lever : result.levers)
     lever.readings.front().front() = measure_levers(bench, lever.experiment, LeverNoise::none, 0);
   const host::TemporaryFolder folder;
-  MeasuredCampaign measured = noise_free_campaign(bench, folder.path());
+  CheckedCampaign measured = noise_free_campaign(bench, folder.path());
   result.noise_free = predict_pnp(bench, measured);
 }
 
@@ -37,7 +37,7 @@ void run_draw_of_figures(const Bench& bench, std::size_t draw, PaperFigures& res
       lever.readings.at(static_cast<std::size_t>(noise))[draw] =
           measure_levers(bench, lever.experiment, noise, draw);
   const host::TemporaryFolder folder;
-  MeasuredCampaign measured = noisy_campaign(bench, folder.path(), draw);
+  CheckedCampaign measured = noisy_campaign(bench, folder.path(), draw);
   result.prediction[draw] = predict_pnp(bench, measured);
 }
 

@@ -42,7 +42,7 @@ double Prediction::left_um(std::size_t model) const {
   return largest(left);
 }
 
-Prediction predict_pnp(const Bench& bench, MeasuredCampaign& measured) {
+Prediction predict_pnp(const Bench& bench, CheckedCampaign& measured) {
   const sim::MeasuredDiagonal pnp = measured.pnp(bench, {});
   Prediction out;
   out.distance_mm = pnp.distance_mm;

@@ -17,6 +17,6 @@ struct Prediction {
 };
 
 // After a campaign; the reading is the one that run_xyfz() makes first after the same one.
-[[nodiscard]] Prediction predict_pnp(const Bench& bench, MeasuredCampaign& measured);
+[[nodiscard]] Prediction predict_pnp(const Bench& bench, CheckedCampaign& measured);
 
 }  // namespace volcomp::xyfz

@@ -97,7 +97,7 @@ void run_draws(const Bench& bench, const std::filesystem::path& folder,
   host::in_parallel(own.size(), bench.options.threads, [&](std::size_t i) {
     const std::string what = fmt::format("noisy campaign {} of {}", own[i] + 1, draws);
     shared.show(i, 0.0, what);
-    MeasuredCampaign measured =
+    CheckedCampaign measured =
         noisy_campaign(bench, folder / fmt::format("draw_{:03}", own[i] + 1), own[i]);
     Compensated compensated = compensate(bench, measured);
     result.draws[i] = compensated.pnp;
