@@ -5,20 +5,20 @@
 namespace volcomp::face_gear {
 
 sim::TracedPlan traced_plan(double slide_step_mm) {
-  constexpr std::size_t kX = 0;
-  constexpr std::size_t kY = 1;
-  constexpr std::size_t kZ = 2;
-  constexpr std::size_t kC = 3;
+  constexpr std::size_t kSlideX = 0;
+  constexpr std::size_t kSlideY = 1;
+  constexpr std::size_t kSlideZ = 2;
+  constexpr std::size_t kTable = 3;
   const host::identify::Channels all{0, 1, 2, 3, 4, 5};
   sim::TracedPlan plan;
   host::identify::ErrorModel& model = plan.model;
-  for (const std::size_t slide : {kX, kY, kZ})
+  for (const std::size_t slide : {kSlideX, kSlideY, kSlideZ})
     model.functions.at(slide) = {8, all, {}};
-  model.functions.at(kC) = {12, all, {}};
-  model.location.at(kC) = {0, 1, 3, 4};
-  model.constant.at(kC) = all;
+  model.functions.at(kTable) = {12, all, {}};
+  model.location.at(kTable) = {0, 1, 3, 4};
+  model.constant.at(kTable) = all;
   // The bed turned is no error: Y is along it, and X has no slope towards Z.
-  model.gauge = {{kY, 0}, {kY, 2}, {kX, 2}};
+  model.gauge = {{kSlideY, 0}, {kSlideY, 2}, {kSlideX, 2}};
   plan.reflectors = {{60.0, 0.0, 30.0}, {0.0, 60.0, 30.0}, {0.0, 0.0, -80.0}};
   plan.places = 400;
   plan.repeatability_mm = slide_step_mm / std::sqrt(12.0);

@@ -17,4 +17,6 @@ wait_for 'the node listens' node_listens
 "${inspection[@]}" --can vcan0 --json "$work/vcan.json" > "$work/vcan_run.txt" 2>&1 ||
   fail 'the inspection over vcan0'
 
-expect 'vcan0 and loopback give the same figures' "$python" "$same_figures" "$work/vcan.json" "$work/loopback.json" 0
+# What is computed on another processor may differ in the last digits: glibc takes sine and logarithm with or without fused
+# multiplication, by what the processor can.
+expect 'vcan0 and loopback give the same figures' "$python" "$same_figures" "$work/vcan.json" "$work/loopback.json" 1e-9

@@ -125,7 +125,7 @@ TEST(PlannedPlaces, AnRTestStaysAtItsBall) {
 
 // Each touch comes straight from outside to the middle of its ball, and begins clear of it.
 TEST(PlannedSpheres, TouchesComeStraightToTheCentre) {
-  for (const char* const name : {"xyfz_touch", "trunnion_touch"}) {
+  for (const char* const name : {"xyfz_touch", "trunnion_touch", "trunnion_long"}) {
     const MeasurementPlan plan = plan_named(name);
     const MachineChain& chain = plan.problem.machine.chain;
     for (std::size_t k = 0; k < plan.problem.setups.size(); ++k) {
