@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "comp/core/units.hpp"
 #include "comp/metrology/statistics/random_stream.hpp"
 
 namespace volcomp::sim {

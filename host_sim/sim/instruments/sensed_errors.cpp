@@ -1,10 +1,12 @@
 #include "host_sim/sim/instruments/sensed_errors.hpp"
 
+#include <utility>
+
 namespace volcomp::sim {
 
-SensedErrors::SensedErrors(const TrueMachine& machine, std::size_t axis, const SensedPoint& sensed,
+SensedErrors::SensedErrors(TrueMachine machine, std::size_t axis, const SensedPoint& sensed,
                            const LaserSetup& setup)
-    : machine_(machine), axis_(axis) {
+    : machine_(std::move(machine)), axis_(axis) {
   machine_.warmer_K.at(axis) += setup.warmer_K;
   // Frame origin of the axis at machine zero, then along the real lever to the sensed point.
   const Pose zero{};

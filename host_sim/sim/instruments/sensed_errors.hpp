@@ -10,7 +10,7 @@ namespace volcomp::sim {
 // when all axes are at machine zero; the other axes stand at zero.
 class SensedErrors {
  public:
-  SensedErrors(const TrueMachine& machine, std::size_t axis, const SensedPoint& sensed,
+  SensedErrors(TrueMachine machine, std::size_t axis, const SensedPoint& sensed,
                const LaserSetup& setup);
 
   [[nodiscard]] ErrorMotion at(double q, double approach) const;
