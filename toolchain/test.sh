@@ -178,7 +178,7 @@ step_bench() {
   need valgrind python3
   build_preset host --target volcomp_bench volcomp_host_bench volcomp_interval_coverage volcomp_function_coverage volcomp_identification_bench
   python3 tests/bench/host_bench.py build/host/tests/bench/volcomp_host_bench
-  build/host/tests/bench/volcomp_interval_coverage --campaigns 12 --draws 300 --sizes 3 --whole-campaigns 20
+  build/host/tests/bench/volcomp_interval_coverage --campaigns 12 --draws 300 --sizes 3 --whole-campaigns 200
   build/host/tests/bench/volcomp_function_coverage --campaigns 100
   build/host/tests/bench/volcomp_identification_bench tests/data/plan_plate.toml --repetitions 3
 }
