@@ -129,8 +129,8 @@ void add_short_runs(CLI::App& xyfz, XyfzArguments& a) {
       "(Figs. 8, 11), and PNP as the models predict it (Figs. 19, 20)");
   for (const char* whole : {"--shard", "--machines"})
     xyfz.get_option(whole)->excludes(one)->excludes(figures);
-  for (const char* page : {"--report", "--serve"})
-    xyfz.get_option(page)->excludes(one);
+  for (const char* other : {"--report", "--serve", "--only"})
+    xyfz.get_option(other)->excludes(one);
   one->excludes(figures);
 }
 

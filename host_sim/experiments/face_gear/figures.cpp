@@ -97,12 +97,7 @@ std::string scatter_text(const FaceGearOptions& o) {
     return "Without scatter: neither probe nor scales of the slides nor tracer have any.";
   const FaceScatter scatter = scatter_of(o);
   const sim::TracedPlan plan = traced_plan(scatter.slide_step_mm);
-  const std::string tracer = o.tracer_um > 0.0
-                                 ? fmt::format(
-                                       "its readings scatter by {:g} µm and what the scales leave, "
-                                       "the places of its four stations by {:g} µm (1σ)",
-                                       o.tracer_um, kUmPerMm * plan.station_mm)
-                                 : "neither its readings nor its stations scatter";
+  const std::string tracer = sim::scatter_text(plan, tracer_of(o));
   return fmt::format(
       "Probe {}: {}; its radius {}; scales of the slides read to {:g} µm: {:.2f} µm (1σ) a touch, "
       "{} touch{} of a point. Tracer that identifies the axes: {}.",

@@ -214,15 +214,9 @@ std::string scatter_text(const L300gOptions& o) {
 
 std::string tracer_text(const L300gOptions& o) {
   const sim::TracedPlan plan = traced_plan();
-  const std::string scatter =
-      o.tracer_um > 0.0 ? fmt::format(
-                              "readings scatter by {:g} µm and {:g} ppm of a set-up, places of the "
-                              "stations by {:g} µm",
-                              o.tracer_um, 1e6 * sim::kWavelength, kUmPerMm * plan.station_mm)
-                        : "neither readings nor stations scatter";
   return fmt::format(
       "tracing interferometer at four stations, {} places and {} reflectors each: {}", plan.places,
-      plan.reflectors.size() + 1, scatter);
+      plan.reflectors.size() + 1, sim::scatter_text(plan, tracer_of(o)));
 }
 
 host::Origins origins(const L300gResult& r) {

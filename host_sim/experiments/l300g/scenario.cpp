@@ -144,15 +144,6 @@ MandrelCalibration calibrate_first(const GrinderHall& hall, const host::BuiltTab
   return calibrate_on_mandrel(grinder, {});
 }
 
-sim::TracerScatter tracer_of(const L300gOptions& options) {
-  sim::TracerScatter scatter;
-  scatter.perfect = !(options.tracer_um > 0.0);
-  if (!scatter.perfect) scatter.reading_mm = options.tracer_um / kUmPerMm;
-  scatter.seed = sim::seed_of(options.seed, sim::SeedOf::instruments);
-  scatter.draw = options.draw;
-  return scatter;
-}
-
 std::shared_ptr<const host::BuiltTables> compensation_of(const L300gResult& result,
                                                          const sim::TrueMachine& truth) {
   const std::size_t knots = result.options.knots;
@@ -165,6 +156,15 @@ std::shared_ptr<const host::BuiltTables> compensation_of(const L300gResult& resu
 }
 
 }  // namespace
+
+sim::TracerScatter tracer_of(const L300gOptions& options) {
+  sim::TracerScatter scatter;
+  scatter.perfect = !(options.tracer_um > 0.0);
+  if (!scatter.perfect) scatter.reading_mm = options.tracer_um / kUmPerMm;
+  scatter.seed = sim::seed_of(options.seed, sim::SeedOf::instruments);
+  scatter.draw = options.draw;
+  return scatter;
+}
 
 double FeedCheck::raw_spread_nm() const { return spread(raw_nm); }
 double FeedCheck::corrected_spread_nm() const { return spread(corrected_nm); }

@@ -92,6 +92,9 @@ struct L300gResult {
 inline constexpr double kLongerArm_mm = 1e-3;
 inline constexpr std::array<double, 3> kHigherPivots_mm{1.0, 5.0, 10.0};
 
+// How the identification scatters.
+[[nodiscard]] sim::TracerScatter tracer_of(const L300gOptions& options);
+
 // Throws UserError.
 [[nodiscard]] L300gResult run_l300g(const L300gOptions& options, const host::Progress& progress);
 

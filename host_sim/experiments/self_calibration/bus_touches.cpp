@@ -29,17 +29,7 @@ MachineDescription with_tip(const MachineChain& chain, const Vec3& tip) {
 
 // Tables of zeros: the node turns latches into points of the nominal machine.
 std::vector<std::uint8_t> nominal_image(const host::MachineFile& machine, const Vec3& tip) {
-  std::vector<ErrorTable> tables;
-  for (const host::AxisFile& axis : machine.axes) {
-    ErrorTable table;
-    table.q0 = axis.lo;
-    table.knots = axis.targets;
-    table.pitch = (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
-    table.forward.fill(ErrorMotion::Zero());
-    table.backward.fill(ErrorMotion::Zero());
-    tables.push_back(table);
-  }
-  const auto built = host::tables_of_errors(machine, tables);
+  const auto built = host::constant_tables(machine, zero_errors());
   built->tables.machine = with_tip(machine.chain, tip);
   return host::make_image(built->tables);
 }

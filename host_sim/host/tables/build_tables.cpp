@@ -261,15 +261,19 @@ std::unique_ptr<BuiltTables> tables_of_errors(const MachineFile& machine,
   return out;
 }
 
+ErrorTable table_at_targets(const AxisFile& axis) {
+  ErrorTable table;
+  table.q0 = axis.lo;
+  table.knots = axis.targets;
+  table.pitch = (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
+  return table;
+}
+
 std::unique_ptr<BuiltTables> constant_tables(const MachineFile& machine, const ErrorSet& errors,
                                              std::size_t knots) {
   std::vector<ErrorTable> tables;
   for (std::size_t a = 0; a < machine.axes.size(); ++a) {
-    const AxisFile& axis = machine.axes[a];
-    ErrorTable table;
-    table.q0 = axis.lo;
-    table.knots = axis.targets;
-    table.pitch = (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
+    ErrorTable table = table_at_targets(machine.axes[a]);
     for (std::size_t i = 0; i < table.knots; ++i)
       table.forward.at(i) = table.backward.at(i) = errors.at(a);
     tables.push_back(table);

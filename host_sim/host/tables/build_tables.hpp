@@ -79,6 +79,9 @@ struct BuiltTables {
                                                             const std::vector<ErrorTable>& errors,
                                                             std::size_t knots = kDefaultKnots);
 
+// A knot at each target of an axis; the errors at them are still to be written.
+[[nodiscard]] ErrorTable table_at_targets(const AxisFile& axis);
+
 // Tables of errors that are the same everywhere, by NC axis, internal convention, mm and rad.
 [[nodiscard]] std::unique_ptr<BuiltTables> constant_tables(const MachineFile& machine,
                                                            const ErrorSet& errors,

@@ -20,8 +20,6 @@ namespace {
 namespace identify = host::identify;
 
 constexpr double kReflector_mm = 0.02;  // of each coordinate of a reflector, after a tool setter
-constexpr double kGrowth_K = 0.1;       // of each linear axis at each station
-constexpr double kExpansion = 11.7e-6;  // steel, per K
 
 identify::MeasurementPlan plan_of(const host::MachineFile& file, const TracedPlan& traced,
                                   double reading_mm) {
@@ -49,7 +47,7 @@ identify::MeasurementPlan plan_of(const host::MachineFile& file, const TracedPla
     s.station = station;
     s.station_prior = traced.station_mm;
     s.scale = kWavelength;
-    s.growth = kExpansion * kGrowth_K;
+    s.growth = kSteel_per_K * kTracedGrowth_K;
     identify::add_planned_places(plan, choice, s);
     s.sigma.assign(s.q.size(), std::hypot(reading_mm, traced.repeatability_mm));
     problem.setups.push_back(std::move(s));
@@ -61,7 +59,7 @@ void read_all(const TrueMachine& truth, const TracerScatter& scatter,
               identify::MeasurementPlan& plan) {
   ShopFloor floor;
   floor.perfect = scatter.perfect;
-  floor.growth_K = kGrowth_K;
+  floor.growth_K = kTracedGrowth_K;
   floor.stylus_mm = kReflector_mm;
   floor.seed = scatter.seed;
   floor.draw = scatter.draw;
@@ -167,6 +165,18 @@ void compare(const TrueMachine& truth, const identify::Equations& equations,
 }
 
 }  // namespace
+
+std::string scatter_text(const TracedPlan& plan, const TracerScatter& scatter) {
+  if (scatter.perfect) return "neither its readings nor its stations scatter";
+  return fmt::format(
+      "its readings scatter by {:g} µm{}, all lengths of a station by {:g} ppm, it walks by {:g} "
+      "µm "
+      "in an hour; the places of its four stations scatter by {:g} µm, and at each the linear axes "
+      "are warmer or colder by {:g} K (1σ)",
+      kUmPerMm * scatter.reading_mm,
+      plan.repeatability_mm > 0.0 ? " and what the scales leave" : "", 1e6 * kWavelength,
+      kUmPerMm * ShopFloor{}.drift_mm, kUmPerMm * plan.station_mm, kTracedGrowth_K);
+}
 
 TracedErrors trace_errors(const TrueMachine& truth, const host::MachineFile& file,
                           const TracedPlan& traced, const TracerScatter& scatter,

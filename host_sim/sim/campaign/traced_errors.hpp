@@ -13,9 +13,13 @@
 #include "host_sim/host/measure/identify/problem.hpp"
 #include "host_sim/host/report/error_functions.hpp"
 #include "host_sim/host/tables/build_tables.hpp"
+#include "host_sim/sim/campaign/tracer_stations.hpp"
 #include "host_sim/sim/truth/true_machine.hpp"
 
 namespace volcomp::sim {
+
+// Standard deviation of how much warmer each linear axis is at each station.
+inline constexpr double kTracedGrowth_K = 0.1;
 
 struct TracedPlan {
   host::identify::ErrorModel model;
@@ -27,11 +31,14 @@ struct TracedPlan {
 
 // How its readings scatter.
 struct TracerScatter {
-  bool perfect = false;  // neither readings nor places of the stations nor anything grows
-  double reading_mm = 0.1e-3;
+  bool perfect = false;  // nothing scatters, drifts or grows, and stations stand where they should
+  double reading_mm = kTracer_mm;
   std::uint64_t seed = 1;
   std::uint32_t draw = 0;  // one of several with that seed
 };
+
+// What errs in it, for reports.
+[[nodiscard]] std::string scatter_text(const TracedPlan& plan, const TracerScatter& scatter);
 
 // A location of an axis on its fixed side or a constant on its moving side, mm or rad.
 struct TracedValue {

@@ -19,7 +19,8 @@ enum class Number : std::uint32_t {
   roll = 6,
   wave,
   beam = 13,
-  arm
+  arm,
+  phase = 17
 };
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
@@ -60,7 +61,7 @@ void draw_set_up(const NoiseClasses& classes, const Drawn& own, LaserSetup& s) {
   for (std::uint32_t c = 0; c < kChannels; ++c) {
     const double size = c < 3 ? classes.straightness_wave_mm : classes.angle_wave_rad;
     s.wave.at(c) = own.normal(size, Number::wave, c);
-    s.wave_phase.at(c) = 2.0 * kPi * own.uniform(Number::wave, c).v;
+    s.wave_phase.at(c) = 2.0 * kPi * own.uniform(Number::phase, c).u;
   }
   const double beam = classes.beam_rad * (2.0 * own.uniform(Number::beam).u - 1.0);
   s.shorter = 0.5 * beam * beam;

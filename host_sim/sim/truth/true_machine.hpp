@@ -42,11 +42,13 @@ struct TrueAxis {
 // Side from which each axis arrived: −1…+1, +1 after a long move upwards.
 using Approach = std::array<double, kMaxAxes>;
 
+inline constexpr double kSteel_per_K = 11.7e-6;  // expansion
+
 struct TrueMachine {
   MachineChain chain;
   std::array<TrueAxis, kMaxAxes> axis;
   DirectionErrors directions = zero_directions();
-  double expansion_per_K = 11.7e-6;         // of every scale
+  double expansion_per_K = kSteel_per_K;    // of every scale
   double temperature_offset_K = 0.0;        // against the temperature of the campaign
   std::array<double, kMaxAxes> warmer_K{};  // of one axis more than that
 

@@ -75,11 +75,7 @@ std::unique_ptr<BuiltTables> tables_of_estimate(const MachineFile& machine,
                                                 std::size_t knots) {
   std::vector<ErrorTable> tables;
   for (std::size_t a = 0; a < machine.axes.size(); ++a) {
-    const AxisFile& axis = machine.axes[a];
-    ErrorTable table;
-    table.q0 = axis.lo;
-    table.knots = axis.targets;
-    table.pitch = (axis.hi - axis.lo) / static_cast<double>(axis.targets - 1);
+    ErrorTable table = table_at_targets(machine.axes[a]);
     for (std::size_t i = 0; i < table.knots; ++i) {
       table.forward.at(i) = unknowns.error(a, table.knot(i), 1.0, x);
       table.backward.at(i) = unknowns.error(a, table.knot(i), -1.0, x);

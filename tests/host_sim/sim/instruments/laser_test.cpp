@@ -87,6 +87,21 @@ TEST(Laser, BeamThatIsNotAlongTheTravelMakesLengthsShorter) {
   EXPECT_NEAR(sum, f * f / 6.0, 4.0 * f * f / std::sqrt(45.0 * kDraws));
 }
 
+// How large a wave is says nothing of where it begins: neither its sine nor its cosine has a mean.
+TEST(Laser, WavesBeginAnywhere) {
+  const NoiseClasses classes;
+  double sine = 0.0;
+  double cosine = 0.0;
+  for (std::uint32_t draw = 0; draw < kDraws; ++draw) {
+    const LaserSetup s = mount_laser(classes, {6, draw}, 0);
+    cosine += s.wave[1] * std::cos(s.wave_phase[1]) / kDraws;
+    sine += s.wave[1] * std::sin(s.wave_phase[1]) / kDraws;
+  }
+  const double chance = classes.straightness_wave_mm / std::sqrt(2.0 * kDraws);
+  EXPECT_NEAR(cosine, 0.0, 4.0 * chance);
+  EXPECT_NEAR(sine, 0.0, 4.0 * chance);
+}
+
 // Standard deviation of each reading as stated; after 5 s e^(-5/900) of it is still there.
 TEST(Laser, DriftsAsStated) {
   const NoiseClasses classes = only(NoiseSource::drift, {});
