@@ -9,7 +9,7 @@ script_folder=$(dirname "${BASH_SOURCE[0]}")
 . "$script_folder/common.sh"
 
 build_packages=(g++ cmake ninja-build binutils ca-certificates pkg-config libeigen3-dev libfmt-dev libcli11-dev
-  libinih-dev libtoml11-dev libutfcpp-dev nlohmann-json3-dev libssl-dev libcpp-httplib-dev libgtest-dev libgmock-dev libbenchmark-dev)
+  libinih-dev libtomlplusplus-dev libutfcpp-dev nlohmann-json3-dev libssl-dev libcpp-httplib-dev libgtest-dev libgmock-dev libbenchmark-dev)
 check_packages=(ccache chromium doxygen fish git clang clang-format clang-tidy cppcheck liborocos-kdl-dev lld llvm man-db mandoc parallel python3
   python3-pyelftools shellcheck systemd valgrind zsh)
 bus_packages=(can-utils iproute2 python3-can python3-canmatrix)

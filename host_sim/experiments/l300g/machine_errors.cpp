@@ -122,7 +122,7 @@ bool GrinderErrors::waves() const {
 }
 
 GrinderErrors parse_grinder_errors(const std::string& text, const std::string& name) {
-  return host::read_toml(text, name, [&](const toml::value& root) {
+  return host::read_toml(text, name, [&](const host::TomlValue& root) {
     return read_errors(host::TomlSection(root, name, "the file of errors"));
   });
 }

@@ -50,7 +50,7 @@ void read_setting(const TomlSection& setting, std::vector<Target>& targets) {
 }  // namespace
 
 void read_probe_calibration(const std::string& text, const std::string& name, NodeProbe& probe) {
-  probe = read_toml(text, name, [&](const toml::value& top) {
+  probe = read_toml(text, name, [&](const TomlValue& top) {
     NodeProbe read = probe;
     std::vector<Target> targets = targets_in(read);
     const TomlSection file(top, name, "the file of settings");

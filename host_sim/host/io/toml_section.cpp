@@ -10,38 +10,36 @@
 
 namespace volcomp::host {
 
-TomlSection::TomlSection(const Value& value, std::string file, std::string name)
+TomlSection::TomlSection(const TomlValue& value, std::string file, std::string name)
     : value_(&value), file_(std::move(file)), name_(std::move(name)) {
   if (!value.is_table()) fail(value, fmt::format("'{}' must be a table", name_));
 }
 
-void TomlSection::fail(const Value& at, const std::string& text) const {
-  throw UserError(fmt::format("{}:{}: {}", file_, at.location().line(), text));
+void TomlSection::fail(const TomlValue& at, const std::string& text) const {
+  throw UserError(fmt::format("{}:{}: {}", file_, at.line(), text));
 }
 
 void TomlSection::complain(const std::string& key, const std::string& text) const {
-  const Value* const at = find(key);
+  const TomlValue* const at = find(key);
   fail(at == nullptr ? *value_ : *at, text);
 }
 
-const TomlSection::Value* TomlSection::find(const std::string& key) const {
-  const auto& table = value_->as_table();
+const TomlValue* TomlSection::find(const std::string& key) const {
+  const TomlValue::Table& table = value_->table();
   const auto it = table.find(key);
   return it == table.end() ? nullptr : &it->second;
 }
 
-const TomlSection::Value& TomlSection::need(const std::string& key) const {
-  const Value* value = find(key);
+const TomlValue& TomlSection::need(const std::string& key) const {
+  const TomlValue* value = find(key);
   if (value == nullptr)
     fail(*value_, fmt::format("missing mandatory field '{}' in {} [{}]", key, name_,
                               code(Reason::missing_field)));
   return *value;
 }
 
-double TomlSection::finite(const Value& value, const std::string& key) const {
-  const double x = value.is_floating()  ? value.as_floating()
-                   : value.is_integer() ? static_cast<double>(value.as_integer())
-                                        : std::nan("");
+double TomlSection::finite(const TomlValue& value, const std::string& key) const {
+  const double x = value.is_number() ? value.number() : std::nan("");
   if (!std::isfinite(x)) fail(value, fmt::format("'{}' must be a finite number", key));
   return x;
 }
@@ -53,11 +51,11 @@ double TomlSection::number_or(const std::string& key, double fallback) const {
 }
 
 long TomlSection::integer(const std::string& key, long lo, long hi) const {
-  const Value& v = need(key);
-  if (!v.is_integer() || v.as_integer() < lo || v.as_integer() > hi) {
+  const TomlValue& v = need(key);
+  if (!v.is_integer() || v.integer() < lo || v.integer() > hi) {
     fail(v, fmt::format("'{}' must be a whole number from {} to {}", key, lo, hi));
   }
-  return static_cast<long>(v.as_integer());
+  return v.integer();
 }
 
 long TomlSection::integer_or(const std::string& key, long fallback, long lo, long hi) const {
@@ -66,15 +64,15 @@ long TomlSection::integer_or(const std::string& key, long fallback, long lo, lon
 
 bool TomlSection::truth_or(const std::string& key, bool fallback) const {
   if (!has(key)) return fallback;
-  const Value& v = need(key);
-  if (!v.is_boolean()) fail(v, fmt::format("'{}' must be true or false", key));
-  return v.as_boolean();
+  const TomlValue& v = need(key);
+  if (!v.is_truth()) fail(v, fmt::format("'{}' must be true or false", key));
+  return v.truth();
 }
 
 std::string TomlSection::text(const std::string& key) const {
-  const Value& v = need(key);
-  if (!v.is_string() || v.as_string().str.empty()) fail(v, fmt::format("'{}' must be a text", key));
-  return v.as_string().str;
+  const TomlValue& v = need(key);
+  if (!v.is_text() || v.text().empty()) fail(v, fmt::format("'{}' must be a text", key));
+  return v.text();
 }
 
 std::size_t TomlSection::choice(const std::string& key,
@@ -89,12 +87,12 @@ std::size_t TomlSection::choice(const std::string& key,
 }
 
 std::vector<double> TomlSection::numbers(const std::string& key, std::size_t count) const {
-  const Value& v = need(key);
-  if (!v.is_array() || v.as_array().size() != count) {
+  const TomlValue& v = need(key);
+  if (!v.is_array() || v.array().size() != count) {
     fail(v, fmt::format("'{}' must be a list of {} numbers", key, count));
   }
   std::vector<double> out;
-  for (const Value& entry : v.as_array())
+  for (const TomlValue& entry : v.array())
     out.push_back(finite(entry, key));
   return out;
 }
@@ -104,17 +102,17 @@ TomlSection TomlSection::table(const std::string& key) const {
 }
 
 std::vector<TomlSection> TomlSection::tables(const std::string& key) const {
-  const Value& list = need(key);
-  if (!list.is_array() || list.as_array().empty())
+  const TomlValue& list = need(key);
+  if (!list.is_array() || list.array().empty())
     fail(list, fmt::format("'{}' must be a list of tables", key));
   std::vector<TomlSection> sections;
-  for (const Value& v : list.as_array())
+  for (const TomlValue& v : list.array())
     sections.emplace_back(v, file_, "[[" + key + "]]");
   return sections;
 }
 
 void TomlSection::allow_only(const std::vector<std::string>& keys) const {
-  for (const auto& [key, value] : value_->as_table()) {
+  for (const auto& [key, value] : value_->table()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const std::string near = nearest_word(key, keys);
     fail(value, fmt::format("unknown field '{}' in {}{} (known: {})", key, name_,

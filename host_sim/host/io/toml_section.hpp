@@ -5,21 +5,18 @@
 #include <string>
 #include <vector>
 
-#include <toml.hpp>
-
 #include "comp/core/status.hpp"
+#include "host_sim/host/io/toml_value.hpp"
 
 namespace volcomp::host {
 
 class TomlSection {
  public:
-  using Value = toml::value;
-
   // `value` must outlive the section and be a table.
-  TomlSection(const Value& value, std::string file, std::string name);
+  TomlSection(const TomlValue& value, std::string file, std::string name);
 
   [[nodiscard]] bool has(const std::string& key) const { return find(key) != nullptr; }
-  [[nodiscard]] const Value& need(const std::string& key) const;  // missing_field
+  [[nodiscard]] const TomlValue& need(const std::string& key) const;  // missing_field
 
   [[nodiscard]] double number(const std::string& key) const;  // finite
   [[nodiscard]] double number_or(const std::string& key, double fallback) const;
@@ -51,11 +48,11 @@ class TomlSection {
   [[noreturn]] void complain(const std::string& key, const std::string& text) const;
 
  private:
-  [[nodiscard]] const Value* find(const std::string& key) const;
-  [[nodiscard]] double finite(const Value& value, const std::string& key) const;
-  [[noreturn]] void fail(const Value& at, const std::string& text) const;
+  [[nodiscard]] const TomlValue* find(const std::string& key) const;
+  [[nodiscard]] double finite(const TomlValue& value, const std::string& key) const;
+  [[noreturn]] void fail(const TomlValue& at, const std::string& text) const;
 
-  const Value* value_;
+  const TomlValue* value_;
   std::string file_;
   std::string name_;
 };

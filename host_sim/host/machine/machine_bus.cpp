@@ -24,18 +24,18 @@ struct Ratio {
 
 // A whole number, or two of them that are a fraction.
 Ratio read_ratio(const TomlSection& s, const std::string& key) {
-  const auto whole = [&](const toml::value& v, long most) {
-    if (!v.is_integer() || v.as_integer() < 1 || v.as_integer() > most)
+  const auto whole = [&](const TomlValue& v, long most) {
+    if (!v.is_integer() || v.integer() < 1 || v.integer() > most)
       s.complain(key, fmt::format("'{}' must be a whole number above 0, or two of them [units, of "
                                   "so many]",
                                   key));
-    return static_cast<long>(v.as_integer());
+    return v.integer();
   };
-  const toml::value& v = s.need(key);
+  const TomlValue& v = s.need(key);
   if (!v.is_array()) return {whole(v, kMostUnits), 1};
-  if (v.as_array().size() != 2)
+  if (v.array().size() != 2)
     s.complain(key, fmt::format("'{}' must be a number or a list of 2 numbers", key));
-  return {whole(v.as_array()[0], kMostUnits), whole(v.as_array()[1], node::kMostScale)};
+  return {whole(v.array()[0], kMostUnits), whole(v.array()[1], node::kMostScale)};
 }
 
 // A turn of so many units needs no fraction (2036h).
@@ -99,7 +99,7 @@ void check_turns(const TomlSection& s, const AxisFile& axis, const DriveFile& dr
 
 // Bits of 6041h, or "none" where no bit tells.
 std::uint16_t read_referenced_mask(const TomlSection& s) {
-  if (s.need("referenced_mask").is_string()) {
+  if (s.need("referenced_mask").is_text()) {
     static_cast<void>(s.choice("referenced_mask", {"none"}));
     return 0;
   }

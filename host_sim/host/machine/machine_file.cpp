@@ -75,14 +75,14 @@ AxisFile read_axis(const Section& s, std::size_t number, bool in_chain) {
 // Letters of up to `most` axes.
 std::vector<std::uint8_t> read_letters(const Section& s, const char* key, std::size_t most,
                                        const char* what, const MachineFile& file) {
-  const toml::value& letters = s.need(key);
-  if (!letters.is_array() || letters.as_array().empty() || letters.as_array().size() > most)
+  const TomlValue& letters = s.need(key);
+  if (!letters.is_array() || letters.array().empty() || letters.array().size() > most)
     s.complain(key, fmt::format("'{}' must list one to {} {} axes", key, most, what));
   std::vector<std::uint8_t> axes;
-  for (const toml::value& v : letters.as_array()) {
-    if (!v.is_string() || v.as_string().str.size() != 1)
+  for (const TomlValue& v : letters.array()) {
+    if (!v.is_text() || v.text().size() != 1)
       s.complain(key, fmt::format("'{}' must be letters", key));
-    axes.push_back(static_cast<std::uint8_t>(file.axis_index(v.as_string().str[0])));
+    axes.push_back(static_cast<std::uint8_t>(file.axis_index(v.text()[0])));
   }
   return axes;
 }
@@ -148,7 +148,7 @@ void expect_new_letter(const Section& s, const MachineFile& file) {
     s.complain("name", fmt::format("there are two axes {}", letter));
 }
 
-MachineFile read_machine(const toml::value& root, const std::string& name) {
+MachineFile read_machine(const TomlValue& root, const std::string& name) {
   const Section top(root, name, "the machine file");
   top.allow_only({"name", "id", "convention", "side", "chain", "tool", "work", "body", "axis",
                   "correction", "tables", "squareness", "thermal", "probe", "laser", "gear",
@@ -247,7 +247,7 @@ std::size_t MachineFile::axis_index(char letter) const {
 }
 
 MachineFile parse_machine(const std::string& text, const std::string& name) {
-  return read_toml(text, name, [&](const toml::value& root) { return read_machine(root, name); });
+  return read_toml(text, name, [&](const TomlValue& root) { return read_machine(root, name); });
 }
 
 MachineFile read_machine_file(const std::filesystem::path& path) {

@@ -31,7 +31,7 @@ FaceGear read_gear(const TomlSection& s) {
 }  // namespace
 
 FaceGear parse_face_gear(const std::string& text, const std::string& name) {
-  return read_toml(text, name, [&](const toml::value& root) {
+  return read_toml(text, name, [&](const TomlValue& root) {
     return read_gear(TomlSection(root, name, "the file of the gear"));
   });
 }

@@ -24,7 +24,7 @@ InvoluteGear involute_gear(const TomlSection& s) {
 }  // namespace
 
 InvoluteGear parse_involute_gear(const std::string& text, const std::string& name) {
-  return read_toml(text, name, [&](const toml::value& root) {
+  return read_toml(text, name, [&](const TomlValue& root) {
     return involute_gear(TomlSection(root, name, "the file of the gear"));
   });
 }

@@ -74,7 +74,7 @@ UncertaintyStatement UncertaintyStatement::overridden_by(const UncertaintyStatem
 }
 
 UncertaintyStatement parse_uncertainty(const std::string& text, const std::string& name) {
-  return read_toml(text, name, [&name](const toml::value& top) {
+  return read_toml(text, name, [&name](const TomlValue& top) {
     const TomlSection all(top, name, "the file");
     all.allow_only({"uncertainty"});
     const TomlSection section = all.table("uncertainty");

@@ -24,7 +24,7 @@ class PlanReader {
 
   MeasurementPlan read() {
     plan_.path = shown_name(path_);
-    return read_toml(text_of_file(path_), plan_.path, [this](const toml::value& top) {
+    return read_toml(text_of_file(path_), plan_.path, [this](const TomlValue& top) {
       read_top(TomlSection(top, plan_.path, "the file"));
       return std::move(plan_);
     });
@@ -90,9 +90,9 @@ class PlanReader {
   // "{ X = ["EX", "EY"], … }" by axis.
   void read_channels(const TomlSection& model, const std::string& key,
                      const std::function<void(std::size_t axis, const Channels&)>& take) {
-    const toml::value& table = model.need(key);
+    const TomlValue& table = model.need(key);
     if (!table.is_table()) model.complain(key, fmt::format("'{}' must be a table", key));
-    for (const auto& [name, list] : table.as_table()) {
+    for (const auto& [name, list] : table.table()) {
       Channels channels;
       for (const std::string& word : words_of(model, key, list))
         channels.push_back(channel_of(model, key, word));
@@ -133,10 +133,10 @@ class PlanReader {
 
   void read_segments(const TomlSection& model) {
     constexpr long kMostSegments = 200;
-    const toml::value& table = model.need("segments");
+    const TomlValue& table = model.need("segments");
     if (!table.is_table()) model.complain("segments", "'segments' must be a table, { X = 6, … }");
     const TomlSection segments = model.table("segments");
-    for (const auto& entry : table.as_table()) {
+    for (const auto& entry : table.table()) {
       const std::size_t a = axis_named(plan_, model, "segments", entry.first);
       const long least = plan_.machine.axes[a].full_turn() ? 4 : 1;
       AxisFunctions& f = plan_.problem.model.functions.at(a);
@@ -146,9 +146,9 @@ class PlanReader {
   }
 
   void read_gauge(const TomlSection& model) {
-    const toml::value& rows = model.need("gauge");
+    const TomlValue& rows = model.need("gauge");
     if (!rows.is_array()) model.complain("gauge", R"('gauge' must be a list of ["Y", "EX"])");
-    for (const toml::value& row : rows.as_array()) {
+    for (const TomlValue& row : rows.array()) {
       const std::vector<std::string> pair = words_of(model, "gauge", row);
       if (pair.size() != 2) model.complain("gauge", R"('gauge' must be a list of ["Y", "EX"])");
       plan_.problem.model.gauge.push_back(
@@ -205,16 +205,14 @@ class PlanReader {
 
   static void read_spheres(const TomlSection& s, Artefact& a) {
     const char* const wrong = "'spheres_mm' must be a list of [x, y, z]";
-    const toml::value& list = s.need("spheres_mm");
-    if (!list.is_array() || list.as_array().empty()) s.complain("spheres_mm", wrong);
-    for (const toml::value& place : list.as_array()) {
-      if (!place.is_array() || place.as_array().size() != 3) s.complain("spheres_mm", wrong);
+    const TomlValue& list = s.need("spheres_mm");
+    if (!list.is_array() || list.array().empty()) s.complain("spheres_mm", wrong);
+    for (const TomlValue& place : list.array()) {
+      if (!place.is_array() || place.array().size() != 3) s.complain("spheres_mm", wrong);
       Vec3 c;
       for (std::size_t k = 0; k < 3; ++k) {
-        const toml::value& v = place.as_array()[k];
-        const double mm = v.is_floating()  ? v.as_floating()
-                          : v.is_integer() ? static_cast<double>(v.as_integer())
-                                           : std::nan("");
+        const TomlValue& v = place.array()[k];
+        const double mm = v.is_number() ? v.number() : std::nan("");
         if (!std::isfinite(mm)) s.complain("spheres_mm", wrong);
         c(static_cast<Eigen::Index>(k)) = mm;
       }

@@ -107,17 +107,17 @@ class ReadingsReader {
   std::array<std::vector<double>, kMaxAxes> turns() const {
     std::array<std::vector<double>, kMaxAxes> out;
     if (!s_.has("turns_deg")) return out;
-    const toml::value& table = s_.need("turns_deg");
+    const TomlValue& table = s_.need("turns_deg");
     if (!table.is_table()) s_.complain("turns_deg", "'turns_deg' must be { A = [0, 45], … }");
     const TomlSection turns = s_.table("turns_deg");
-    for (const auto& [name, list] : table.as_table()) {
+    for (const auto& [name, list] : table.table()) {
       const std::size_t a = axis_named(plan_, s_, "turns_deg", name);
       if (problem_.is_slide(a))
         s_.complain("turns_deg", fmt::format("'turns_deg': {} is a linear axis", name));
-      if (!list.is_array() || list.as_array().empty())
+      if (!list.is_array() || list.array().empty())
         s_.complain("turns_deg", fmt::format("'turns_deg': {} must be a list of angles", name));
       const Travel& travel = problem_.machine.travel.at(a);
-      for (const double degrees : turns.numbers(name, list.as_array().size())) {
+      for (const double degrees : turns.numbers(name, list.array().size())) {
         const double angle = kRadPerDegree * degrees;
         if (angle < travel.lo || angle > travel.hi)
           s_.complain("turns_deg",

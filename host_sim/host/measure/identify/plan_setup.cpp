@@ -83,9 +83,9 @@ class SetUpReader {
 
   // "PPP", signs of X Y Z along a body diagonal of the travels, or a vector in the work frame.
   Vec3 beam_direction() const {
-    const toml::value& v = s_.need("along");
-    if (!v.is_string()) return unit_of(s_, "along");
-    const std::string& word = v.as_string().str;
+    const TomlValue& v = s_.need("along");
+    if (!v.is_text()) return unit_of(s_, "along");
+    const std::string& word = v.text();
     Vec3 u;
     for (std::size_t k = 0; k < 3; ++k) {
       const char sign = word.size() == 3 ? word[k] : '?';
@@ -102,13 +102,13 @@ class SetUpReader {
     setup_.station = vector_of(s_, "socket_mm");
     setup_.length = positive(s_, "length_mm");
     setup_.length_prior = s_.has("length_u_um") ? kMmPerUm * positive(s_, "length_u_um") : kFree;
-    const toml::value& plane = s_.need("plane");
-    if (!plane.is_string()) {
+    const TomlValue& plane = s_.need("plane");
+    if (!plane.is_text()) {
       setup_.normal = unit_of(s_, "plane");
       return;
     }
     const std::array<const char*, 3> names{"YZ", "ZX", "XY"};
-    const auto* const found = std::find(names.begin(), names.end(), plane.as_string().str);
+    const auto* const found = std::find(names.begin(), names.end(), plane.text());
     if (found == names.end())
       s_.complain("plane", R"('plane' must be "XY", "YZ", "ZX" or the normal [x, y, z])");
     setup_.normal = Vec3::Unit(found - names.begin());

@@ -40,18 +40,18 @@ Vec3 unit_of(const TomlSection& s, const std::string& key) {
 }
 
 Prior prior_of(const TomlSection& s, const std::string& key, double unit) {
-  const toml::value& v = s.need(key);
-  if (v.is_string() && v.as_string().str == "free") return kFree;
+  const TomlValue& v = s.need(key);
+  if (v.is_text() && v.text() == "free") return kFree;
   return unit * positive(s, key);
 }
 
 std::vector<std::string> words_of(const TomlSection& s, const std::string& key,
-                                  const toml::value& list) {
+                                  const TomlValue& list) {
   std::vector<std::string> out;
   if (!list.is_array()) s.complain(key, fmt::format("'{}' must be a list of names", key));
-  for (const toml::value& v : list.as_array()) {
-    if (!v.is_string()) s.complain(key, fmt::format("'{}' must be a list of names", key));
-    out.push_back(v.as_string().str);
+  for (const TomlValue& v : list.array()) {
+    if (!v.is_text()) s.complain(key, fmt::format("'{}' must be a list of names", key));
+    out.push_back(v.text());
   }
   return out;
 }

@@ -24,6 +24,6 @@ inline constexpr double kRadPerDegree = kPi / 180.0;
 // A standard uncertainty, larger than 0, or "free".
 [[nodiscard]] Prior prior_of(const TomlSection& s, const std::string& key, double unit);
 [[nodiscard]] std::vector<std::string> words_of(const TomlSection& s, const std::string& key,
-                                                const toml::value& list);
+                                                const TomlValue& list);
 
 }  // namespace volcomp::host::identify

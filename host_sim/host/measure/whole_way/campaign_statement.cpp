@@ -82,7 +82,7 @@ CampaignStatement CampaignStatement::overridden_by(const CampaignStatement& othe
 }
 
 CampaignStatement parse_campaign(const std::string& text, const std::string& name) {
-  return read_toml(text, name, [&name](const toml::value& top) {
+  return read_toml(text, name, [&name](const TomlValue& top) {
     const TomlSection all(top, name, "the file");
     all.allow_only({"campaign"});
     const TomlSection section = all.table("campaign");

@@ -26,7 +26,7 @@ TEST(NearestWord, OfAShortWordMustHaveHalfOfIt) {
 TEST(NearestWord, IsSaidOfAnUnknownField) {
   const auto refusal = [](const std::string& text) {
     return sim::complaint_of([&] {
-      return read_toml(text, "m.toml", [](const toml::value& root) {
+      return read_toml(text, "m.toml", [](const TomlValue& root) {
         TomlSection(root, "m.toml", "the file").allow_only({"side", "convention"});
         return 0;
       });
