@@ -12,15 +12,19 @@ namespace volcomp {
 // ones would drown in rounding.
 template <int N>
 void fold_row(Eigen::Matrix<double, N, N>& triangle, Eigen::Matrix<double, 1, N> row) {
+  // Elements where Eigen has them, column by column: each is touched for every row of a campaign.
+  double* const at = triangle.data();
+  double* const row_at = row.data();
   for (Eigen::Index i = 0; i < N; ++i) {
     if (!(std::abs(row(i)) > 0.0)) continue;
     const double length = std::hypot(triangle(i, i), row(i));
     const double c = triangle(i, i) / length;
     const double s = row(i) / length;
     for (Eigen::Index j = i; j < N; ++j) {
-      const double kept = triangle(i, j);
-      triangle(i, j) = c * kept + s * row(j);
-      row(j) = c * row(j) - s * kept;
+      double& kept = at[i + j * N];
+      const double was = kept;
+      kept = c * was + s * row_at[j];
+      row_at[j] = c * row_at[j] - s * was;
     }
   }
 }
