@@ -1,9 +1,11 @@
 // volcomp identify, volcomp plan
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@
 #include "host_sim/cli/progress_bar.hpp"
 #include "host_sim/cli/run_options.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/io/whole_file.hpp"
 #include "host_sim/host/measure/identify/found_report.hpp"
 #include "host_sim/host/measure/identify/identified_document.hpp"
 #include "host_sim/host/measure/identify/identified_report.hpp"
@@ -87,12 +90,28 @@ int identify_machine(const IdentifyArguments& a) {
 
 struct PlanArguments {
   std::string plan;
+  std::string example;
   std::string points_file;
   std::string program_file;
   std::string json_file;
   std::string report_folder;
   std::string command;
 };
+
+// The machine file of the printed plan is beside it.
+int print_example(const std::string& name) {
+  constexpr std::size_t kLargest = std::size_t{1} << 20U;
+  constexpr std::string_view kFolder = "../machines/";
+  const std::vector<std::string> names = bundled_plans();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw host::UserError(
+        fmt::format("there is no plan \"{}\"; the plans are: {}", name, fmt::join(names, ", ")));
+  std::string text = host::read_whole_file(bundled_plan(name), kLargest);
+  if (const std::size_t at = text.find(kFolder); at != std::string::npos)
+    text.erase(at, kFolder.size());
+  fmt::print("{}", text);
+  return number(ExitCode::done);
+}
 
 void print_program(std::FILE* text, const TouchProgram& program) {
   fmt::print(text, "program: {} touches\n", program.touches);
@@ -153,7 +172,13 @@ void add_plan_command(CLI::App& app, int argc, char** argv, int& code) {
       "uncertainty of every error, and which set-up adds most");
   auto a = std::make_shared<PlanArguments>();
   a->command = command_line(argc, argv);
-  command->add_option("PLAN", a->plan, "Measurement plan (TOML)")->required();
+  CLI::Option* plan = command->add_option("PLAN", a->plan, "Measurement plan (TOML)");
+  CLI::Option* example =
+      command->add_option("--example", a->example,
+                          "Print a plan that comes with the program, to begin with: every_kind, "
+                          "trunnion_touch, xyfz_touch, ... Its machine file lies beside it "
+                          "(volcomp machine example)");
+  example->excludes(plan);
   command->add_option("--points", a->points_file,
                       "Write where the machine will stand for every observation to this file (-: "
                       "standard output)");
@@ -162,7 +187,10 @@ void add_plan_command(CLI::App& app, int argc, char** argv, int& code) {
                       "this file (-: standard output)");
   command->add_option("--json", a->json_file, "Write everything to this file (-: standard output)");
   command->add_option("--report", a->report_folder, "Write report.html and report.json here");
-  command->callback([a, &code] { code = predict(*a); });
+  command->callback([a, &code] {
+    if (a->plan.empty() && a->example.empty()) throw CLI::RequiredError("PLAN or --example");
+    code = a->example.empty() ? predict(*a) : print_example(a->example);
+  });
 }
 
 }  // namespace volcomp::cli

@@ -15,6 +15,7 @@
 #include "host_sim/host/machine/chain_string.hpp"
 #include "host_sim/host/machine/machine_facts.hpp"
 #include "host_sim/host/machine/machine_summary.hpp"
+#include "host_sim/host/measure/identify/plan_file.hpp"
 #include "host_sim/host/report/report_parts.hpp"
 #include "host_sim/host/report/text_of.hpp"
 
@@ -82,7 +83,8 @@ nlohmann::json table_without_head(const std::string& title, const nlohmann::json
 int list_everything(const std::string& json_file) {
   Results results({json_file});
   nlohmann::json facts{{"scenarios", nlohmann::json::array()},
-                       {"machines", nlohmann::json::array()}};
+                       {"machines", nlohmann::json::array()},
+                       {"plans", nlohmann::json::array()}};
   for (const Listed& s : kScenarios)
     facts["scenarios"].push_back({{"name", s.name}, {"what", s.what}});
   for (const std::string& name : host::bundled_machines()) {
@@ -90,6 +92,9 @@ int list_everything(const std::string& json_file) {
     facts["machines"].push_back(
         {{"name", name}, {"chain", host::chain_text(m.chain)}, {"file", m.path}});
   }
+  for (const std::string& name : host::identify::bundled_plans())
+    facts["plans"].push_back(
+        {{"name", name}, {"file", host::identify::bundled_plan(name).string()}});
   results.add(json_file, json_text(facts));
   results.write();
   fmt::print(results.text(), "{}",
@@ -97,7 +102,9 @@ int list_everything(const std::string& json_file) {
                  {table_without_head("scenarios (volcomp run NAME):", facts["scenarios"],
                                      {"name", "what"}),
                   table_without_head("machines (volcomp machine example NAME):", facts["machines"],
-                                     {"name", "chain", "file"})}));
+                                     {"name", "chain", "file"}),
+                  table_without_head("measurement plans (volcomp plan --example NAME):",
+                                     facts["plans"], {"name", "file"})}));
   return 0;
 }
 

@@ -60,6 +60,11 @@ rest = {s["name"]: (found["chi2"] - s["leave_out"]) / (found["dof"] - s["leave_o
 assert min(rest, key=rest.get) == "T1" and rest["T1"] < 1.3 and min(v for k, v in rest.items() if k != "T1") > 3, rest
 PYTHON
 
+# --- a bar or an R-test in a unit a thousand times too large shows nothing but readings that are too good
+sed 's/^u_um = \(.*\)/u_um = \1e3/; s/^machine_um.*//' plan.toml >quiet.toml
+expect 0 'leave less than a tenth of their uncertainty: is a unit wrong?' "$volcomp" identify quiet.toml --no-leave-out
+"$volcomp" identify plan.toml | grep -q 'is a unit wrong' && { echo 'FAILED: readings as good as stated are doubted'; failed=1; }
+
 # --- refusals
 refused() {
   expect 2 "$@" --json never.json
@@ -124,6 +129,11 @@ bad '[position_out_of_range]'
 noise 2000 >bad.csv
 bad 'bad.csv'
 expect 2 'cannot take the place of an input' "$volcomp" identify plan.toml --json setup_0.csv
+
+# --- plans that come with the program
+expect 2 'there is no plan "none"; the plans are: every_kind, ' "$volcomp" plan --example none
+expect 2 'PLAN or --example' "$volcomp" plan
+expect 0 'every_kind' "$volcomp" list
 
 # --- plans, without a reading: what is unseen is named as the cases have it
 cut -d, -f1-7 setup_0.csv >positions.csv

@@ -22,6 +22,12 @@ void hold_against_rest(const Problem& problem, const Solution& all, std::size_t 
 
 }  // namespace
 
+bool SetUpCheck::too_quiet() const {
+  constexpr double kEnough = 3.0;
+  constexpr double kTenth = 0.01;  // squared
+  return redundancy >= kEnough && chi2 < kTenth * redundancy;
+}
+
 double chi2_limit_99(double dof) {
   constexpr double kNormal99 = 2.3263478740408408;
   const double part = 2.0 / (9.0 * dof);

@@ -14,6 +14,10 @@ struct SetUpCheck {
   double chi2 = 0.0;               // of its readings
   std::optional<double> left_out;  // χ² of all less χ² without it; none: the rest is not enough
   std::optional<Index> left_out_dof;
+
+  // Its readings leave less than a tenth of their stated uncertainty, which chance does not do to
+  // three or more: a reading or an uncertainty is in another unit.
+  [[nodiscard]] bool too_quiet() const;
 };
 
 struct Consistency {

@@ -34,18 +34,25 @@ std::vector<std::string> unvisited(const MeasurementPlan& plan, const Identified
   return lines;
 }
 
+// What is wrong with a set-up, empty: nothing.
+std::string remark_on(const SetUpCheck& c) {
+  if (c.left_out && *c.left_out > chi2_limit_99(static_cast<double>(*c.left_out_dof)))
+    return "the others do not predict it";
+  if (c.too_quiet())
+    return "its readings leave less than a tenth of their uncertainty: is a unit wrong?";
+  return "";
+}
+
 json setup_rows(const MeasurementPlan& plan, const Identified& found) {
   json rows = json::array();
   for (std::size_t k = 0; k < found.consistency.setups.size(); ++k) {
     const SetUpCheck& c = found.consistency.setups[k];
     const SetUp& s = plan.problem.setups[k];
-    const bool moved =
-        c.left_out && *c.left_out > chi2_limit_99(static_cast<double>(*c.left_out_dof));
     rows.push_back(json::array(
         {s.name, kKindNames.at(static_cast<std::size_t>(s.kind)), c.rows,
          c.chi2 / std::max(c.redundancy, 1e-9),
          c.left_out ? json(*c.left_out / static_cast<double>(*c.left_out_dof)) : json("-"),
-         moved ? "the others do not predict it" : ""}));
+         remark_on(c)}));
   }
   return rows;
 }
@@ -156,6 +163,7 @@ json identified_json(const MeasurementPlan& plan, const Identified& found) {
                              {"rows", s.rows},
                              {"redundancy", s.redundancy},
                              {"chi2", s.chi2},
+                             {"too_quiet", s.too_quiet()},
                              {"leave_out", s.left_out ? json(*s.left_out) : json()},
                              {"leave_out_dof", s.left_out_dof ? json(*s.left_out_dof) : json()}});
   }

@@ -246,8 +246,14 @@ MeasurementPlan read_plan(const std::filesystem::path& path, const PlanFiles& fi
   return PlanReader(path, files).read();
 }
 
-std::filesystem::path bundled_plan(const std::string& name) {
-  return path_of({"plans", ".toml", "VOLCOMP_PLANS"}, name);
-}
+namespace {
+
+constexpr BundledFiles kPlans{"plans", ".toml", "VOLCOMP_PLANS"};
+
+}  // namespace
+
+std::vector<std::string> bundled_plans() { return names_of(kPlans); }
+
+std::filesystem::path bundled_plan(const std::string& name) { return path_of(kPlans, name); }
 
 }  // namespace volcomp::host::identify

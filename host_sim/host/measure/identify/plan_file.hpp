@@ -50,6 +50,7 @@ struct PlanFiles {
                                         const PlanFiles& files = {});
 
 // Plans that come with the program, by name; VOLCOMP_PLANS names another folder.
+[[nodiscard]] std::vector<std::string> bundled_plans();
 [[nodiscard]] std::filesystem::path bundled_plan(const std::string& name);
 
 }  // namespace volcomp::host::identify
