@@ -20,6 +20,7 @@ constexpr double kAbove_mm_min = 3000.0;
 constexpr double kRetract_mm_min = 1200.0;
 // A controller that reads the probe once a millisecond latches to 1 µm.
 constexpr double kProbing_mm_min = 60.0;
+constexpr double kStill = 1e-7;                // mm, rad
 constexpr const char* kLetters = "XYZABCUVW";  // of #5061 to #5069
 
 class Program {
@@ -56,6 +57,7 @@ class Program {
                     paths.above_all() ? "" : " Balls stand higher than this tip rises: look out."));
     add("M0");
     at_.reset();
+    arrived_.fill('0');
     rise(paths.up(), above);
     go("G0", above, {});
   }
@@ -74,6 +76,7 @@ class Program {
     for (std::size_t a = 0; a < plan_.machine.axes.size(); ++a) {
       if (!raises(up, above, a)) continue;
       line += word(a, above.at(a));
+      arrive(a, above);
       if (at_) at_->at(a) = above.at(a);
     }
     add(line);
@@ -88,7 +91,7 @@ class Program {
       for (const Pose& q : t.way)
         go("G1", q, kAbove_mm_min);
       go("G38.2", t.target, kProbing_mm_min);
-      add(row(s, i, t));
+      add(row(s, i));
       go("G1", t.way.back(), kRetract_mm_min);
     }
     for (const Pose& q : path.away)
@@ -121,34 +124,42 @@ class Program {
     return std::abs(higher.at(a) - q.at(a)) > kPart;
   }
 
+  void arrive(std::size_t a, const Pose& to) {
+    if (!at_)
+      arrived_.at(a) = '0';
+    else if (std::abs(to.at(a) - at_->at(a)) > kStill)
+      arrived_.at(a) = to.at(a) > at_->at(a) ? '+' : '-';
+  }
+
   // Axes that stand still have no word: interpreters refuse rotary words in G38.2.
   void go(const char* kind, const Pose& to, std::optional<double> feed) {
-    constexpr double kStill = 1e-7;
     std::string line = kind;
-    for (std::size_t a = 0; a < plan_.machine.axes.size(); ++a)
-      if (!at_ || std::abs(at_->at(a) - to.at(a)) > kStill) line += word(a, to.at(a));
+    for (std::size_t a = 0; a < plan_.machine.axes.size(); ++a) {
+      if (at_ && std::abs(at_->at(a) - to.at(a)) <= kStill) continue;
+      line += word(a, to.at(a));
+      arrive(a, to);
+    }
     if (line == kind) return;
     at_ = to;
     add(line + (feed ? fmt::format(" F{:.0f}", *feed) : ""));
   }
 
-  [[nodiscard]] std::string row(const SetUp& s, std::size_t i, const SphereTouch& t) const {
-    constexpr double kMoves = 1e-6;
+  [[nodiscard]] std::string row(const SetUp& s, std::size_t i) const {
     std::string line =
         fmt::format("(LOG,{},{},{}", s.name, s.sphere[i], problem_.styli[s.stylus[i]].name);
     const std::string letters = kLetters;
     for (const AxisFile& axis : plan_.machine.axes)
       line += fmt::format(",#{}", 5061 + letters.find(axis.letter));
-    for (std::size_t a = 0; a < plan_.machine.axes.size(); ++a) {
-      const double way = t.target.at(a) - t.way.back().at(a);
-      line += way > kMoves ? ",+" : way < -kMoves ? ",-" : ",0";
-    }
+    for (std::size_t a = 0; a < plan_.machine.axes.size(); ++a)
+      line += fmt::format(",{}", arrived_.at(a));
     return line + ")";
   }
 
   const MeasurementPlan& plan_;
   const Problem& problem_;
   std::optional<Pose> at_;  // none: anywhere
+  // In which direction each axis came to where it stands; 0: not known.
+  std::array<char, kMaxAxes> arrived_{};
   std::string text_;
 };
 
