@@ -12,17 +12,30 @@ diagonal=("$volcomp" run xyfz --one-diagonal --cycle-hz 50 --knots 11)
 without_bus loopback.json "${diagonal[@]}" --can loopback --json "$work/loopback.json"
 bus_begins
 
-start candump candump -r 100000000 -L vcan0
-candump=$!
-wait_for 'candump listens' listeners_are 1
-"${diagonal[@]}" --firmware a53 --can vcan0 --json "$work/a53.json" > "$work/a53_run.txt" 2>&1 ||
-  fail 'the diagonal with the firmware'
-kill -INT "$candump"
-wait "$candump" 2> /dev/null || true
-# EMCY 8110h, CAN overrun (CiA 301, 7.2.7.1).
-if grep -q ' 0A0#1081' "$work/candump.txt"; then
-  fail 'frames were lost before the node saw them'
-fi
+diagonal_with_firmware() {
+  start candump candump -r 100000000 -L vcan0
+  local candump=$! status=0
+  wait_for 'candump listens' listeners_are 1
+  "${diagonal[@]}" --firmware a53 --can vcan0 --json "$work/a53.json" > "$work/a53_run.txt" 2>&1 || status=$?
+  kill -INT "$candump"
+  wait "$candump" 2> /dev/null || true
+  return "$status"
+}
+# EMCY 8110h, CAN overrun (CiA 301, 7.2.7.1), or the last words of the firmware.
+frames_were_lost() {
+  grep -q ' 0A0#1081' "$work/candump.txt" || grep -q 'frames were lost' "$work/a53_run.txt"
+}
+
+# A busy kernel delivers frames so late that two bursts meet in the controller, which has room for one. That says
+# nothing about the node: the diagonal begins anew, twice at most.
+for attempt in 1 2 3; do
+  status=0
+  diagonal_with_firmware || status=$?
+  frames_were_lost || break
+  [ "$attempt" -lt 3 ] || fail 'frames were lost before the node saw them'
+  printf 'again: frames were lost before the node saw them\n'
+done
+[ "$status" = 0 ] || fail 'the diagonal with the firmware'
 
 expect 'firmware and loopback give the same figures' \
   "$python" "$same_figures" "$work/a53.json" "$work/loopback.json" 0
