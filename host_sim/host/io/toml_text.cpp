@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-// The parser takes for granted what does not hold for every text ("a.b" with nothing after a dot,
-// toml++ 3.3) and says so in its next check. It shall get there: an assertion would end the
-// program.
+// toml++ 3.3 asserts that a name follows the bracket of a table, where a comment may follow ("[#"),
+// and refuses that with its next check. An assertion would end the program before.
 #undef NDEBUG
 #define TOML_ASSERT(expression) static_assert(true)
 #include <toml++/toml.h>

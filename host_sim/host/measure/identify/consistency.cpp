@@ -23,7 +23,7 @@ void hold_against_rest(const Problem& problem, const Solution& all, std::size_t 
 }  // namespace
 
 bool SetUpCheck::too_quiet() const {
-  constexpr double kEnough = 3.0;
+  constexpr double kEnough = 10.0;
   constexpr double kTenth = 0.01;  // squared
   return redundancy >= kEnough && chi2 < kTenth * redundancy;
 }

@@ -15,8 +15,8 @@ struct SetUpCheck {
   std::optional<double> left_out;  // χ² of all less χ² without it; none: the rest is not enough
   std::optional<Index> left_out_dof;
 
-  // Its readings leave less than a tenth of their stated uncertainty, which chance does not do to
-  // three or more: a reading or an uncertainty is in another unit.
+  // Its readings leave less than a tenth of their stated uncertainty. Ten or more do not by chance
+  // (P < 1e-8): a reading or an uncertainty is in another unit.
   [[nodiscard]] bool too_quiet() const;
 };
 

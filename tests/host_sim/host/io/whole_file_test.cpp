@@ -334,10 +334,9 @@ TEST(ReadingFiles, NoMoreIsReadThanShowsThatItIsTooMuch) {
               testing::HasSubstr("larger than 1 MiB"));
 }
 
-// The parser asserts that a key begins where it does not (found by a fuzz program).
-TEST(ReadingFiles, AKeyWithoutALetterIsNotToml) {
-  const std::string text = "\n[[# Probe of\x12";
-  EXPECT_EQ(sim::complaint_of([&] { return parse_toml(text, "m.toml"); }),
+// Where assertions are on, toml++ ended the program here (found by a fuzz program).
+TEST(ReadingFiles, ACommentInPlaceOfANameOfATableIsNotToml) {
+  EXPECT_EQ(sim::complaint_of([&] { return parse_toml("\n[#", "m.toml"); }),
             "m.toml:2: not valid TOML");
 }
 
