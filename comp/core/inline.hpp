@@ -15,3 +15,6 @@
 
 // The condition of an exception: its branch is moved out of the straight run.
 #define VOLCOMP_UNLIKELY(condition) __builtin_expect(static_cast<bool>(condition), false)
+
+// Keeps a pointer in a register, where GCC would form an address of an atomic access anew.
+#define VOLCOMP_KEEP_IN_REGISTER(pointer) __asm("" : "+r"(pointer))

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "comp/core/inline.hpp"
-#include "comp/core/published.hpp"
+#include "comp/core/saturating_counter.hpp"
 #include "comp/core/span.hpp"
 #include "comp/tick/tick_types.hpp"
 
@@ -34,16 +34,16 @@ class StatusTally {
   VOLCOMP_INLINE void enter(std::uint32_t status) {
     const std::uint32_t began = status & ~last_;
     last_ = status;
-    count(ordinary_[ordinary_pattern(began & kOrdinaryStatus)]);
-    count(of_sample_[sample_pattern(began)]);
-    count(of_place_[place_pattern(began)]);
-    count(of_machine_[machine_pattern(began)]);
+    count(ordinary_.data(), ordinary_pattern(began & kOrdinaryStatus));
+    count(of_sample_.data(), sample_pattern(began));
+    count(of_place_.data(), place_pattern(began));
+    count(of_machine_.data(), machine_pattern(began));
   }
   // The same where it has no other bits than kOrdinaryStatus.
   VOLCOMP_INLINE void enter_ordinary(std::uint32_t status) {
     const std::uint32_t began = status & ~last_;
     last_ = status;
-    count(ordinary_[ordinary_pattern(began)]);
+    count(ordinary_.data(), ordinary_pattern(began));
   }
 
   // The next status begins anew, whatever it is.
@@ -60,7 +60,7 @@ class StatusTally {
   }
 
  private:
-  using Counter = Published<std::uint16_t>;
+  using Counter = SaturatingCounter;
 
   // The groups beside that of ordinary operation. kRamping is in none: ramps are those of all axes.
   static constexpr std::uint32_t sample_pattern(std::uint32_t status) {
@@ -75,9 +75,9 @@ class StatusTally {
   static_assert(kImplausible == kNotHomed << 3U && kFarOutOfRange == kOutOfRange << 1U &&
                 kNoTables == kNoAuthority << 1U && kTableDamaged == kNoAuthority << 2U);
 
-  VOLCOMP_INLINE static void count(Counter& counter) {
-    const std::uint32_t n = counter.own();
-    counter.set(static_cast<std::uint16_t>(n + 1U - (n + 1U) / (UINT16_MAX + 1U)));
+  VOLCOMP_INLINE static void count(Counter* group, std::uint32_t pattern) {
+    VOLCOMP_KEEP_IN_REGISTER(group);
+    group[pattern].increment();
   }
 
   [[gnu::cold, gnu::noinline]] static std::uint32_t sum_of(Span<const Counter> counters,
