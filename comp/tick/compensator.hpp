@@ -292,7 +292,7 @@ class Compensator {
   template <bool Fast>
   void begin_change();
   void end_change();
-  bool all_known(const Input& in);
+  void forget_places();
   std::uint32_t take_sample(AxisState& s, const AxisSample& sample, std::int32_t least, bool turns);
   void follow_slowly(AxisState& s, std::int32_t least, bool turns) const;
   std::uint32_t place(const AxisState& s, const AxisLookup& lookup, const std::array<Knot, 2>* rows,

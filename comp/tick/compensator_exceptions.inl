@@ -57,19 +57,6 @@ constexpr std::int64_t held_in_range(std::int64_t position, bool turns) {
   return turns ? position : clamp_position(position);
 }
 
-// Whether every axis has reported at last.
-template <class Machine, std::size_t Knots, class Limiter>
-bool Compensator<Machine, Knots, Limiter>::all_known(const Input& in) {
-  for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
-    AxisState& s = axis_[a];
-    if (s.known || !in.axis[a].valid) continue;
-    s.known = true;
-    s.seen = held_in_range(in.axis[a].position, rotary(a));
-    --unknown_axes_;
-  }
-  return unknown_axes_ == 0;
-}
-
 // Takes a first, lost, implausible, returning, unreferenced or absurdly large sample, or a good
 // one. Returns the status bits it raises.
 template <class Machine, std::size_t Knots, class Limiter>
@@ -170,6 +157,17 @@ template <class Machine, std::size_t Knots, class Limiter>
     }
     s.exception = static_cast<std::uint16_t>(status);
   });
+}
+
+// Before every axis has reported, nothing is said of where the others stand.
+template <class Machine, std::size_t Knots, class Limiter>
+[[gnu::noinline]] void Compensator<Machine, Knots, Limiter>::forget_places() {
+  constexpr std::uint32_t kOfPlace = kOutOfRange | kFarOutOfRange | kDirectionUnknown;
+  VOLCOMP_LOOP
+  for (std::size_t a = 0; a < machine_.chain.axes; ++a) {
+    AxisState& s = axis_[a];
+    s.exception = static_cast<std::uint16_t>(s.exception & ~kOfPlace);
+  }
 }
 
 // Clamp, ramp, round and limit with everything that can be going on: hold, gating to 0 and the soft
@@ -273,11 +271,12 @@ VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::tick_slow_path(const I
                                                                          float ramp, Output& out) {
   const Tables* set = now_.active.own();
   std::uint32_t gate = set != nullptr ? 0U : std::uint32_t{kNoTables};
-  if (set != nullptr && unknown_axes_ != 0 && !all_known(in)) {
+  follow_slow_path(in, first, set);
+  if (set != nullptr && VOLCOMP_UNLIKELY(unknown_axes_ != 0)) {
+    forget_places();
     set = nullptr;
     gate = kStale;
   }
-  follow_slow_path(in, first, set);
   if (set == nullptr) {
     work_.excess = {};
     if constexpr (kOrients) work_.turns.excess = {};
