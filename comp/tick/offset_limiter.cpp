@@ -39,86 +39,88 @@ VOLCOMP_INLINE std::int32_t stopping_step_below(std::int32_t most, std::int32_t 
 
 }  // namespace
 
+constexpr OffsetLimiter<true>::InForce::InForce(const OffsetBounds& b)
+    : reach(b.none() ? INT32_MAX : b.acceleration),
+      span(0),
+      rate(b.rate),
+      watch(b.free < b.limit ? b.free : b.limit - 1),
+      most(watch),
+      free(b.none() ? kNoneFree : b.free),
+      soft_rate(b.soft_rate),
+      limit(b.limit) {}
+
+constexpr bool OffsetLimiter<true>::InForce::same_bounds(const InForce& other) const {
+  return reach == other.reach && rate == other.rate && most == other.most && free == other.free &&
+         soft_rate == other.soft_rate && limit == other.limit;
+}
+
+OffsetBounds OffsetLimiter<true>::settings() const {
+  OffsetBounds b;
+  b.rate = next_.rate;
+  b.free = next_.none() ? next_.limit : next_.free;
+  b.soft_rate = next_.soft_rate;
+  b.acceleration = next_.none() ? 2 * next_.rate : next_.reach;
+  b.limit = next_.limit;
+  return b;
+}
+
+// A state that is safe within those in force is safe within `next`.
+constexpr bool OffsetLimiter<true>::InForce::contained_in(const OffsetBounds& next) const {
+  if (next.limit < limit || next.rate < rate) return none() && next.none();
+  return none() ? next.none() : next.acceleration >= reach;
+}
+
 void OffsetLimiter<true>::resume(std::int32_t offset, std::int32_t step, std::int32_t target) {
   if (waiting()) take_bounds();
   offset_ = offset;
   step_ = step;
   lag_ = target - offset;
-  prepare();
+  now_.span = now_.none() || lag_ == 0 ? span_at_target() : 0U;
 }
 
 void OffsetLimiter<true>::change(const OffsetBounds& bounds) {
-  next_ = bounds;
-  slow_enough_ = next_.rate < next_.acceleration ? next_.rate : next_.acceleration;
-  if (next_.contain(bounds_) || (next_.none() && bounds_.none())) slow_enough_ = INT32_MAX;
+  slow_enough_ = bounds.rate < bounds.acceleration ? bounds.rate : bounds.acceleration;
+  if (now_.contained_in(bounds)) slow_enough_ = INT32_MAX;
+  next_ = InForce(bounds);
+  now_.span = 0;
+  now_.free = kNoneFree;
   mode_.set(Mode::waiting);
-  prepare();
-}
-
-std::int32_t OffsetLimiter<true>::unclamped() const {
-  return bounds_.free < bounds_.limit ? bounds_.free : bounds_.limit - 1;
-}
-
-// What reach() compares with: in force, and nothing reached yet.
-VOLCOMP_INLINE void OffsetLimiter<true>::derive() {
-  const bool none = bounds_.none();
-  rate_ = bounds_.rate;
-  most_ = unclamped();
-  watch_ = largest_.own() < most_ ? largest_.own() : most_;
-  reach_ = none ? INT32_MAX : bounds_.acceleration;
-  free_ = none ? kNoneFree : bounds_.free;
-  span_ = 0;
-}
-
-// The same, whatever is in force or waits.
-void OffsetLimiter<true>::prepare() {
-  derive();
-  if (waiting()) {
-    free_ = kNoneFree;
-  } else if (bounds_.none()) {
-    span_ = UINT32_MAX;
-  } else if (lag_ == 0) {
-    span_ = 2U * word(bounds_.acceleration) + 1U;
-  }
 }
 
 bool OffsetLimiter<true>::intact() const {
   if (waiting()) return true;  // a tick in the middle of this may take them: judged afterwards
-  const OffsetBounds& b = bounds_;
-  return b == next_ && rate_ == b.rate && most_ == unclamped() && watch_ <= most_ &&
-         reach_ == (b.none() ? INT32_MAX : b.acceleration) &&
-         free_ == (b.none() ? kNoneFree : b.free);
+  return now_.same_bounds(next_) && now_.watch <= now_.most;
 }
 
 // Keeps the largest offset. Adds that it is beyond the limit.
 VOLCOMP_INLINE std::uint32_t OffsetLimiter<true>::keep_largest(std::uint32_t status) {
-  return VOLCOMP_UNLIKELY(beyond(offset_, watch_)) ? keep_unusual(status) : status;
+  return VOLCOMP_UNLIKELY(beyond(offset_, now_.watch)) ? keep_unusual(status) : status;
 }
 
 VOLCOMP_INLINE std::uint32_t OffsetLimiter<true>::keep_unusual(std::uint32_t status) {
   const std::int32_t out = size(offset_);
   if (out > largest_.own()) {
     largest_.set(out);
-    watch_ = out < most_ ? out : most_;
+    now_.watch = out < now_.most ? out : now_.most;
   }
-  return out > bounds_.limit ? status | kSettling : status;
+  return out > now_.limit ? status | kSettling : status;
 }
 
 bool OffsetLimiter<true>::may_take_bounds() const { return size(step_) <= slow_enough_; }
 
 void OffsetLimiter<true>::take_bounds() {
-  bounds_ = next_;
-  mode_.release(bounds_.none() ? Mode::free : Mode::bounded);
-  derive();
+  now_ = next_;
+  if (largest_.own() < now_.watch) now_.watch = largest_.own();
+  mode_.release(now_.none() ? Mode::free : Mode::bounded);
 }
 
 std::uint32_t OffsetLimiter<true>::brake() {
-  step_ -= between(-reach_, reach_, step_);
+  step_ -= between(-now_.reach, now_.reach, step_);
   offset_ += step_;
   lag_ = 0;
-  span_ = bounds_.none() ? UINT32_MAX : 2U * word(bounds_.acceleration) + 1U;
+  now_.span = span_at_target();
   if (!waiting()) return keep_largest(0);
-  span_ = 0;
+  now_.span = 0;
   return keep_largest(kSettling);
 }
 
@@ -135,7 +137,7 @@ std::uint32_t OffsetLimiter<true>::follow(std::int32_t target) {
 
 std::uint32_t OffsetLimiter<true>::follow_softly(std::int32_t target) {
   if (VOLCOMP_UNLIKELY(waiting())) return approach_waiting(target, true);
-  return approach(target, bounds_.soft_rate, kNoneFree);
+  return approach(target, now_.soft_rate, kNoneFree);
 }
 
 // Where bounds wait.
@@ -143,12 +145,12 @@ std::uint32_t OffsetLimiter<true>::approach_waiting(std::int32_t target, bool so
   if (!may_take_bounds()) return brake();
   take_bounds();
   lag_ = target - offset_;  // not taken to move
-  return softly ? approach(target, bounds_.soft_rate, kNoneFree) : approach(target);
+  return softly ? approach(target, now_.soft_rate, kNoneFree) : approach(target);
 }
 
 std::uint32_t OffsetLimiter<true>::approach(std::int32_t target, std::int32_t rate,
                                             std::int32_t free) {
-  const std::int32_t a = reach_;
+  const std::int32_t a = now_.reach;
   const std::int32_t before = step_;
   const std::int32_t e = target - offset_;
   // How fast the target is taken to move: as it did, but not beyond what the offset does.
@@ -176,9 +178,9 @@ std::uint32_t OffsetLimiter<true>::approach(std::int32_t target, std::int32_t ra
   offset_ += d;
   const std::int32_t lag = e - d;
   lag_ = lag;
-  span_ = 0;
+  now_.span = 0;
   if (VOLCOMP_UNLIKELY(lag == 0)) {
-    span_ = 2U * word(a) + 1U;
+    now_.span = span_at_target();
     status = 0;
   }
   if (VOLCOMP_UNLIKELY(beyond(lag, largest_lag_.own()))) largest_lag_.set(size(lag));
@@ -191,7 +193,7 @@ VOLCOMP_INLINE std::uint32_t OffsetLimiter<true>::approach_free(std::int32_t tar
   const std::int32_t e = target - offset_;
   step_ = between(-rate, rate, e);
   offset_ += step_;
-  span_ = UINT32_MAX;
+  now_.span = UINT32_MAX;
   const std::int32_t lag = size(e - step_);
   if (VOLCOMP_UNLIKELY(lag > largest_lag_.own())) largest_lag_.set(lag);
   return keep_largest(lag != 0 ? std::uint32_t{kRateLimited} : 0U);

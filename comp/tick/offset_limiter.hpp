@@ -46,14 +46,14 @@ class OffsetLimiter<true> {
   VOLCOMP_INLINE bool reach(std::int32_t target) {
     const std::uint32_t e = word(target) - word(offset_);
     // No bit pattern is less than a span of 0.
-    if (VOLCOMP_UNLIKELY(e + word(rate_) > 2U * word(rate_) ||
-                         e - word(step_) + word(reach_) >= span_))
+    if (VOLCOMP_UNLIKELY(e + word(now_.rate) > 2U * word(now_.rate) ||
+                         e - word(step_) + word(now_.reach) >= now_.span))
       return false;
-    if (VOLCOMP_UNLIKELY(beyond(target, watch_))) {
+    if (VOLCOMP_UNLIKELY(beyond(target, now_.watch))) {
       const std::int32_t out = size(target);
-      if (out > most_) return false;
+      if (out > now_.most) return false;
       largest_.set(out);
-      watch_ = out;
+      now_.watch = out;
     }
     step_ = static_cast<std::int32_t>(e);
     offset_ = target;
@@ -62,7 +62,7 @@ class OffsetLimiter<true> {
   // These return why offset() is not the target.
   std::uint32_t follow(std::int32_t target);
   // The same without the shortcut; while bounds wait it brakes, without looking at the target.
-  std::uint32_t approach(std::int32_t target) { return approach(target, rate_, free_); }
+  std::uint32_t approach(std::int32_t target) { return approach(target, now_.rate, now_.free); }
   // At the soft rate.
   std::uint32_t follow_softly(std::int32_t target);
   // Comes to rest as soon as the acceleration allows.
@@ -72,14 +72,14 @@ class OffsetLimiter<true> {
   [[nodiscard]] std::int32_t step() const { return step_; }
   // Where the offset comes to rest if it brakes from now on.
   [[nodiscard]] VOLCOMP_INLINE std::int32_t standstill() const {
-    return VOLCOMP_UNLIKELY(beyond(step_, reach_)) ? braked() : offset_;
+    return VOLCOMP_UNLIKELY(beyond(step_, now_.reach)) ? braked() : offset_;
   }
   [[nodiscard]] bool waiting() const { return mode_.get() == Mode::waiting; }
 
   // --- background
 
   // The newest bounds: in force, or waiting.
-  [[nodiscard]] const Settings& settings() const { return next_; }
+  [[nodiscard, gnu::cold]] Settings settings() const;
   // Unless bounds wait: whether those in force are the newest, and what the tick compares with
   // belongs to them.
   [[nodiscard, gnu::cold]] bool intact() const;
@@ -109,36 +109,60 @@ class OffsetLimiter<true> {
   std::uint32_t brake();
   // Faster than one step of the acceleration: S(|step| − a) further on.
   [[nodiscard]] VOLCOMP_INLINE std::int32_t braked() const {
-    const std::uint32_t a = word(reach_);
+    const std::uint32_t a = word(now_.reach);
     const std::uint32_t d = word(size(step_)) - a;
     const std::uint32_t n = (d - 1U) / a;
     const std::uint32_t way = (n + 1U) * d - a * ((n + 1U) * n / 2U);
     return static_cast<std::int32_t>(step_ < 0 ? word(offset_) - way : word(offset_) + way);
   }
+  // All of a `reach` without bound.
+  [[nodiscard]] std::uint32_t span_at_target() const { return 2U * word(now_.reach) + 1U; }
   [[nodiscard]] bool may_take_bounds() const;
   void take_bounds();
-  void derive();
   void prepare();
-  [[nodiscard]] std::int32_t unclamped() const;
   std::uint32_t keep_largest(std::uint32_t status);
   std::uint32_t keep_unusual(std::uint32_t status);
 
-  // what reach() reads and writes
+  // Bounds as a tick compares with them.
+  struct InForce {
+    std::int32_t reach = 0;  // −reach ≤ change of the step < span − reach: reached at once
+    std::uint32_t span = 0;  // 0: nothing is
+    std::int32_t rate = 0;
+    std::int32_t watch = 0;  // the largest offset, or `most`: further out is not usual
+    std::int32_t most = 0;   // up to here targets are followed at their own speed and not clamped
+    std::int32_t free = 0;   // targets within are followed at their own speed, if bounded
+    std::int32_t soft_rate = 0;
+    std::int32_t limit = 0;
+
+    constexpr InForce() = default;
+    // As taken: nothing is reached yet, no offset has been larger than `most`.
+    constexpr explicit InForce(const OffsetBounds& b);
+    // Before any are stated: no offset but 0 is usual, and nothing is followed.
+    static constexpr InForce unstated() {
+      InForce none;
+      none.reach = INT32_MAX;
+      none.span = UINT32_MAX;
+      none.rate = 1;
+      none.free = kNoneFree;
+      return none;
+    }
+
+    // The change of the change has no bound.
+    [[nodiscard]] constexpr bool none() const { return reach == INT32_MAX; }
+    [[nodiscard]] constexpr bool same_bounds(const InForce& other) const;
+    [[nodiscard]] constexpr bool contained_in(const OffsetBounds& next) const;
+  };
+
+  // what reach() reads and writes comes first
   std::int32_t offset_ = 0;
   std::int32_t step_ = 0;
-  std::int32_t reach_ = INT32_MAX;  // −reach ≤ change of the step < span − reach: reached at once
-  std::uint32_t span_ = UINT32_MAX;  // 0: nothing is
-  std::int32_t rate_ = 1;
-  std::int32_t watch_ = 0;  // the largest offset, or most_: further out is not usual
-  std::int32_t most_ = 0;   // up to here targets are followed at their own speed and not clamped
+  InForce now_ = InForce::unstated();
 
-  std::int32_t free_ = kNoneFree;      // targets within are followed at their own speed, if bounded
   std::int32_t lag_ = 0;               // target − offset of the last tick, if bounded
-  Published<Mode> mode_ = Mode::free;  // released after bounds_
-  OffsetBounds bounds_{};              // in force
+  Published<Mode> mode_ = Mode::free;  // released after now_
   Published<std::int32_t> largest_ = 0;
   Published<std::int32_t> largest_lag_ = 0;
-  OffsetBounds next_{};           // the newest
+  InForce next_{};                // of the newest bounds
   std::int32_t slow_enough_ = 0;  // they are taken at steps of at most this
 };
 

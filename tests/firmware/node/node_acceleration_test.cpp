@@ -83,18 +83,16 @@ TEST_F(NodeAcceleration, WhatBreaksItIsTakenToZeroAndReported) {
   bring_up(kAcceleration);
   for (int n = 0; n < 350; ++n)
     move(n);
-  const std::array<std::int32_t, 2> bounds{kAcceleration, kLimit};
+  // What the tick compares with: the acceleration comes first, the limit as the eighth word.
+  constexpr std::size_t kToLimit = 7 * sizeof kLimit;
+  const auto holds = [](const unsigned char* at, std::int32_t value) {
+    return std::memcmp(at, &value, sizeof value) == 0;
+  };
   auto* memory = reinterpret_cast<unsigned char*>(bench_.node.get());
-  const auto* const end = memory + sizeof(Node) - sizeof bounds;
-  while (memory < end && std::memcmp(memory, bounds.data(), sizeof bounds) != 0)
-    memory += sizeof bounds[0];
+  const auto* const end = memory + sizeof(Node) - kToLimit - sizeof kLimit;
+  while (memory < end && !(holds(memory, kAcceleration) && holds(memory + kToLimit, kLimit)))
+    memory += sizeof kLimit;
   ASSERT_LT(memory, end);
-  constexpr std::size_t kWords = 16;  // of a limiter before its bounds
-  const unsigned char* const before = memory - kWords * sizeof bounds[0];
-  do {
-    memory -= sizeof bounds[0];
-  } while (memory > before && std::memcmp(memory, bounds.data(), sizeof bounds[0]) != 0);
-  ASSERT_GT(memory, before);
   memory[1] ^= 0x10U;
   std::int32_t held = bench_.drive[0].held;
   std::int32_t step = 0;
