@@ -13,8 +13,12 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots, Limiter>::put_out_limited(
       let_go(axis, ramp, ramping, out);
       return false;
     }
-    excess = s.limit.signed_like(excess);
-    target = round_half_even(s.ramp_from - ramp * (excess + s.ramp_from));
+    if (ramping == 0) {
+      target = Magnitude::negative(excess) ? s.out.limit() : -s.out.limit();
+    } else {
+      excess = s.limit.signed_like(excess);
+      target = round_half_even(s.ramp_from - ramp * (excess + s.ramp_from));
+    }
     status = kClamped;
   }
   status |= s.out.approach(target);

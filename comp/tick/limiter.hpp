@@ -33,6 +33,7 @@ class Magnitude {
 
   // Neither infinite nor not a number.
   VOLCOMP_INLINE static bool finite(float x) { return bits_of(x) << 1U < 0xFF00'0000U; }
+  VOLCOMP_INLINE static bool negative(float x) { return bits_of(x) >> 31U != 0; }
 
  private:
   VOLCOMP_INLINE static std::uint32_t bits_of(float x) { return bit_cast<std::uint32_t>(x); }

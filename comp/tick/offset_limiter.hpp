@@ -70,6 +70,8 @@ class OffsetLimiter<true> {
 
   [[nodiscard]] std::int32_t offset() const { return offset_; }
   [[nodiscard]] std::int32_t step() const { return step_; }
+  // Of the newest bounds.
+  [[nodiscard]] std::int32_t limit() const { return next_.limit; }
   // Where the offset comes to rest if it brakes from now on.
   [[nodiscard]] VOLCOMP_INLINE std::int32_t standstill() const {
     return VOLCOMP_UNLIKELY(beyond(step_, now_.reach)) ? braked() : offset_;
@@ -201,6 +203,7 @@ class OffsetLimiter<false> {
 
   [[nodiscard]] std::int32_t offset() const { return offset_; }
   [[nodiscard]] std::int32_t standstill() const { return offset_; }
+  [[nodiscard]] std::int32_t limit() const { return set_.limit; }
   [[nodiscard]] const Settings& settings() const { return set_; }
   [[nodiscard]] static bool intact() { return true; }
   [[nodiscard]] std::int32_t largest() const { return largest_.get(); }
