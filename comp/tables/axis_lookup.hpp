@@ -48,6 +48,23 @@ VOLCOMP_INLINE Knot fetch(const Knot& knot) {
 #endif
 }
 
+// The same the other way round.
+VOLCOMP_INLINE void store(const ChannelValues& values, ChannelValues& to) {
+#if defined(__arm__) && defined(__ARM_FP) && defined(__GNUC__) && !defined(__clang__)
+  register float v0 __asm("s0") = values[0];
+  register float v1 __asm("s1") = values[1];
+  register float v2 __asm("s2") = values[2];
+  register float v3 __asm("s3") = values[3];
+  register float v4 __asm("s4") = values[4];
+  register float v5 __asm("s5") = values[5];
+  __asm("vstmia %[to], {s0-s5}"
+        : "=m"(to)
+        : [to] "r"(&to), "t"(v0), "t"(v1), "t"(v2), "t"(v3), "t"(v4), "t"(v5));
+#else
+  to = values;
+#endif
+}
+
 // At t, 0…1, from one knot to the next.
 VOLCOMP_INLINE void interpolate(const Knot& knot, float t, ChannelValues& out) {
   const Knot k = fetch(knot);
@@ -65,7 +82,8 @@ VOLCOMP_INLINE void set_mean(Knot& mean, const Knot& a, const Knot& b, float t) 
   interpolate(b, t, second);
   VOLCOMP_UNROLL
   for (std::size_t c = 0; c < 6; ++c)
-    mean.v[c] = 0.5F * (first[c] + second[c]);
+    first[c] = 0.5F * (first[c] + second[c]);
+  store(first, mean.v);
 }
 
 inline constexpr unsigned kFractionBits = 22;
