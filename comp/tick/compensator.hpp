@@ -209,6 +209,15 @@ class Compensator {
     Ramp ramp{};
   };
 
+  // Axes that the next tick is to treat as guarded or limited: both in one word, one register.
+  struct NextTick {
+    static constexpr unsigned kLimited = 16;  // the bit of its first axis
+    [[nodiscard]] std::uint32_t guarded() const { return word & ((1U << kLimited) - 1U); }
+    [[nodiscard]] std::uint32_t limited() const { return word >> kLimited; }
+
+    std::uint32_t word = 0;
+  };
+
   // What an orienting axis may turn in this tick, 2^-32 turn.
   struct TurnRange {
     float low;
@@ -302,7 +311,7 @@ class Compensator {
   void follow_slow_path(const Input& in, std::size_t first, const Tables* set);
   std::uint32_t put_out_slow_path(AxisState& s, float excess, float ramp, std::uint32_t status);
   void report(std::size_t axis, const AxisState& s, std::uint32_t status, std::uint32_t ramping,
-              Output& out);
+              Output& out, NextTick& next);
   static std::uint32_t hold(AxisState& s);
   void let_go(std::size_t axis, float ramp, std::uint32_t ramping, Output& out);
   void finish_slow_path(std::uint32_t gate, float ramp, Output& out);

@@ -221,7 +221,10 @@ template <class Machine, std::size_t Knots, class Limiter>
   const float x = s.ramp_from + ramp * (0.0F - s.ramp_from);
   std::uint32_t status = s.out.follow_softly(round_half_even(x)) & kSettling;
   if (status != 0) status |= kRateLimited;
-  report(axis, s, status | kClamped | kTableDamaged, ramping, out);
+  NextTick next;
+  report(axis, s, status | kClamped | kTableDamaged, ramping, out, next);
+  guarded_axes_ |= next.guarded();
+  limited_axes_ |= next.limited();
 }
 
 // Counts what began and decides which path the next tick takes. A status without a bit is valid,
@@ -231,11 +234,12 @@ VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::report(std::size_t axi
                                                                  const AxisState& s,
                                                                  std::uint32_t status,
                                                                  std::uint32_t ramping,
-                                                                 Output& out) {
+                                                                 Output& out,
+                                                                 NextTick& next) {
   if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
   const std::uint32_t bit = 1U << axis;
-  if (status != kValid) limited_axes_ |= bit;
-  if ((status & ~kOrdinaryStatus) != 0 || s.soft) guarded_axes_ |= bit;
+  if (status != kValid) next.word |= bit << NextTick::kLimited;
+  if ((status & ~kOrdinaryStatus) != 0 || s.soft) next.word |= bit;
   status &= ~kSettling;
   out.offset[axis] = s.out.offset();
   out.status[axis] = static_cast<std::uint16_t>(status | ramping);
@@ -251,16 +255,17 @@ template <class Machine, std::size_t Knots, class Limiter>
   const std::uint32_t damaged =
       damaged_.load(std::memory_order_relaxed) != 0 ? std::uint32_t{kTableDamaged} : 0U;
   const std::uint32_t ramping = now_.ramp.at_rest() ? 0U : std::uint32_t{kRamping};
-  guarded_axes_ = now_.active.own() != nullptr ? 0U : kNoAxes;
-  limited_axes_ = 0;
+  NextTick next;
   for_axes_from(0, [&](std::size_t a) VOLCOMP_INLINE_LAMBDA {
     AxisState& s = axis_[a];
     std::uint32_t status = s.exception;
     s.exception = 0;
     if (const float* const excess = excess_of(a); excess != nullptr)
       status = put_out_slow_path(s, *excess, ramp, status | gate);
-    report(a, s, status | damaged, ramping, out);
+    report(a, s, status | damaged, ramping, out, next);
   });
+  guarded_axes_ = next.guarded() | (now_.active.own() != nullptr ? 0U : kNoAxes);
+  limited_axes_ = next.limited();
 }
 
 // A tick from the first axis on that the fast path did not take, for whatever can happen. Without
