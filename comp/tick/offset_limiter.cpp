@@ -94,10 +94,7 @@ bool OffsetLimiter<true>::intact() const {
 
 // Keeps the largest offset. Adds that it is beyond the limit.
 VOLCOMP_INLINE std::uint32_t OffsetLimiter<true>::keep_largest(std::uint32_t status) {
-  return VOLCOMP_UNLIKELY(beyond(offset_, now_.watch)) ? keep_unusual(status) : status;
-}
-
-VOLCOMP_INLINE std::uint32_t OffsetLimiter<true>::keep_unusual(std::uint32_t status) {
+  if (!beyond(offset_, now_.watch)) return status;
   const std::int32_t out = size(offset_);
   if (out > largest_.own()) {
     largest_.set(out);
@@ -178,12 +175,13 @@ std::uint32_t OffsetLimiter<true>::approach(std::int32_t target, std::int32_t ra
   offset_ += d;
   const std::int32_t lag = e - d;
   lag_ = lag;
-  now_.span = 0;
-  if (VOLCOMP_UNLIKELY(lag == 0)) {
+  if (lag == 0) {
     now_.span = span_at_target();
     status = 0;
+  } else {
+    now_.span = 0;
+    if (size(lag) > largest_lag_.own()) largest_lag_.set(size(lag));
   }
-  if (VOLCOMP_UNLIKELY(beyond(lag, largest_lag_.own()))) largest_lag_.set(size(lag));
   return keep_largest(status);
 }
 

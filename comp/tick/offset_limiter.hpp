@@ -123,7 +123,6 @@ class OffsetLimiter<true> {
   void take_bounds();
   void prepare();
   std::uint32_t keep_largest(std::uint32_t status);
-  std::uint32_t keep_unusual(std::uint32_t status);
 
   // Bounds as a tick compares with them.
   struct InForce {
