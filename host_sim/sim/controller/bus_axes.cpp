@@ -108,9 +108,8 @@ void BusAxes::build(const host::BusSettings& settings) {
 
 void BusAxes::serve_drive(std::size_t a, std::uint64_t now_us) {
   Cia402Drive& drive = *drive_[a];
-  Rest& rest = drive_rest_[a];
-  if (rest.over(now_us, bus_.called()))
-    rest.serve(drive, *drive_port_[a], now_us, [&drive] { return drive.rests_until_us(); });
+  drive_rest_[a].serve(drive, *drive_port_[a], now_us, bus_.served(),
+                       [&drive] { return drive.rests_until_us(); });
 }
 
 void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& name) {
@@ -154,6 +153,7 @@ std::int64_t BusAxes::drive_units(std::size_t a, std::int64_t run_time_units) co
 
 std::vector<std::int32_t> BusAxes::on_wire(const host::Targets& target) const {
   std::vector<std::int32_t> wire;
+  wire.reserve(drive_.size());
   for (std::size_t a = 0; a < drive_.size(); ++a) {
     const std::int64_t units = drive_units(a, target[a]);
     const bool rotary = controller_.settings().axes[a].rotary;

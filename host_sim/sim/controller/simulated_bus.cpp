@@ -1,6 +1,7 @@
 #include "host_sim/sim/controller/simulated_bus.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace volcomp::sim {
 namespace {
@@ -54,21 +55,29 @@ void SimulatedBus::first_round() {
 }
 
 void SimulatedBus::run_until(std::uint64_t time_ns) {
-  bool first = true;
-  while (bus_.now_ns() < time_ns) {
-    if (first) {
-      first_round();
-      first = false;
-    } else {
-      serve_all();
-    }
+  if (bus_.now_ns() >= time_ns) return;
+  // Before this time no participant has anything to do, unless a frame arrives; 0: to be asked.
+  std::uint64_t all_rest_until_us = 0;
+  const auto least = [](std::uint64_t until_us, const Participant& p) {
+    return std::min(until_us, p.rests_until_us);
+  };
+  first_round();
+  while (true) {
     const bool quiet = bus_.now_ns() - last_frame_ns_ >= kQuietAfter_ns;
     const std::uint64_t slice = quiet ? kQuietSlice_ns : kSlice_ns;
     const std::uint64_t slice_end = std::min(time_ns, bus_.now_ns() + slice);
     while (bus_.step(slice_end)) {
       last_frame_ns_ = bus_.now_ns();
       serve_concerned();
+      all_rest_until_us = 0;
     }
+    if (bus_.now_ns() >= time_ns) return;
+    if (all_rest_until_us == 0)
+      all_rest_until_us =
+          std::accumulate(participants_.begin(), participants_.end(), UINT64_MAX, least);
+    if (now_us() < all_rest_until_us && !called_) continue;
+    serve_all();
+    all_rest_until_us = 0;
   }
 }
 
