@@ -24,36 +24,27 @@ bool HeartbeatConsumer::heard(std::uint8_t node, NmtState state, std::uint64_t n
   Watch& w = watch_[i];
   const bool was_lost = w.lost;
   w = {now_us, state, node, true, false};
-  look_at(overdue_us(i));
+  next_us_ = 0;
   event = state == NmtState::boot_up ? HeartbeatEvent::booted : HeartbeatEvent::back;
   return was_lost || state == NmtState::boot_up;
 }
 
-// When the silence of a watched node is too long.
-std::uint64_t HeartbeatConsumer::overdue_us(std::size_t i) const {
-  return watch_[i].last_us + time_us(objects_.consumer_heartbeat[i]) + 1U;
-}
-
-void HeartbeatConsumer::look_at(std::uint64_t at_us) {
-  if (at_us < next_us_) next_us_ = at_us;
-}
-
 bool HeartbeatConsumer::overdue(std::uint64_t now_us, std::uint8_t& node) {
   if (now_us < next_us_) return false;
-  next_us_ = UINT64_MAX;
+  std::uint64_t next_us = UINT64_MAX;
   for (std::size_t i = 0; i < kHeartbeatConsumers; ++i) {
     Watch& w = watch_[i];
     if (!w.started || w.lost) continue;
     const std::uint32_t entry = objects_.consumer_heartbeat[i];
-    if (now_us - w.last_us <= time_us(entry)) {
-      look_at(overdue_us(i));
-      continue;
+    if (now_us - w.last_us > time_us(entry)) {
+      w.lost = true;
+      node = node_of(entry);
+      return true;
     }
-    w.lost = true;
-    node = node_of(entry);
-    next_us_ = now_us;  // there may be more of them
-    return true;
+    const std::uint64_t at_us = w.last_us + time_us(entry) + 1U;
+    if (at_us < next_us) next_us = at_us;
   }
+  next_us_ = next_us;
   return false;
 }
 

@@ -21,8 +21,8 @@ class HeartbeatConsumer {
 
   // A watched node that has fallen silent since the last call, one per call.
   bool overdue(std::uint64_t now_us, std::uint8_t& node);
-  // Before this time there is none; UINT64_MAX: never. What is heard puts it off only when the time
-  // has come, so that a call of overdue() compares two times instead of looking at every node.
+  // Before this time there is none; UINT64_MAX: never; 0: after something was heard, until the next
+  // overdue(), which else compares two times instead of looking at every node.
   [[nodiscard]] std::uint64_t next_overdue_us() const { return next_us_; }
 
   // State in the last message of a watched node; boot_up when nothing is known.
@@ -47,8 +47,6 @@ class HeartbeatConsumer {
     bool lost = false;
   };
   [[nodiscard]] std::size_t slot(std::uint8_t node) const;
-  [[nodiscard]] std::uint64_t overdue_us(std::size_t i) const;
-  void look_at(std::uint64_t at_us);
 
   const CommunicationObjects& objects_;
   std::array<Watch, kHeartbeatConsumers> watch_{};

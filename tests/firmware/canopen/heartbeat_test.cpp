@@ -177,8 +177,12 @@ TEST_F(OverdueHeartbeats, NobodyIsBeforeTheFirstMessage) {
 
 TEST_F(OverdueHeartbeats, TheFirstToBeIsDueNext) {
   hear(3, 1000);
+  EXPECT_LE(consumer.next_overdue_us(), 51'001U);
+  EXPECT_EQ(overdue(1000), 0);
   EXPECT_EQ(consumer.next_overdue_us(), 51'001U);
   hear(4, 2000);
+  EXPECT_LE(consumer.next_overdue_us(), 22'001U);
+  EXPECT_EQ(overdue(2000), 0);
   EXPECT_EQ(consumer.next_overdue_us(), 22'001U);
   EXPECT_EQ(overdue(22'000), 0);
   EXPECT_EQ(overdue(22'001), 4);
