@@ -92,7 +92,8 @@ void BusAxes::build(const host::BusSettings& settings) {
   if (settings.axes.empty() || settings.axes.size() > host::kMostAxes)
     throw host::UserError(fmt::format("the simulated bus takes 1 to {} axes, the machine has {}",
                                       host::kMostAxes, settings.axes.size()));
-  bus_.attach_resting(controller_, "controller", [this] { return controller_.rests_until_us(); });
+  controller_port_ = &bus_.attach_resting(controller_, "controller",
+                                          [this] { return controller_.rests_until_us(); });
   for (const host::BusAxis& axis : settings.axes) {
     Cia402Drive::Settings s;
     s.node_id = axis.drive;
@@ -208,7 +209,7 @@ void BusAxes::run_cycle(const std::vector<std::int32_t>& path) {
   if (gateway_ != nullptr) await_node();
   next_sync_ns_ = std::max(next_sync_ns_, bus_.bus().now_ns());
   controller_.send_sync();
-  bus_.run_until(next_sync_ns_ + kSyncPhase_ns);
+  bus_.run_until(next_sync_ns_ + kSyncPhase_ns, *controller_port_);
   ++cycles_;
   show();
 }

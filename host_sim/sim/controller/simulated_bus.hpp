@@ -118,6 +118,8 @@ class SimulatedBus {
   [[nodiscard]] std::uint64_t now_us() const { return bus_.now_ns() / 1000U; }
 
   void run_until(std::uint64_t time_ns);
+  // The same where functions of the participant at `called` alone may have been called since.
+  void run_until(std::uint64_t time_ns, const Port& called);
   // Runs until no port has a frame to send.
   void run_until_quiet();
 
@@ -136,8 +138,9 @@ class SimulatedBus {
   static void serve(Participant& p, std::uint64_t now_us);
   void serve_all();
   void serve_concerned();
-
   void first_round();
+  void first_round(const Port& called);
+  void go_on_until(std::uint64_t time_ns);
 
   hal::LoopbackBus bus_;
   bool called_ = true;
