@@ -192,7 +192,7 @@ bool DeviceBase::inhibited(std::size_t pdo, std::uint64_t now_us) const {
 
 bool DeviceBase::offer_pdo(hal::CanFrame& frame, std::uint64_t now_us) {
   const Span<Pdo> pdos = pdos_.transmit();
-  for (std::size_t i = 0; pending_ != 0 && i < pdos.size(); ++i) {
+  for (std::size_t i = 0; i < pdos.size(); ++i) {
     if ((pending_ & (1U << i)) == 0 || inhibited(i, now_us)) continue;
     pdos[i].gather(frame);
     offered_pdo_ = i;
@@ -214,7 +214,7 @@ bool DeviceBase::offer(hal::CanFrame& frame, std::uint64_t now_us) {
     offered_ = Offered::sync;
   } else if (state_ != NmtState::stopped && emergency_.offer(now_us, frame)) {
     offered_ = Offered::emergency;
-  } else if (state_ == NmtState::operational && offer_pdo(frame, now_us)) {
+  } else if (pending_ != 0 && state_ == NmtState::operational && offer_pdo(frame, now_us)) {
     offered_ = Offered::pdo;
   } else if (sdo_waiting_ || (sdo_waiting_ = sdo_.response(sdo_response_))) {
     frame = {static_cast<std::uint16_t>(kSdoResponse + node_id_), 8, sdo_response_};

@@ -24,31 +24,28 @@ bool HeartbeatConsumer::heard(std::uint8_t node, NmtState state, std::uint64_t n
   Watch& w = watch_[i];
   const bool was_lost = w.lost;
   w = {now_us, state, node, true, false};
+  next_us_ = 0;
   event = state == NmtState::boot_up ? HeartbeatEvent::booted : HeartbeatEvent::back;
   return was_lost || state == NmtState::boot_up;
 }
 
 bool HeartbeatConsumer::overdue(std::uint64_t now_us, std::uint8_t& node) {
-  for (std::size_t i = 0; i < kHeartbeatConsumers; ++i) {
-    Watch& w = watch_[i];
-    const std::uint32_t entry = objects_.consumer_heartbeat[i];
-    if (!w.started || w.lost || now_us - w.last_us <= time_us(entry)) continue;
-    w.lost = true;
-    node = node_of(entry);
-    return true;
-  }
-  return false;
-}
-
-std::uint64_t HeartbeatConsumer::next_overdue_us() const {
+  if (now_us < next_us_) return false;
   std::uint64_t next_us = UINT64_MAX;
   for (std::size_t i = 0; i < kHeartbeatConsumers; ++i) {
-    const Watch& w = watch_[i];
+    Watch& w = watch_[i];
     if (!w.started || w.lost) continue;
-    const std::uint64_t at_us = w.last_us + time_us(objects_.consumer_heartbeat[i]) + 1U;
+    const std::uint32_t entry = objects_.consumer_heartbeat[i];
+    if (now_us - w.last_us > time_us(entry)) {
+      w.lost = true;
+      node = node_of(entry);
+      return true;
+    }
+    const std::uint64_t at_us = w.last_us + time_us(entry) + 1U;
     if (at_us < next_us) next_us = at_us;
   }
-  return next_us;
+  next_us_ = next_us;
+  return false;
 }
 
 bool HeartbeatConsumer::restart(std::uint8_t sub, std::uint8_t& lost_node) {

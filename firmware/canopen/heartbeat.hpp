@@ -21,8 +21,9 @@ class HeartbeatConsumer {
 
   // A watched node that has fallen silent since the last call, one per call.
   bool overdue(std::uint64_t now_us, std::uint8_t& node);
-  // When there will be one at the earliest, if none is heard; UINT64_MAX: never.
-  [[nodiscard]] std::uint64_t next_overdue_us() const;
+  // Before this time there is none; UINT64_MAX: never; 0: after something was heard, until the next
+  // overdue(), which else compares two times instead of looking at every node.
+  [[nodiscard]] std::uint64_t next_overdue_us() const { return next_us_; }
 
   // State in the last message of a watched node; boot_up when nothing is known.
   [[nodiscard]] NmtState state(std::uint8_t node) const;
@@ -32,7 +33,10 @@ class HeartbeatConsumer {
   // watched until now was lost; no later call reports it again.
   bool restart(std::uint8_t sub, std::uint8_t& lost_node);
   // Communication was reset.
-  void reset() { watch_ = {}; }
+  void reset() {
+    watch_ = {};
+    next_us_ = UINT64_MAX;
+  }
 
  private:
   struct Watch {
@@ -46,6 +50,7 @@ class HeartbeatConsumer {
 
   const CommunicationObjects& objects_;
   std::array<Watch, kHeartbeatConsumers> watch_{};
+  std::uint64_t next_us_ = UINT64_MAX;  // when overdue() looks at every node again
 };
 
 }  // namespace volcomp::canopen

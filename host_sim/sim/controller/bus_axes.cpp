@@ -92,7 +92,8 @@ void BusAxes::build(const host::BusSettings& settings) {
   if (settings.axes.empty() || settings.axes.size() > host::kMostAxes)
     throw host::UserError(fmt::format("the simulated bus takes 1 to {} axes, the machine has {}",
                                       host::kMostAxes, settings.axes.size()));
-  bus_.attach_resting(controller_, "controller", [this] { return controller_.rests_until_us(); });
+  controller_port_ = &bus_.attach_resting(controller_, "controller",
+                                          [this] { return controller_.rests_until_us(); });
   for (const host::BusAxis& axis : settings.axes) {
     Cia402Drive::Settings s;
     s.node_id = axis.drive;
@@ -108,9 +109,8 @@ void BusAxes::build(const host::BusSettings& settings) {
 
 void BusAxes::serve_drive(std::size_t a, std::uint64_t now_us) {
   Cia402Drive& drive = *drive_[a];
-  Rest& rest = drive_rest_[a];
-  if (rest.over(now_us, bus_.called()))
-    rest.serve(drive, *drive_port_[a], now_us, [&drive] { return drive.rests_until_us(); });
+  drive_rest_[a].serve(drive, *drive_port_[a], now_us, bus_.served(),
+                       [&drive] { return drive.rests_until_us(); });
 }
 
 void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& name) {
@@ -154,6 +154,7 @@ std::int64_t BusAxes::drive_units(std::size_t a, std::int64_t run_time_units) co
 
 std::vector<std::int32_t> BusAxes::on_wire(const host::Targets& target) const {
   std::vector<std::int32_t> wire;
+  wire.reserve(drive_.size());
   for (std::size_t a = 0; a < drive_.size(); ++a) {
     const std::int64_t units = drive_units(a, target[a]);
     const bool rotary = controller_.settings().axes[a].rotary;
@@ -208,7 +209,7 @@ void BusAxes::run_cycle(const std::vector<std::int32_t>& path) {
   if (gateway_ != nullptr) await_node();
   next_sync_ns_ = std::max(next_sync_ns_, bus_.bus().now_ns());
   controller_.send_sync();
-  bus_.run_until(next_sync_ns_ + kSyncPhase_ns);
+  bus_.run_until(next_sync_ns_ + kSyncPhase_ns, *controller_port_);
   ++cycles_;
   show();
 }

@@ -97,6 +97,7 @@ class BusAxes final : public AxisGroup {
   std::vector<std::unique_ptr<Cia402Drive>> drive_;
   std::vector<SimulatedBus::Port*> drive_port_;
   std::vector<Rest> drive_rest_;
+  SimulatedBus::Port* controller_port_ = nullptr;
   SimulatedBus::Port* node_port_ = nullptr;
   std::unique_ptr<node::Node> node_;  // in this process
   CanGateway* gateway_ = nullptr;

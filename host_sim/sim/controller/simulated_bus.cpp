@@ -1,6 +1,7 @@
 #include "host_sim/sim/controller/simulated_bus.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace volcomp::sim {
 namespace {
@@ -53,22 +54,49 @@ void SimulatedBus::first_round() {
   called_ = always_;
 }
 
+void SimulatedBus::first_round(const Port& called) {
+  const std::uint64_t now = now_us();
+  for (Participant& p : participants_) {
+    called_ = always_ || p.port == &called;
+    if (!rests(p, now)) serve(p, now);
+  }
+  called_ = always_;
+}
+
 void SimulatedBus::run_until(std::uint64_t time_ns) {
-  bool first = true;
-  while (bus_.now_ns() < time_ns) {
-    if (first) {
-      first_round();
-      first = false;
-    } else {
-      serve_all();
-    }
+  if (bus_.now_ns() >= time_ns) return;
+  first_round();
+  go_on_until(time_ns);
+}
+
+void SimulatedBus::run_until(std::uint64_t time_ns, const Port& called) {
+  if (bus_.now_ns() >= time_ns) return;
+  first_round(called);
+  go_on_until(time_ns);
+}
+
+void SimulatedBus::go_on_until(std::uint64_t time_ns) {
+  // Before this time no participant has anything to do, unless a frame arrives; 0: to be asked.
+  std::uint64_t all_rest_until_us = 0;
+  const auto least = [](std::uint64_t until_us, const Participant& p) {
+    return std::min(until_us, p.rests_until_us);
+  };
+  while (true) {
     const bool quiet = bus_.now_ns() - last_frame_ns_ >= kQuietAfter_ns;
     const std::uint64_t slice = quiet ? kQuietSlice_ns : kSlice_ns;
     const std::uint64_t slice_end = std::min(time_ns, bus_.now_ns() + slice);
     while (bus_.step(slice_end)) {
       last_frame_ns_ = bus_.now_ns();
       serve_concerned();
+      all_rest_until_us = 0;
     }
+    if (bus_.now_ns() >= time_ns) return;
+    if (all_rest_until_us == 0)
+      all_rest_until_us =
+          std::accumulate(participants_.begin(), participants_.end(), UINT64_MAX, least);
+    if (now_us() < all_rest_until_us && !called_) continue;
+    serve_all();
+    all_rest_until_us = 0;
   }
 }
 

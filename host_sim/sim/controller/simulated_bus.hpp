@@ -17,6 +17,10 @@ namespace volcomp::sim {
 // Serves a device as canopen::exchange() does, and leaves out what would do nothing.
 class Rest {
  public:
+  // When a device is served: as it says; as it says now, functions of it may have been called; or
+  // at every opportunity.
+  enum class When : std::uint8_t { due, called, always };
+
   template <class Device, class Port>
   void receive(Device& device, Port& port, std::uint64_t now_us) {
     while (const hal::CanFrame* const next = port.first()) {
@@ -29,24 +33,27 @@ class Rest {
       device.receive(frame, now_us);
       // Process data change what is sent, and no other time.
       disturbed_ = disturbed_ || canopen::restricted(frame.id);
-      if (!over(now_us, false)) until_us_ = std::min(until_us_, device.sends_at_us());
+      if (!over(now_us)) until_us_ = std::min(until_us_, device.sends_at_us());
     }
   }
   void disturb() { disturbed_ = true; }
-  // `called`: functions of the device may have been called.
-  [[nodiscard]] bool over(std::uint64_t now_us, bool called) const {
-    return called || disturbed_ || now_us >= until_us_;
-  }
   // Until when serve() does nothing, unless a frame arrives or a function of the device is called.
   [[nodiscard]] std::uint64_t until_us() const { return disturbed_ ? 0 : until_us_; }
+  // `called`: functions of the device may have been called. Then it is asked anew until when it
+  // rests, which is much less work than serving it.
   template <class Device, class Port, class RestsUntil>
-  void serve(Device& device, Port& port, std::uint64_t now_us, const RestsUntil& rests_until_us) {
+  void serve(Device& device, Port& port, std::uint64_t now_us, When when,
+             const RestsUntil& rests_until_us) {
+    if (when == When::called && !over(now_us)) until_us_ = rests_until_us();
+    if (when != When::always && !over(now_us)) return;
     disturbed_ = false;
     canopen::exchange(device, port, now_us);
     until_us_ = rests_until_us();
   }
 
  private:
+  [[nodiscard]] bool over(std::uint64_t now_us) const { return disturbed_ || now_us >= until_us_; }
+
   bool disturbed_ = false;
   std::uint64_t until_us_ = 0;
 };
@@ -78,7 +85,7 @@ class SimulatedBus {
     const auto serve = [this, &device, rests_until_us, rest = Rest()](
                            Port& port, std::uint64_t now_us) mutable {
       rest.receive(device, port, now_us);
-      if (rest.over(now_us, called_)) rest.serve(device, port, now_us, rests_until_us);
+      rest.serve(device, port, now_us, served(), rests_until_us);
       return rest.until_us();
     };
     return attach_served(name, serve);
@@ -103,12 +110,16 @@ class SimulatedBus {
 
   // Devices that rest are served as often as all others, for a comparison.
   void serve_always() { always_ = true; }
-  // In the first round of run_…(): functions of the devices may have been called since the last.
-  [[nodiscard]] bool called() const { return called_; }
+  // In the first round of run_…() functions of the devices may have been called since the last.
+  [[nodiscard]] Rest::When served() const {
+    return always_ ? Rest::When::always : called_ ? Rest::When::called : Rest::When::due;
+  }
 
   [[nodiscard]] std::uint64_t now_us() const { return bus_.now_ns() / 1000U; }
 
   void run_until(std::uint64_t time_ns);
+  // The same where functions of the participant at `called` alone may have been called since.
+  void run_until(std::uint64_t time_ns, const Port& called);
   // Runs until no port has a frame to send.
   void run_until_quiet();
 
@@ -127,8 +138,9 @@ class SimulatedBus {
   static void serve(Participant& p, std::uint64_t now_us);
   void serve_all();
   void serve_concerned();
-
   void first_round();
+  void first_round(const Port& called);
+  void go_on_until(std::uint64_t time_ns);
 
   hal::LoopbackBus bus_;
   bool called_ = true;

@@ -148,6 +148,99 @@ TEST(HeartbeatConsumer, KnowsNothingOfNodesThatAreNotWatched) {
   EXPECT_TRUE(consumer.alive(3));
 }
 
+// Nodes 3 and 4 are watched for 50 and 20 ms.
+class OverdueHeartbeats : public ::testing::Test {
+ protected:
+  OverdueHeartbeats() {
+    values.consumer_heartbeat[1] = 0x0003'0032;
+    values.consumer_heartbeat[6] = 0x0004'0014;
+  }
+  void hear(std::uint8_t node, std::uint64_t now_us) {
+    HeartbeatEvent event{};
+    static_cast<void>(consumer.heard(node, NmtState::operational, now_us, event));
+  }
+  // 0: none.
+  std::uint8_t overdue(std::uint64_t now_us) {
+    std::uint8_t node = 0;
+    return consumer.overdue(now_us, node) ? node : std::uint8_t{0};
+  }
+
+  CommunicationObjects values;
+  HeartbeatConsumer consumer{values};
+};
+
+TEST_F(OverdueHeartbeats, NobodyIsBeforeTheFirstMessage) {
+  EXPECT_EQ(consumer.next_overdue_us(), UINT64_MAX);
+  EXPECT_EQ(overdue(UINT64_MAX - 1), 0);
+  EXPECT_EQ(consumer.next_overdue_us(), UINT64_MAX);
+}
+
+TEST_F(OverdueHeartbeats, TheFirstToBeIsDueNext) {
+  hear(3, 1000);
+  EXPECT_LE(consumer.next_overdue_us(), 51'001U);
+  EXPECT_EQ(overdue(1000), 0);
+  EXPECT_EQ(consumer.next_overdue_us(), 51'001U);
+  hear(4, 2000);
+  EXPECT_LE(consumer.next_overdue_us(), 22'001U);
+  EXPECT_EQ(overdue(2000), 0);
+  EXPECT_EQ(consumer.next_overdue_us(), 22'001U);
+  EXPECT_EQ(overdue(22'000), 0);
+  EXPECT_EQ(overdue(22'001), 4);
+  EXPECT_EQ(overdue(22'001), 0);
+  EXPECT_EQ(consumer.next_overdue_us(), 51'001U);
+  EXPECT_EQ(overdue(51'001), 3);
+  EXPECT_EQ(overdue(51'001), 0);
+  EXPECT_EQ(consumer.next_overdue_us(), UINT64_MAX);
+}
+
+TEST_F(OverdueHeartbeats, AllOfACallAreReportedOneByOne) {
+  hear(3, 0);
+  hear(4, 0);
+  EXPECT_EQ(overdue(100'000), 3);
+  EXPECT_EQ(overdue(100'000), 4);
+  EXPECT_EQ(overdue(100'000), 0);
+}
+
+TEST_F(OverdueHeartbeats, WhatIsHeardPutsItOff) {
+  hear(4, 0);
+  hear(4, 15'000);
+  EXPECT_LE(consumer.next_overdue_us(), 35'001U);
+  EXPECT_EQ(overdue(20'001), 0);
+  EXPECT_EQ(consumer.next_overdue_us(), 35'001U);
+  EXPECT_EQ(overdue(35'000), 0);
+  EXPECT_EQ(overdue(35'001), 4);
+}
+
+TEST_F(OverdueHeartbeats, OneThatIsBackCanBeAgain) {
+  hear(4, 0);
+  EXPECT_EQ(overdue(20'001), 4);
+  hear(4, 30'000);
+  EXPECT_EQ(overdue(50'000), 0);
+  EXPECT_EQ(overdue(50'001), 4);
+}
+
+TEST_F(OverdueHeartbeats, OneThatIsNoLongerWatchedIsNot) {
+  hear(3, 0);
+  hear(4, 0);
+  values.consumer_heartbeat[6] = 0;
+  std::uint8_t lost = 0;
+  EXPECT_FALSE(consumer.restart(7, lost));
+  EXPECT_EQ(overdue(50'000), 0);
+  EXPECT_EQ(consumer.next_overdue_us(), 50'001U);
+  consumer.reset();
+  EXPECT_EQ(consumer.next_overdue_us(), UINT64_MAX);
+  EXPECT_EQ(overdue(50'001), 0);
+}
+
+TEST_F(OverdueHeartbeats, AreCountedAcrossTheEndOfTheClock) {
+  constexpr std::uint64_t kBefore = UINT64_MAX - 999;  // 1000 µs before it begins anew
+  hear(4, kBefore);
+  EXPECT_EQ(overdue(UINT64_MAX), 0);
+  EXPECT_EQ(overdue(0), 0);
+  EXPECT_EQ(overdue(19'000), 0);
+  EXPECT_EQ(overdue(19'001), 4);
+}
+
 TEST_F(HeartbeatConsumption, NewEntryIsWatchedFromItsFirstHeartbeat) {
   heartbeat_of_3();
   ASSERT_EQ(write({0x1016, 2}, 0x0003'0032, 4), AbortCode::none);
