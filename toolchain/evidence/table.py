@@ -74,6 +74,8 @@ def images(evidence):
     a53 = evidence["a53"]
     body = [["node: flash, bytes", *of("node", "flash"), number(a53["flash"]), limit(NODE_FLASH)],
             ["node: RAM, bytes", *of("node", "ram"), number(a53["ram"]), "–"],
+            ["node without a probe: flash, bytes", *[number(evidence["boards"][b]["plain"]["flash"]) for b in BOARDS], "–", "–"],
+            ["node without a probe: RAM, bytes", *[number(evidence["boards"][b]["plain"]["ram"]) for b in BOARDS], "–", "–"],
             ["node: stack, background and all interrupts at once, bytes: proven", *of("node", "stack", "bound"), "–", "–"],
             ["node: stack, bytes: seen", *of("node", "stack", "painted"), "–", "–"],
             ["node: stack, bytes: reserved", *of("node", "stack", "reserved"), "–", "–"],
