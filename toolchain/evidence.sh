@@ -26,8 +26,8 @@ make_tables() {
 
 build_whole() {
   build_preset host --target volcomp-whole
-  build_preset m7 --target volcomp-whole volcomp-node volcomp-servo volcomp-grinder
-  build_preset m4 --target volcomp-whole volcomp-node volcomp-servo
+  build_preset m7 --target volcomp-whole volcomp-node volcomp-plain volcomp-servo volcomp-grinder
+  build_preset m4 --target volcomp-whole volcomp-node volcomp-plain volcomp-servo
   build_preset a53 --target volcomp-whole volcomp-node
 }
 
@@ -35,7 +35,7 @@ build_measured() {
   local board
   need qemu-system-arm llvm-mca
   for board in m7 m4; do
-    build_preset "$board" --target volcomp-node volcomp-servo volcomp-ticks volcomp-worst volcomp-latency volcomp-services volcomp-touches
+    build_preset "$board" --target volcomp-node volcomp-plain volcomp-servo volcomp-ticks volcomp-worst volcomp-latency volcomp-services volcomp-touches
   done
   build_preset m7 --target volcomp-grinder volcomp-strokes volcomp-trace
   build_preset host --target volcomp

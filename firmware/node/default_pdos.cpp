@@ -11,8 +11,9 @@ namespace {
 // The axis number in front of the sub-index: arrays start at sub-index 1.
 constexpr std::uint8_t sub(std::size_t axis) { return static_cast<std::uint8_t>(axis + 1); }
 
-// 32 bits of a received PDO that the node has no use for (CiA 301, section 7.4.7: dummy mapping).
+// Bits of a received PDO that the node has no use for (CiA 301, section 7.4.7: dummy mapping).
 constexpr std::uint32_t kFollowingError = canopen::mapped(0x0004, 0, 32);
+constexpr std::uint32_t kProbeWord = canopen::mapped(0x0006, 0, 16);  // of a node without probe
 
 // A PDO of one axis: the sub-index of what is mapped is the number of the axis.
 struct AxisPdo {
@@ -34,7 +35,8 @@ constexpr std::array<AxisPdo, kHeardOfAxis> kHeard{
     {{canopen::kRpdo1, 2, {at_axis(object::control), at_axis(object::target)}},
      {canopen::kTpdo1,
       3,
-      {at_axis(object::actual), at_axis(object::drive_status), at_axis(object::probe_status)}},
+      {at_axis(object::actual), at_axis(object::drive_status),
+       kProbes ? at_axis(object::probe_status) : kProbeWord}},
      {canopen::kTpdo1 + 0x300U, 1, {at_axis(object::held_offset)}},
      {canopen::kTpdo1 + 0x100U, 2, {at_axis(object::latched), at_axis(object::latch_time)}},
      {canopen::kTpdo1 + 0x200U, 2, {at_axis(object::edge_count), kFollowingError}}}};
@@ -61,7 +63,8 @@ canopen::PdoParameters axis_pdo(const AxisPdo& pdo, std::size_t axis, std::uint8
   p.count = pdo.count;
   for (std::size_t i = 0; i < pdo.count; ++i) {
     p.mapping[i] = pdo.mapping[i];
-    if (pdo.mapping[i] != kFollowingError) p.mapping[i] += canopen::mapped(0, sub(axis), 0);
+    const bool of_axis = pdo.mapping[i] != kFollowingError && pdo.mapping[i] != kProbeWord;
+    if (of_axis) p.mapping[i] += canopen::mapped(0, sub(axis), 0);
   }
   return p;
 }
@@ -134,6 +137,9 @@ canopen::PdoParameters default_receive_pdo(std::size_t number, const NodeObjects
   if constexpr (kFollowsTemperature) {
     if (number == kTemperaturePdo) return temperature_pdo(objects.controller);
     if (number == kProcessStatePdo) return {};  // of nodes without strokes: off
+  }
+  if constexpr (!kProbes) {
+    if (number >= kFirstLatchPdo) return {};
   }
   const std::size_t axis = number % kNodeAxes;
   const auto way = static_cast<Way>(objects.way[axis]);

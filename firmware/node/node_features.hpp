@@ -1,7 +1,10 @@
 #pragma once
-// Features of a node beside compensating and probing. Each board has room for some of them; a
-// feature left out is also missing from its object dictionary.
+// Features of a node beside compensating. Each board has room for some of them, and no machine
+// needs all; a feature left out is also missing from its object dictionary.
 
+#ifndef VOLCOMP_NODE_PROBING
+#define VOLCOMP_NODE_PROBING 1
+#endif
 #ifndef VOLCOMP_NODE_STROKES
 #define VOLCOMP_NODE_STROKES 1
 #endif
@@ -17,6 +20,8 @@
 
 namespace volcomp::node {
 
+// Points of a touch probe and their judgement on a flank: 2015h, 2017h…2019h, 2300h…2411h.
+inline constexpr bool kProbes = VOLCOMP_NODE_PROBING != 0;
 // Monitor, learning and offsets of a helical grinder: 201Ah, 2500h.
 inline constexpr bool kWatchesStrokes = VOLCOMP_NODE_STROKES != 0;
 // Temperatures, expansion of the axes, expiry of tables: 2700h. Without it tables count as at their

@@ -28,10 +28,12 @@ constexpr std::array kLines{
   Line{there, lines::row<lines::type>(index, sub, count, offset, lines::use, lines::range, name)},
 #define NODE(index, sub, count, type, member, use, value, range, name) \
   LINE(true, index, sub, count, type, offsetof(NodeObjects, member), use, range, name)
+#define LATCH(index, sub, count, type, member, use, value, range, name) \
+  LINE(kProbes, index, sub, count, type, offsetof(NodeObjects, member), use, range, name)
 #define PROBE(index, sub, count, type, member, use, value, range, name) \
-  LINE(true, index, sub, count, type, kProbe + offsetof(ProbeObjects, member), use, range, name)
+  LINE(kProbes, index, sub, count, type, kProbe + offsetof(ProbeObjects, member), use, range, name)
 #define FLANK(index, sub, count, type, member, use, value, range, name) \
-  LINE(true, index, sub, count, type, kFlank + offsetof(FlankObjects, member), use, range, name)
+  LINE(kProbes, index, sub, count, type, kFlank + offsetof(FlankObjects, member), use, range, name)
 #define STROKE(index, sub, count, type, member, use, value, range, name)                         \
   LINE(kWatchesStrokes, index, sub, count, type, kStroke + offsetof(StrokeObjects, member), use, \
        range, name)
@@ -55,7 +57,7 @@ constexpr std::array kLines{
 #define NODE_DOMAIN(index, sub, count, member, use, name) \
   DOMAIN_LINE(true, index, sub, count, use, name)
 #define PROBE_DOMAIN(index, sub, count, member, use, name) \
-  DOMAIN_LINE(true, index, sub, count, use, name)
+  DOMAIN_LINE(kProbes, index, sub, count, use, name)
 #define STROKE_DOMAIN(index, sub, count, member, use, name) \
   DOMAIN_LINE(kWatchesStrokes, index, sub, count, use, name)
 #include "firmware/node/objects.def"

@@ -54,7 +54,7 @@ struct NodeObjects {
 #include "firmware/node/objects.def"
   PerAxis<std::array<std::uint16_t, kStatusBits>> began{};  // 2610h… how often each bit began
 
-  ProbeObjects probe{};
+  std::conditional_t<kProbes, ProbeObjects, NoProbeObjects> probe{};
   std::conditional_t<kWatchesStrokes, StrokeObjects, NoStrokeObjects> stroke{};
   std::conditional_t<kFollowsTemperature, ThermalObjects, NoThermalObjects> thermal{};
 };
@@ -68,8 +68,8 @@ struct NodeObjects {
 [[nodiscard]] Span<const canopen::NamedEntry> named_node_dictionary();
 
 // Numbers of the PDOs, from 0.
-// From the drives: targets, actual values, held offsets, latches, edge counters. From the
-// controller: what it grinds, how warm the axes are.
+// From the drives: targets, actual values, held offsets, latches, edge counters (off in a node that
+// does not probe). From the controller: what it grinds, how warm the axes are.
 inline constexpr std::size_t kProcessStatePdo = 5 * kNodeAxes;
 inline constexpr std::size_t kTemperaturePdo = kProcessStatePdo + 1;  // in every node that has it
 inline constexpr std::size_t kReceivePdos =
@@ -80,10 +80,12 @@ inline constexpr std::size_t kCycleReceivePdos = kProcessStatePdo + (kWatchesStr
 inline constexpr std::size_t kStatusPdo = kNodeAxes;
 inline constexpr std::size_t kFirstPointPdo = kNodeAxes + 1;
 inline constexpr std::size_t kPointPdos = 3;
-inline constexpr std::size_t kTransmitPdos = kFirstPointPdo + kPointPdos;
+inline constexpr std::size_t kTransmitPdos = kFirstPointPdo + (kProbes ? kPointPdos : 0);
 
 // RPDOs with the offsets that the drives hold, one per axis.
 inline constexpr std::size_t kFirstHeldPdo = 2 * kNodeAxes;
+// Those with what the drives latched.
+inline constexpr std::size_t kFirstLatchPdo = 3 * kNodeAxes;
 
 // Default parameters of the PDOs for the drives of 2010h; those of absent drives are invalid, and
 // those of held offsets where drives do not report (2207h) or take none (2034h).

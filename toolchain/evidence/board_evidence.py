@@ -52,7 +52,9 @@ class BoardEvidence:
         ticks = self._ticks()
         self.checks.append(budgets.Check(f"{self.board}, node, bytes of flash", products["node"]["flash"], budgets.NODE_FLASH))
         found = self._groups(products["node"]["flash"])
-        return {"products": products, "groups": found, **ticks, "worst": self._worst(), "latency": self._latency(), "services": self._services(), "touches": self._touches(),
+        plain = sizes.measure(self.image("plain"))
+        self.checks.append(budgets.Check(f"{self.board}, node without a probe, bytes of flash", plain.flash, budgets.PLAIN_FLASH))
+        return {"products": products, "plain": {"flash": plain.flash, "ram": plain.ram}, "groups": found, **ticks, "worst": self._worst(), "latency": self._latency(), "services": self._services(), "touches": self._touches(),
                 "strokes": self._strokes()}
 
     def _groups(self, flash):

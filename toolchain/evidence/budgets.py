@@ -52,6 +52,7 @@ GRINDERS = ("m7",)   # boards with a node that watches strokes
 STACK_OF_TICK = 256  # bytes
 DEEPER = {"five_axis_orienting": "two orienting", "eight_axis": "eight axes"}  # without a budget of stack
 NODE_FLASH = 104 * KIB  # 96 and what the ways of corrections to drives take, by part in docs/drives.md
+PLAIN_FLASH = 84 * KIB  # of the node without a probe
 
 
 @dataclasses.dataclass(frozen=True)

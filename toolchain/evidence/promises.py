@@ -15,7 +15,7 @@ from call_graph import CallGraph
 from failure import Failure
 from link_map import LinkMap, Piece
 
-IMAGES = {"host": ("whole",), "m7": ("whole", "node", "servo", "grinder"), "m4": ("whole", "node", "servo"), "a53": ("whole", "node")}
+IMAGES = {"host": ("whole",), "m7": ("whole", "node", "plain", "servo", "grinder"), "m4": ("whole", "node", "plain", "servo"), "a53": ("whole", "node")}
 LIBRARIES = {"comp", "metrology", "c", "canopen", "hal_link"}
 LIBRARIES_OF = {"host": {"node", "hal_linux"}, "m7": {"grinder_node", "hal_mps2"}, "m4": {"node", "hal_mps2"}, "a53": {"node", "hal_virt"}}
 DEVICES = {"hal_mps2", "hal_virt"}  # hold the state of a device

@@ -1,6 +1,6 @@
 """The figures as Markdown, for docs/evidence.md and for reading."""
 import groups
-from budgets import DEEPER, KINDS, LATENCY, NODE_FLASH, STACK_OF_TICK, STRETCH, TOUCH, TOUCHES, TRACED, WORST
+from budgets import DEEPER, KINDS, LATENCY, NODE_FLASH, PLAIN_FLASH, STACK_OF_TICK, STRETCH, TOUCH, TOUCHES, TRACED, WORST
 
 BEGIN, END = "<!-- evidence: made by toolchain/evidence.sh --write -->", "<!-- end of evidence -->"
 BOARDS = {"m7": "Cortex-M7", "m4": "Cortex-M4F"}
@@ -74,6 +74,8 @@ def images(evidence):
     a53 = evidence["a53"]
     body = [["node: flash, bytes", *of("node", "flash"), number(a53["flash"]), limit(NODE_FLASH)],
             ["node: RAM, bytes", *of("node", "ram"), number(a53["ram"]), "–"],
+            ["node without a probe: flash, bytes", *[number(evidence["boards"][b]["plain"]["flash"]) for b in BOARDS], "–", limit(PLAIN_FLASH)],
+            ["node without a probe: RAM, bytes", *[number(evidence["boards"][b]["plain"]["ram"]) for b in BOARDS], "–", "–"],
             ["node: stack, background and all interrupts at once, bytes: proven", *of("node", "stack", "bound"), "–", "–"],
             ["node: stack, bytes: seen", *of("node", "stack", "painted"), "–", "–"],
             ["node: stack, bytes: reserved", *of("node", "stack", "reserved"), "–", "–"],

@@ -47,4 +47,7 @@ struct ProbeObjects {
   FlankObjects flank{};
 };
 
+// Stands in for the objects in a node that does not probe.
+struct NoProbeObjects {};
+
 }  // namespace volcomp::node

@@ -25,7 +25,10 @@ std::int64_t position_from_wire(std::int32_t wire, const WireScale& scale) {
 
 }  // namespace
 
-void ProbePart::restart(bool operational) {
+TouchProbe::TouchProbe(NodeCore& core)
+    : core_(core), path_(core.objects.probe, core.compensator, core.preemption) {}
+
+void TouchProbe::restart(bool operational) {
   had_actual_ = stored_ = 0;
   edges_counted_ = {};
   path_.restart();
@@ -35,7 +38,7 @@ void ProbePart::restart(bool operational) {
 
 // --- tick
 
-void ProbePart::end_cycle(std::uint8_t next_counter) {
+void TouchProbe::end_cycle(std::uint8_t next_counter) {
   const std::uint8_t overflow = core_.objects.communication.sync_counter_overflow;
   const bool wraps = next_counter == 1 && core_.open_counter == overflow;
   const bool consecutive = overflow < 2 || wraps || next_counter == core_.open_counter + 1;
@@ -53,7 +56,7 @@ void ProbePart::end_cycle(std::uint8_t next_counter) {
 }
 
 // Speed: what the axis has travelled between the SYNC before the edge and the one after it.
-LatchReport ProbePart::latch_report(std::size_t axis, bool consecutive) const {
+LatchReport TouchProbe::latch_report(std::size_t axis, bool consecutive) const {
   LatchReport r;
   r.latched = core_.has(Arrival::kLatched, axis);
   r.counted = core_.has(Arrival::kCounted, axis);
@@ -77,7 +80,7 @@ LatchReport ProbePart::latch_report(std::size_t axis, bool consecutive) const {
 
 // A drive without 60D5h: an edge is a rise of "positive edge stored" in 60B9h, or a latch where
 // that word does not come every cycle.
-void ProbePart::count_edge(std::size_t axis, LatchReport& report) {
+void TouchProbe::count_edge(std::size_t axis, LatchReport& report) {
   constexpr std::uint16_t kPositiveStored = 1U << 1U;
   bool edge = report.latched;
   if ((flagged_ & bit(axis)) != 0) {
@@ -92,7 +95,7 @@ void ProbePart::count_edge(std::size_t axis, LatchReport& report) {
 }
 
 // Whether one of these RPDOs brings an object.
-bool ProbePart::hears(std::size_t first, std::size_t end, std::uint32_t mapped) const {
+bool TouchProbe::hears(std::size_t first, std::size_t end, std::uint32_t mapped) const {
   for (std::size_t i = first; i < end; ++i) {
     const canopen::Pdo& pdo = core_.receive[i];
     const canopen::PdoParameters& p = pdo.parameters();
@@ -103,7 +106,7 @@ bool ProbePart::hears(std::size_t first, std::size_t end, std::uint32_t mapped) 
   return false;
 }
 
-void ProbePart::note_what_is_told() {
+void TouchProbe::note_what_is_told() {
   untimed_ = uncounted_ = flagged_ = 0;
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     if (core_.objects.drive[a] == 0) continue;
@@ -115,18 +118,18 @@ void ProbePart::note_what_is_told() {
 }
 
 // The cycle period may have been taken away since it was switched on.
-bool ProbePart::probes() const {
+bool TouchProbe::probes() const {
   return path_.on() && core_.objects.communication.cycle_period_us != 0;
 }
 
 // --- background
 
-void ProbePart::background(std::uint64_t /*now_us*/) {
+void TouchProbe::background(std::uint64_t /*now_us*/) {
   if (!core_.booting() && path_.work()) report_point();
 }
 
 // A point goes into the process data whatever became of it, a rejected one is an emergency, too.
-void ProbePart::report_point() {
+void TouchProbe::report_point() {
   const ProbePoint& point = path_.last();
   canopen::Emergency& emergency = core_.emergency();
   for (std::size_t part = 0; part < kPointPdos; ++part)
@@ -145,7 +148,7 @@ void ProbePart::report_point() {
 
 // --- objects
 
-AbortCode ProbePart::check_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
+AbortCode TouchProbe::check_write(canopen::ObjectId object, Span<const std::uint8_t> bytes) {
   if (object == kProbe) return switch_to(static_cast<ProbeCommand>(bytes[0]));
   const auto number = static_cast<std::uint32_t>(
       load_le(bytes.data(), std::min(bytes.size(), sizeof(std::uint32_t))));
@@ -156,7 +159,7 @@ AbortCode ProbePart::check_write(canopen::ObjectId object, Span<const std::uint8
   return why == Reason::ok ? AbortCode::none : AbortCode::invalid_value;
 }
 
-AbortCode ProbePart::switch_to(ProbeCommand command) {
+AbortCode TouchProbe::switch_to(ProbeCommand command) {
   if (command == ProbeCommand::off) {
     path_.switch_off();
     return AbortCode::none;
@@ -167,14 +170,14 @@ AbortCode ProbePart::switch_to(ProbeCommand command) {
   return status.ok() ? AbortCode::none : AbortCode::invalid_value;
 }
 
-AbortCode ProbePart::release_point(std::uint32_t sequence) {
+AbortCode TouchProbe::release_point(std::uint32_t sequence) {
   if (!path_.points().release(sequence)) return AbortCode::invalid_value;
   path_.released();
   core_.emergency().clear(ErrorCode::point_lost, 0);
   return AbortCode::none;
 }
 
-AbortCode ProbePart::read_domain(canopen::ObjectId /*object*/, Span<const std::uint8_t>& source) {
+AbortCode TouchProbe::read_domain(canopen::ObjectId /*object*/, Span<const std::uint8_t>& source) {
   source = path_.points().oldest();
   return source.empty() ? AbortCode::no_data : AbortCode::none;
 }

@@ -2,16 +2,17 @@
 // The probe of the node (2300h…2411h): latches of the drives in, touches to the background, points
 // out.
 
+#include <type_traits>
+
 #include "firmware/node/node_core.hpp"
 #include "firmware/node/node_part.hpp"
 #include "firmware/node/probe/probe_path.hpp"
 
 namespace volcomp::node {
 
-class ProbePart : public NodePart {
+class TouchProbe : public NodePart {
  public:
-  explicit ProbePart(NodeCore& core)
-      : core_(core), path_(core.objects.probe, core.compensator, core.preemption) {}
+  explicit TouchProbe(NodeCore& core);
 
   void reset() { path_.reset(); }
   void restart(bool operational);
@@ -58,5 +59,14 @@ class ProbePart : public NodePart {
   PerAxis<std::uint16_t> edges_counted_{};  // instead of 2019h
   bool touch_rejected_ = false;             // the last one
 };
+
+// A node that does not probe.
+struct NoProbe : NodePart {
+  explicit NoProbe(NodeCore& /*core*/) {}
+  void end_cycle(std::uint8_t /*next_counter*/) {}
+  void set_machine(const MachineDescription& /*machine*/) {}
+};
+
+using ProbePart = std::conditional_t<kProbes, TouchProbe, NoProbe>;
 
 }  // namespace volcomp::node
