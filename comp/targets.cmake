@@ -77,10 +77,14 @@ function(volcomp_tick_sources)
     endif()
   endif()
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")
+  if(CMAKE_CROSSCOMPILING)
+    # Headers precompiled for size are not taken for speed.
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  endif()
 endfunction()
 
-# volcomp_precompile(TARGET HEADER...): for builds of everything on this computer. Builds for boards and clang-tidy go
-# without and show that every file includes what it uses.
+# volcomp_precompile(TARGET HEADER...): for builds of everything. The board m7, which compiles every library of the target, and
+# clang-tidy go without and show that every file includes what it uses.
 function(volcomp_precompile target)
   if(VOLCOMP_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${ARGN})
