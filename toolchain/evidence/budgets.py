@@ -6,24 +6,24 @@ KIB = 1024
 KINDS = {"everyday": "everyday, nothing limited", "limited": "limited, all axes at once", "change": "ramp or exchange", "anything": "anything"}
 # machine: (what it is, budget of each kind of tick, target of each), instructions at most, accelerations limited
 WORST = {
-    "xyfz_compiled": ("XYFZ, compiled in", (350, 780, 840, 1740), (350, 620, 640, 1100)),
-    "xyfz_loaded": ("XYFZ, loaded", (620, 1120, 1180, 2070), (580, 860, 880, 1350)),
-    "xyb_a_compiled": ("X, Y, B against A, compiled in", (760, 1180, 1230, 2280), (715, 1000, 1020, 1700)),
-    "xyb_a_loaded": ("X, Y, B against A, loaded", (1100, 1610, 1660, 2760), (1030, 1320, 1340, 1950)),
-    "five_axis_compiled": ("five axes, compiled in", (830, 1300, 1300, 2590), (815, 1150, 1170, 1950)),
-    "five_axis_loaded": ("five axes, loaded", (1200, 1740, 1750, 3130), (1120, 1460, 1480, 2250)),
-    "five_axis_orienting": ("five axes, two orienting, loaded", (2680, 3540, 3540, 4940), (2450, 2950, 3000, 3600)),
-    "five_axis_askew": ("five axes, every joint askew, loaded", (1970, 2510, 2530, 3900), (None, None, None, None)),
-    "five_axis_fixed": ("the same with two fixed bodies that have errors", (2250, 2800, 2820, 4180), (1650, None, None, 2800)),
-    "eight_axis": ("eight axes, loaded", (1750, 2270, 2300, 4430), (None, None, None, None)),
+    "xyfz_compiled": ("XYFZ, compiled in", (350, 735, 820, 1460), (350, 620, 640, 1100)),
+    "xyfz_loaded": ("XYFZ, loaded", (620, 1080, 1165, 1815), (580, 860, 880, 1350)),
+    "xyb_a_compiled": ("X, Y, B against A, compiled in", (755, 1140, 1210, 1985), (715, 1000, 1020, 1700)),
+    "xyb_a_loaded": ("X, Y, B against A, loaded", (1100, 1570, 1640, 2485), (1030, 1320, 1340, 1950)),
+    "five_axis_compiled": ("five axes, compiled in", (830, 1255, 1295, 2300), (815, 1150, 1170, 1950)),
+    "five_axis_loaded": ("five axes, loaded", (1200, 1695, 1740, 2810), (1120, 1460, 1480, 2250)),
+    "five_axis_orienting": ("five axes, two orienting, loaded", (2680, 3495, 3540, 4630), (2450, 2950, 3000, 3600)),
+    "five_axis_askew": ("five axes, every joint askew, loaded", (1970, 2475, 2525, 3595), (None, None, None, None)),
+    "five_axis_fixed": ("the same with two fixed bodies that have errors", (2250, 2765, 2820, 3880), (1650, None, None, 2800)),
+    "eight_axis": ("eight axes, loaded", (1750, 2230, 2295, 3960), (None, None, None, None)),
     # no bound on acceleration compiled in: OffsetLimiter<false>
-    "xyfz_compiled_rate": ("XYFZ, compiled in, no acceleration", (335, 595, 600, 1365), (330, None, 345, 900)),
-    "xyfz_loaded_rate": ("XYFZ, loaded, no acceleration", (600, 935, 945, 1715), (560, None, 580, 1150)),
-    "xyb_a_compiled_rate": ("X, Y, B against A, compiled in, no acceleration", (725, 985, 990, 1910), (None, None, None, None)),
-    "xyb_a_loaded_rate": ("X, Y, B against A, loaded, no acceleration", (1075, 1410, 1420, 2400), (None, None, None, None)),
-    "five_axis_compiled_rate": ("five axes, compiled in, no acceleration", (795, 1070, 1085, 2215), (780, None, None, 1700)),
-    "five_axis_loaded_rate": ("five axes, loaded, no acceleration", (1155, 1510, 1525, 2770), (1080, None, None, 2000)),
-    "five_axis_orienting_rate": ("five axes, two orienting, loaded, no acceleration", (2620, 3160, 3200, 4400), (None, None, None, None)),
+    "xyfz_compiled_rate": ("XYFZ, compiled in, no acceleration", (335, 575, 590, 1180), (330, None, 345, 900)),
+    "xyfz_loaded_rate": ("XYFZ, loaded, no acceleration", (600, 915, 935, 1550), (560, None, 580, 1150)),
+    "xyb_a_compiled_rate": ("X, Y, B against A, compiled in, no acceleration", (725, 970, 990, 1720), (None, None, None, None)),
+    "xyb_a_loaded_rate": ("X, Y, B against A, loaded, no acceleration", (1075, 1400, 1420, 2240), (None, None, None, None)),
+    "five_axis_compiled_rate": ("five axes, compiled in, no acceleration", (795, 1060, 1080, 2025), (780, None, None, 1700)),
+    "five_axis_loaded_rate": ("five axes, loaded, no acceleration", (1155, 1500, 1525, 2565), (1080, None, None, 2000)),
+    "five_axis_orienting_rate": ("five axes, two orienting, loaded, no acceleration", (2620, 3160, 3200, 4185), (None, None, None, None)),
 }
 # (machine, kind of tick): what would be reached if everything went well
 STRETCH = {("xyfz_compiled_rate", "everyday"): 250, ("xyfz_compiled_rate", "anything"): 500}
