@@ -233,8 +233,7 @@ template <class Machine, std::size_t Knots, class Limiter>
 VOLCOMP_INLINE void Compensator<Machine, Knots, Limiter>::report(std::size_t axis,
                                                                  const AxisState& s,
                                                                  std::uint32_t status,
-                                                                 std::uint32_t ramping,
-                                                                 Output& out,
+                                                                 std::uint32_t ramping, Output& out,
                                                                  NextTick& next) {
   if ((status & ~std::uint32_t{kDirectionUnknown}) == 0) status |= kValid;
   const std::uint32_t bit = 1U << axis;

@@ -35,7 +35,7 @@ def group_of(piece):
             return group
     if piece.library == "comp":
         return "compensator, background" if "instances" in source else "rest"
-    return "libgcc and libc" if re.match(r"_|lib_a-|c_library$", source) else "board"
+    return "libgcc and libc" if re.match(r"_|lib_a-|c_functions$", source) else "board"
 
 
 def measure(link_map, flash):

@@ -1,6 +1,7 @@
-// What the compiler expects of a C library in every program (GCC manual, "Standards": memcpy,
-// memmove, memset, memcmp), the few more that our code uses, and what the mathematics of the GNU C
-// library wants. There is no C library for this processor without an operating system in Debian.
+// With c_functions.cpp: what the compiler expects of a C library in every program (GCC manual,
+// "Standards": memcpy, memmove, memset, memcmp), the few more that our code uses, and what the
+// mathematics of the GNU C library wants. There is no C library for this processor without an
+// operating system in Debian.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,48 +25,11 @@ void* memcpy(void* __restrict to, const void* __restrict from, std::size_t count
   return to;
 }
 
-void* memmove(void* to, const void* from, std::size_t count) {
-  auto* t = static_cast<Byte*>(to);
-  const auto* f = static_cast<const Byte*>(from);
-  const bool forward = reinterpret_cast<std::uintptr_t>(t) < reinterpret_cast<std::uintptr_t>(f);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t k = forward ? i : count - 1 - i;
-    t[k] = f[k];
-  }
-  return to;
-}
-
 void* memset(void* to, int value, std::size_t count) {
   auto* t = static_cast<Byte*>(to);
   for (std::size_t i = 0; i < count; ++i)
     t[i] = static_cast<Byte>(value);
   return to;
-}
-
-int memcmp(const void* a, const void* b, std::size_t count) {
-  const auto* x = static_cast<const Byte*>(a);
-  const auto* y = static_cast<const Byte*>(b);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (x[i] != y[i]) return x[i] - y[i];
-  }
-  return 0;
-}
-
-// Without const in the answer, as C has it.
-void* memchr(const void* in, int value, std::size_t count) {
-  const auto* bytes = static_cast<const Byte*>(in);
-  for (std::size_t i = 0; i < count; ++i) {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
-    if (bytes[i] == static_cast<Byte>(value)) return const_cast<Byte*>(bytes + i);
-  }
-  return nullptr;
-}
-
-std::size_t strlen(const char* text) {
-  std::size_t length = 0;
-  while (text[length] != '\0')
-    ++length;
-  return length;
 }
 
 char* strncpy(char* __restrict to, const char* __restrict from, std::size_t count) {

@@ -1,10 +1,9 @@
-// Functions of the C library that nothing calls where time counts: newlib writes them for speed,
-// whatever size is asked for, and takes five times the bytes. memcpy and memset remain its own:
-// frames and process data are copied by them.
+// Functions of the C library that nothing calls where time counts. Newlib writes them for speed,
+// whatever size is asked for, and takes five times the bytes; on the boards that have it memcpy and
+// memset remain its own: frames and process data are copied by them.
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace {
 
@@ -16,9 +15,12 @@ std::uintptr_t number(const void* address) { return reinterpret_cast<std::uintpt
 
 extern "C" {
 
+// Not by <cstring>, which for C++ declares memchr with another answer than C has.
+void* memcpy(void* to, const void* from, std::size_t count);
+
 void* memmove(void* to, const void* from, std::size_t count) {
   const std::uintptr_t ahead = number(to) - number(from);
-  if (ahead >= count && 0 - ahead >= count) return std::memcpy(to, from, count);
+  if (ahead >= count && 0 - ahead >= count) return memcpy(to, from, count);
   auto* t = static_cast<Byte*>(to);
   const auto* f = static_cast<const Byte*>(from);
   const bool forward = ahead >= count;
