@@ -41,7 +41,6 @@ VOLCOMP_INLINE std::int32_t stopping_step_below(std::int32_t most, std::int32_t 
 
 constexpr OffsetLimiter<true>::InForce::InForce(const OffsetBounds& b)
     : reach(b.none() ? INT32_MAX : b.acceleration),
-      span(0),
       rate(b.rate),
       watch(b.free < b.limit ? b.free : b.limit - 1),
       most(watch),

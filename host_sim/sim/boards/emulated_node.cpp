@@ -211,8 +211,9 @@ void EmulatedNode::join_by_pipe(const std::filesystem::path& image) {
 
 // QEMU listens on its monitor before it starts the processor.
 void EmulatedNode::join_by_can(const std::filesystem::path& image, const std::string& interface) {
-  auto socket = std::make_unique<WatchedLink>(std::make_unique<host::SocketLink>(interface),
-                                              [this] { watch(); });
+  auto joined = std::make_unique<host::SocketLink>(interface);
+  joined->await_echoes();  // the progress of QEMU counts from when QEMU has the frames
+  auto socket = std::make_unique<WatchedLink>(std::move(joined), [this] { watch(); });
   start(command(board_, can_machine(board_, interface), "", image));
   with_last_words([&] {
     if (!host::await_boot_up(*socket, kCanBootPatience_ms)) fail("runs, but no node starts in it");

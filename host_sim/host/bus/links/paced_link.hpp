@@ -39,10 +39,14 @@ class PacedLink final : public FrameLink {
   void await_progress() {
     for (int frame = 0; frame < sent_; ++frame)
       static_cast<void>(progress_());
-    const std::uint64_t until = progress_() + spacing_;
-    while (progress_() < until)
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    // What it reports may be from before it had them: only progress after a change counts.
+    await(progress_() + 1U);
+    await(progress_() + spacing_);
     sent_ = 0;
+  }
+  void await(std::uint64_t progress) const {
+    while (progress_() < progress)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   std::unique_ptr<FrameLink> link_;

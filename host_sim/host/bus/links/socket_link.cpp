@@ -9,10 +9,33 @@ SocketLink::SocketLink(const std::string& interface) : interface_(interface) {
   if (!status.ok()) throw UserError(interface + ": " + hal::sentence(status));
 }
 
+void SocketLink::await_echoes() {
+  if (!can_.hear_own()) throw UserError(interface_ + ": the kernel gives no sent frames back");
+  echoes_ = true;
+}
+
 bool SocketLink::send(const hal::CanFrame& frame) {
   const bool sent = can_.send(frame);
   if (!sent) check();
+  if (sent && echoes_) await_echo();
   return sent;
+}
+
+void SocketLink::await_echo() {
+  constexpr std::uint64_t kPatience_us = 10'000'000;
+  constexpr std::uint32_t kLook_us = 100'000;
+  const std::uint64_t until_us = now_us() + kPatience_us;
+  hal::CanFrame frame;
+  for (;;) {
+    if (can_.receive(frame)) {
+      if (can_.own()) return;
+      arrived_.push_back(frame);
+      continue;
+    }
+    check();
+    if (now_us() > until_us) throw UserError(interface_ + ": a sent frame does not come back");
+    static_cast<void>(can_.wait(kLook_us));
+  }
 }
 
 bool SocketLink::send_remote(std::uint16_t id, std::uint8_t size) {
@@ -22,6 +45,11 @@ bool SocketLink::send_remote(std::uint16_t id, std::uint8_t size) {
 }
 
 bool SocketLink::receive(hal::CanFrame& frame) {
+  if (!arrived_.empty()) {
+    frame = arrived_.front();
+    arrived_.pop_front();
+    return true;
+  }
   const bool received = can_.receive(frame);
   if (!received) check();
   return received;
