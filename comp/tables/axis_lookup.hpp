@@ -48,7 +48,7 @@ VOLCOMP_INLINE Knot fetch(const Knot& knot) {
 #endif
 }
 
-// The same the other way round.
+// Six registers into memory by one instruction, for which the compiler takes six.
 VOLCOMP_INLINE void store(const ChannelValues& values, ChannelValues& to) {
 #if defined(__arm__) && defined(__ARM_FP) && defined(__GNUC__) && !defined(__clang__)
   register float v0 __asm("s0") = values[0];

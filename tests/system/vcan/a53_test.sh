@@ -26,8 +26,8 @@ frames_were_lost() {
   grep -q ' 0A0#1081' "$work/candump.txt" || grep -q 'frames were lost' "$work/a53_run.txt"
 }
 
-# A busy kernel delivers frames so late that two bursts meet in the controller, which has room for one. That says
-# nothing about the node: the diagonal begins anew, twice at most.
+# Frames that the emulator takes in late, so that two bursts meet in the controller, say nothing about the node: the
+# diagonal begins anew, twice at most, and says so.
 for attempt in 1 2 3; do
   status=0
   diagonal_with_firmware || status=$?
