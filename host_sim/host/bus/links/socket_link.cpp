@@ -22,9 +22,9 @@ bool SocketLink::send(const hal::CanFrame& frame) {
 }
 
 void SocketLink::await_echo() {
-  constexpr std::uint64_t kPatience_us = 10'000'000;
-  constexpr std::uint32_t kLook_us = 100'000;
-  const std::uint64_t until_us = now_us() + kPatience_us;
+  constexpr std::uint64_t kEchoPatience_us = 10'000'000;
+  constexpr std::uint32_t kEchoLook_us = 100'000;
+  const std::uint64_t until_us = now_us() + kEchoPatience_us;
   hal::CanFrame frame;
   for (;;) {
     if (can_.receive(frame)) {
@@ -34,7 +34,7 @@ void SocketLink::await_echo() {
     }
     check();
     if (now_us() > until_us) throw UserError(interface_ + ": a sent frame does not come back");
-    static_cast<void>(can_.wait(kLook_us));
+    static_cast<void>(can_.wait(kEchoLook_us));
   }
 }
 
