@@ -53,6 +53,8 @@ struct NodeCore {
   // --- node_settings.cpp
 
   Status configure();
+  // Of the offset of an axis, per cycle.
+  [[nodiscard]] OffsetLimits limits(std::size_t a) const;
   void set_default_pdos();
   void set_default_receive_pdos(std::size_t first, std::size_t end);
   // 2034h: those of one axis, and all that carry offsets.

@@ -258,7 +258,11 @@ bool NodeCycle::start_compensating() {
     held[a] = offset_from_wire(core_.gate[a].last(), core_.gate[a].scale());
   }
   const Status status = core_.compensator.start_from(held);
-  if (!status.ok()) report(status, core_.objects);
+  if (status.ok()) {
+    strokes_.start(held);
+  } else {
+    report(status, core_.objects);
+  }
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
     core_.gate[a].join();
     core_.gate[a].expect(offset_to_wire(held[a], core_.gate[a].scale()));
@@ -300,10 +304,7 @@ void NodeCycle::put_out() {
 std::int32_t NodeCycle::wanted(std::size_t axis, std::int32_t learned) {
   const std::int32_t limit = core_.objects.limit[axis];
   std::int32_t offset = output_.offset[axis];
-  if (strokes_.learns_for(axis)) {
-    offset = limited(offset + learned, limit);
-    core_.gate[axis].expect_any();  // the sum is clamped, which bounds no acceleration
-  }
+  if (strokes_.learns_for(axis)) offset = strokes_.add(offset, learned);
   if (core_.way(axis) == Way::controller_adds) offset = limited(ahead_[axis].next(offset), limit);
   return offset_to_wire(offset, core_.gate[axis].scale());
 }

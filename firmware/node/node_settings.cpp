@@ -84,20 +84,21 @@ void check_motion(GateBounds& bounds, const OffsetBounds& promised, Way way) {
 
 void NodeCore::note_machine() { correcting = correcting_axes(compensator.machine().chain); }
 
+// Less than a unit of the drive could never be corrected: a rate of 0 is refused.
+OffsetLimits NodeCore::limits(std::size_t a) const {
+  const bool too_slow =
+      objects.drive[a] != 0 && step_to_wire(objects.slew[a], scale_of(objects, a)) < 1;
+  const std::int32_t rate =
+      too_slow ? 0 : OffsetGate::unhindered(objects.slew[a], objects.late_cycles);
+  return {objects.limit[a], rate, std::min(rate, objects.soft_rate[a]), objects.acceleration[a]};
+}
+
 // The machine id is checked at load time, because it may be changed while stopped.
 Status NodeCore::configure() {
   CompensatorSettings<kNodeAxes> s;
   for (std::size_t a = 0; a < kNodeAxes; ++a) {
-    // Less than a unit of the drive could never be corrected: a rate of 0 is refused.
-    const bool too_slow =
-        objects.drive[a] != 0 && step_to_wire(objects.slew[a], scale_of(objects, a)) < 1;
-    const std::int32_t rate =
-        too_slow ? 0 : OffsetGate::unhindered(objects.slew[a], objects.late_cycles);
     AxisLimits& l = s.axis[a];
-    l.limit = objects.limit[a];
-    l.rate = rate;
-    l.soft_rate = std::min(rate, objects.soft_rate[a]);
-    l.acceleration = objects.acceleration[a];
+    static_cast<OffsetLimits&>(l) = limits(a);
     l.hysteresis = objects.hysteresis[a];
     l.max_step = objects.max_step[a];
   }

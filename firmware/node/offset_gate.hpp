@@ -76,8 +76,6 @@ class OffsetGate {
     approaching_ = apart_ = false;
     expect(last_);
   }
-  // The next wanted value may be any within the limit.
-  void expect_any() { known_ = 0; }
   // The wanted value starts at this one, at rest.
   void expect(std::int32_t wanted) {
     given_ = wanted;

@@ -134,7 +134,8 @@ void LoopbackBus::Port::connect(bool on) {
 }
 
 void LoopbackBus::Port::put(const CanFrame& frame) {
-  ++(receive_.push(frame) ? counters_.received : counters_.overrun);
+  const bool kept_out = filter_ && receive_.empty() && !filter_(frame);
+  ++(kept_out || receive_.push(frame) ? counters_.received : counters_.overrun);
 }
 
 }  // namespace volcomp::hal

@@ -161,7 +161,7 @@ class LoopbackBus::Port {
   struct Counters {
     std::uint64_t sent = 0;      // frames that went over the bus
     std::uint64_t refused = 0;   // send() calls that returned false
-    std::uint64_t received = 0;  // frames put into the receive queue
+    std::uint64_t received = 0;  // frames put into the receive queue, or kept out of it by the filter
     std::uint64_t overrun = 0;   // frames dropped because that was full
   };
 
@@ -175,6 +175,12 @@ class LoopbackBus::Port {
     return receive_.empty() ? nullptr : &receive_.front();
   }
   void skip() { receive_.drop(); }
+
+  // What the controller passes on, as acceptance filters of real ones do; an empty function: all.
+  // Asked when a frame arrives and none waits; behind one that waits, and may change the answer,
+  // all are passed on. It calls nothing of the bus.
+  using Filter = std::function<bool(const CanFrame& frame)>;
+  void set_filter(Filter filter) { filter_ = std::move(filter); }
 
   // Disconnecting empties both queues and drops what is delayed on its way here.
   void connect(bool on);
@@ -202,6 +208,7 @@ class LoopbackBus::Port {
   FrameQueue transmit_;
   FrameQueue receive_{kReceiveCapacity};
   Counters counters_;
+  Filter filter_;
   bool connected_ = true;
   bool refuses_ = false;
 };

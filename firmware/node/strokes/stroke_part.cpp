@@ -36,6 +36,22 @@ bool WatchedStrokes::learns_for(std::size_t axis) const {
   return service_.on() && axis == service_.axis(kC);
 }
 
+void WatchedStrokes::start(const PerAxis<std::int32_t>& held) {
+  if (!service_.on()) return;
+  const std::size_t c = service_.axis(kC);
+  limits_ = core_.limits(c);
+  sum_.change(OffsetBounds(limits_));
+  sum_.start(held[c]);
+}
+
+std::int32_t WatchedStrokes::add(std::int32_t offset, std::int32_t learned) {
+  const std::int32_t most = limits_.limit;
+  const std::int32_t wanted = std::min(std::max(-most, offset + learned), most);
+  if (limits_.accelerates_freely()) return wanted;
+  static_cast<void>(sum_.follow(wanted));
+  return sum_.offset();
+}
+
 StrokeAxisReport WatchedStrokes::axis_report(std::size_t axis) const {
   StrokeAxisReport r;
   r.target = core_.objects.target[axis];

@@ -32,6 +32,11 @@ class WatchedStrokes : public NodePart {
   // What C gets in addition, 2^-32 turn.
   std::int32_t tick();
   [[nodiscard]] bool learns_for(std::size_t axis) const;
+  // Before the first tick in which offsets go out: what the drives hold.
+  void start(const PerAxis<std::int32_t>& held);
+  // The offset of C, of the tables of the machine and of the learned ones together, in the limits
+  // of the axis: a sum of offsets need not keep the acceleration that each of them keeps.
+  std::int32_t add(std::int32_t offset, std::int32_t learned);
   // The offset goes to 0 at once.
   void stop() { service_.stop(); }
 
@@ -55,6 +60,8 @@ class WatchedStrokes : public NodePart {
 
   NodeCore& core_;
   StrokeService service_;
+  OffsetLimits limits_{};           // of C
+  OffsetLimiter<true> sum_;         // where they bound the acceleration
   std::uint32_t syncs_missed_ = 0;  // when the last cycle was computed
 };
 
@@ -63,6 +70,8 @@ struct NoStrokes : NodePart {
   explicit NoStrokes(NodeCore& /*core*/) {}
   static std::int32_t tick() { return 0; }
   static bool learns_for(std::size_t /*axis*/) { return false; }
+  void start(const PerAxis<std::int32_t>& /*held*/) {}
+  static std::int32_t add(std::int32_t offset, std::int32_t /*learned*/) { return offset; }
   void stop() {}
   static Span<const std::uint8_t> learned_image() { return {}; }
   void load_learned(Span<const std::uint8_t> /*piece*/, std::size_t& /*size*/) {}

@@ -127,6 +127,8 @@ void BusAxes::attach(const Cia402Drive::Settings& settings, const std::string& n
     return drive_rest_[a].until_us();
   };
   drive_port_.push_back(&bus_.attach_served(name, serve));
+  drive_port_.back()->set_filter(
+      [&drive](const hal::CanFrame& frame) { return drive.heeds(frame); });
   drive.power_on(0);
 }
 

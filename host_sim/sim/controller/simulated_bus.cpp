@@ -37,13 +37,14 @@ void SimulatedBus::serve_all() {
   }
 }
 
-// Those that received something or have a mailbox free again.
+// Those that a frame has reached, though it may not concern them, or that have a mailbox free
+// again.
 void SimulatedBus::serve_concerned() {
   const std::uint64_t now = now_us();
   for (Participant& p : participants_) {
-    const std::uint64_t sent = p.port->counters().sent;
-    if (p.port->waiting() == 0 && sent == p.sent) continue;
-    p.sent = sent;
+    const std::uint64_t frames = p.port->counters().sent + p.port->counters().received;
+    if (p.port->waiting() == 0 && frames == p.frames) continue;
+    p.frames = frames;
     if (!rests(p, now)) serve(p, now);
   }
 }

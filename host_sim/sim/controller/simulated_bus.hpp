@@ -88,7 +88,9 @@ class SimulatedBus {
       rest.serve(device, port, now_us, served(), rests_until_us);
       return rest.until_us();
     };
-    return attach_served(name, serve);
+    Port& port = attach_served(name, serve);
+    port.set_filter([&device](const hal::CanFrame& frame) { return device.heeds(frame); });
+    return port;
   }
   // Three transmit mailboxes, as CAN controllers have. Without `serve` the owner serves the port.
   Port& attach_served(std::string name, Serve serve, std::size_t mailboxes = kMailboxes);
@@ -130,7 +132,7 @@ class SimulatedBus {
   struct Participant {
     Port* port;
     Serve serve;
-    std::uint64_t sent = 0;
+    std::uint64_t frames = 0;  // sent and received until it was served last
     std::uint64_t rests_until_us = 0;
   };
   static constexpr std::size_t kMailboxes = 3;

@@ -80,9 +80,17 @@ void StrokeBench::start() {
   ASSERT_EQ(bench.state(), NodeState::compensating);
 }
 
+void StrokeBench::note_step() {
+  const std::int32_t step = bench.drive[2].held - held_;
+  largest_change = std::max(largest_change, std::abs(step - step_));
+  held_ = bench.drive[2].held;
+  step_ = step;
+}
+
 void StrokeBench::cycle(std::int32_t z_nm, std::uint16_t slot, bool up, bool end,
                         const ErrorsAt& errors) {
   bench.sync();
+  note_step();
   const double z_mm = now_.z * 1e-6;
   const Errors e = errors ? errors(now_.slot, now_.up, z_mm) : Errors{};
   auto& drive = bench.drive;

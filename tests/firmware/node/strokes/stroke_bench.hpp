@@ -55,6 +55,8 @@ class StrokeBench {
   // Largest and least offset C held in the face in the last round, rad.
   double most = 0.0;
   double least = 0.0;
+  // Largest change of the step of the offset of C, from one cycle to the next, drive units.
+  std::int32_t largest_change = 0;
 
  private:
   void stroke(std::uint16_t slot, bool up, const ErrorsAt& errors);
@@ -68,7 +70,11 @@ class StrokeBench {
     bool up = true;
     bool in_face = false;
   };
+  void note_step();
+
   Commanded now_{};  // in force
+  std::int32_t held_ = 0;
+  std::int32_t step_ = 0;
 };
 
 }  // namespace volcomp::node
