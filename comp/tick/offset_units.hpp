@@ -46,13 +46,14 @@ constexpr bool is_period(double period_s) { return period_s >= 1e-6 && period_s 
 // The four below compute in double and take no memory: they belong to the background. Where they
 // refuse, the result is as before.
 
-// mm/s² or rad/s², 0…1e9, and the period of the tick, 1e-6…1 s, to units per tick and tick, rounded
-// down. 0: none. Refuses bad_setting, and acceleration_too_small where less than one unit is left,
-// because 0 would mean none.
+// mm/s², 0…1e9, or rad/s², 0…1e6, and the period of the tick, 1e-6…1 s, to units per tick and tick,
+// rounded down. 0: none. Refuses bad_setting, and acceleration_too_small where less than one unit
+// is left, because 0 would mean none.
 inline Status acceleration_in_units(bool rotary, double acceleration, double period_s,
                                     std::int32_t& units) {
   const auto refused = [](Reason reason) { return detail::refuse_setting(reason, "acceleration"); };
-  if (!(acceleration >= 0.0 && acceleration <= 1e9)) return refused(Reason::bad_setting);
+  if (!(acceleration >= 0.0 && acceleration <= (rotary ? 1e6 : 1e9)))
+    return refused(Reason::bad_setting);
   if (!detail::is_period(period_s)) return detail::refuse_setting(Reason::bad_setting, "period");
   const std::int32_t down = whole_units(acceleration * offset_units(rotary) * period_s * period_s);
   if (down == 0 && acceleration > 0.0) return refused(Reason::acceleration_too_small);

@@ -1,5 +1,6 @@
 // Cases of limited offsets: bounds, ways to standstill, the limiter, the check before a drive.
 
+#include <algorithm>
 #include <cmath>
 
 #include "comp/tick/limiter.hpp"
@@ -17,12 +18,18 @@ constexpr std::uint32_t kCaseAcceleration = 4;
 constexpr std::uint32_t kCaseSettling = 8;
 constexpr std::uint32_t kCaseNotFinite = 16;
 
+// A number beyond the 32 bits of a setting stays beyond its range.
+std::int32_t saturated(std::int64_t number) {
+  return static_cast<std::int32_t>(
+      std::clamp(number, std::int64_t{INT32_MIN}, std::int64_t{INT32_MAX}));
+}
+
 OffsetLimits limits_of(const json& j) {
   OffsetLimits l;
-  l.limit = j.at("limit").get<std::int32_t>();
-  l.rate = j.at("rate").get<std::int32_t>();
-  l.soft_rate = j.at("soft_rate").get<std::int32_t>();
-  l.acceleration = j.at("acceleration").get<std::int32_t>();
+  l.limit = saturated(j.at("limit").get<std::int64_t>());
+  l.rate = saturated(j.at("rate").get<std::int64_t>());
+  l.soft_rate = saturated(j.at("soft_rate").get<std::int64_t>());
+  l.acceleration = saturated(j.at("acceleration").get<std::int64_t>());
   return l;
 }
 

@@ -26,6 +26,9 @@ expect 1 'FAIL' "$volcomp" run reversal --most-added-um 0.01
 expect 0 'PASS' "$volcomp" run reversal --period-us 1000
 # Less than a nanometre per period and period.
 expect 2 'acceleration_too_small' "$volcomp" run reversal --period-us 62.5
+expect 2 '10 % of 2 m/s2 to spare every 62.5 us' "$volcomp" run reversal --period-us 62.5
+# A loop that is not stable follows nothing.
+expect 2 'a position loop of 40 Hz needs a period of at most 2500 us' "$volcomp" run reversal --period-us 10000
 one_line "$volcomp" run reversal --period-us 62.5
 for option in --period-us --step-um --turning-m-per-s2 --spare-percent --loop-hz --most-added-um; do
   for value in nan -1 much; do

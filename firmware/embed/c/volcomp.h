@@ -143,8 +143,9 @@ struct volcomp_settings {
   uint16_t stale_drop_ticks;  // without a valid position for more ticks: correction ramped to 0
 };
 
-// What a compensator has before it is configured: rates and times of ticks of 1 ms, 10 and 1 mm/s,
-// 0.2 and 0.01 s, whatever the period.
+// What a compensator has before it is configured: rates and times of ticks of 1 ms, 10 and 1 mm/s
+// (of a rotary axis 10 000 and 1 000 units of 2^-32 turn, 15 and 1.5 mrad/s), 0.2 and 0.01 s,
+// whatever the period, and no bound on the acceleration.
 void volcomp_default_settings(struct volcomp_settings* out);
 
 // The four below set what counts in ticks from values per second and the period of the tick,

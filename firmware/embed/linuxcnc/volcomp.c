@@ -205,6 +205,11 @@ static int32_t counts(double value) {
   return value < 0.0 ? -1 : (int32_t)(value + 0.5);
 }
 
+// A number that only the rounding of a double keeps from being whole is whole.
+static int32_t counts_down(double value) {
+  return value < 1.0 ? 0 : counts(value * (1.0 + 1e-12) - 0.5);
+}
+
 static int32_t at_least_one(int32_t value) { return value == 0 ? 1 : value; }
 
 // m/s² or rad/s². Negative: max_acceleration is no number.
@@ -241,8 +246,7 @@ static struct volcomp_axis_limits limits_of(size_t axis) {
   const double limit = (rotary ? limit_urad : limit_um) * micro;
   const double rate = (rotary ? rate_urad_per_s : rate_um_per_s) * micro * per_second;
   const double hysteresis = rotary ? hysteresis_nrad * 1e-3 * micro : (double)hysteresis_nm;
-  struct volcomp_axis_limits l = {
-      counts(limit), at_least_one(counts(rate)), 0, counts(hysteresis), 0, 0};
+  struct volcomp_axis_limits l = {counts(limit), counts_down(rate), 0, counts(hysteresis), 0, 0};
   l.soft_rate = ramp_ms < 1 ? l.rate : at_least_one(counts(limit * per_second / (ramp_ms * 1e-3)));
   if (l.soft_rate > l.rate) l.soft_rate = l.rate;
   return l;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "comp/tick/offset_limiter.hpp"
 #include "comp/tick/offset_units.hpp"
 #include "host_sim/host/io/user_error.hpp"
@@ -28,8 +30,18 @@ OffsetLimits limits_of(const OffsetPlan& plan, const ReversalOptions& o) {
   l.soft_rate = 1;
   host::require(
       acceleration_in_units(false, kMmPerM * plan.acceleration, period_s(o), l.acceleration),
-      plan.name);
+      fmt::format("{:g} % of {:g} m/s2 to spare every {:g} us", o.spare, o.turning, o.period_us));
   return l;
+}
+
+// With an acceleration that is held for a period, a critically damped loop is stable below 2 pi
+// frequency x period = 1; here up to 0.63.
+void require_stable(const ReversalOptions& o) {
+  constexpr double kMost = 0.1;  // frequency x period
+  if (o.loop_hz * period_s(o) <= kMost) return;
+  throw host::UserError(fmt::format(
+      "'--period-us' {:g}: a position loop of {:g} Hz needs a period of at most {:g} us",
+      o.period_us, o.loop_hz, 1e6 * kMost / o.loop_hz));
 }
 
 // The axis reverses at time 0: its targets are a parabola.
@@ -105,6 +117,7 @@ ReversalResult run_reversal(const ReversalOptions& options) {
   constexpr double kRate = 10.0;
   constexpr double kSlowRate = 4.0;
   constexpr double kTooMuch = 2.5;  // times what is to spare
+  require_stable(options);
   const double spare = 0.01 * options.spare * options.turning;
   ReversalResult result;
   result.options = options;

@@ -51,7 +51,8 @@ struct ReversalResult {
   [[nodiscard]] bool ok() const { return added_um() <= options.most_added_um; }
 };
 
-// Throws UserError where less than a nanometre per period and period is to spare.
+// Throws UserError where less than a nanometre per period and period is to spare, and where the
+// position loop is too fast for the period.
 [[nodiscard]] ReversalResult run_reversal(const ReversalOptions& options);
 
 }  // namespace volcomp::reversal

@@ -10,6 +10,7 @@
 #include "firmware/node/object_handles.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/machine/axis_kinds.hpp"
 
 namespace volcomp::host {
 
@@ -188,7 +189,7 @@ BusSettings setup_bus(const MachineFile& machine, std::optional<double> cycle_hz
 std::vector<OffsetFacts> node_offsets(const MachineFile& machine, const BusSettings& settings) {
   const node::NodeObjects defaults{};
   std::vector<OffsetFacts> facts;
-  for (const std::size_t a : axes_with_offsets(machine.chain)) {
+  for (const std::size_t a : axes_with_offsets(machine.chain.description())) {
     OffsetLimits limits = settings.limits.axis.at(a);
     limits.rate = node::OffsetGate::unhindered(limits.rate, defaults.late_cycles);
     limits.soft_rate = std::min(limits.soft_rate, limits.rate);

@@ -18,20 +18,42 @@ struct AxisCorrection {
   double rate_per_s;
   double hysteresis;
   double max_speed_per_s;
-  double acceleration;  // per s²; 0: any
 };
 
-// Names the field that is too small.
-std::int32_t acceleration_in_ticks(double acceleration, bool rotary, double period_s) {
+std::string in_a_period(const std::string& setting, double value, double period_s) {
+  return fmt::format("{} = {:g} every {:g} us", setting, value, 1e6 * period_s);
+}
+
+std::int32_t rate_in_ticks(double rate, bool rotary, double period_s) {
+  const std::int32_t units = whole_units(rate * offset_units(rotary) * period_s);
+  if (units >= 1 && units <= kMostOffsetRate) return units;
+  throw UserError(fmt::format(
+      "{}: {} of {} in each [{}]",
+      in_a_period(rotary ? "'rate_rad_per_s'" : "'rate_mm_per_s'", rate, period_s),
+      units < 1 ? "less than one unit" : fmt::format("more than {} units", kMostOffsetRate),
+      rotary ? "2^-32 turn" : "1 nm", code(Reason::bad_setting)));
+}
+
+// 0: any, and what is more than the rate allows anyway.
+std::int32_t acceleration_in_ticks(const OffsetAcceleration& a, bool rotary, double period_s,
+                                   std::int32_t rate) {
+  if (!a.stated) return 0;
   std::int32_t units = 0;
-  require(acceleration_in_units(rotary, acceleration, period_s, units),
-          fmt::format("'acceleration_{}' = {:g} every {:g} us", rotary ? "rad_per_s2" : "mm_per_s2",
-                      acceleration, 1e6 * period_s));
-  return units;
+  const std::string what = in_a_period(a.origin, a.value, period_s);
+  require(acceleration_in_units(rotary, a.value, period_s, units), what);
+  OffsetLimits limits;
+  limits.rate = rate;
+  limits.acceleration = units;
+  if (limits.accelerates_freely()) return 0;
+  if (units <= kMostOffsetAcceleration) return units;
+  throw UserError(fmt::format("{}: more than {} units of {} per period and period [{}]", what,
+                              kMostOffsetAcceleration, rotary ? "2^-32 turn" : "1 nm",
+                              code(Reason::bad_setting)));
 }
 
 // Offsets of a rotary axis count in 2^-32 turn, its positions in 2^-40 turn.
-AxisLimits in_units(const AxisCorrection& c, bool rotary, double period_s, double ramp_s) {
+AxisLimits in_units(const AxisCorrection& c, const OffsetAcceleration& acceleration, bool rotary,
+                    double period_s, double ramp_s) {
   const double position_units = rotary ? kUnitsPerRad : kNmPerMm;
   const auto offset = [rotary](double value) {
     return static_cast<std::int32_t>(
@@ -39,9 +61,9 @@ AxisLimits in_units(const AxisCorrection& c, bool rotary, double period_s, doubl
   };
   AxisLimits l;
   l.limit = offset(c.limit);
-  l.rate = std::max(1, whole_units(c.rate_per_s * offset_units(rotary) * period_s));
+  l.rate = rate_in_ticks(c.rate_per_s, rotary, period_s);
   l.soft_rate = std::max(1, std::min(l.rate, offset(c.limit * period_s / ramp_s)));
-  l.acceleration = acceleration_in_ticks(c.acceleration, rotary, period_s);
+  l.acceleration = acceleration_in_ticks(acceleration, rotary, period_s, l.rate);
   l.hysteresis = offset(c.hysteresis);
   // A jump beyond v_max·Δt·2 is implausible.
   l.max_step = to_units(2.0 * c.max_speed_per_s * period_s, position_units);
@@ -54,15 +76,12 @@ OrientingCompensator::Settings compensator_settings(const CorrectionFile& c,
                                                     const AxisKinds& kinds) {
   OrientingCompensator::Settings s;
   const double period = 1.0 / c.tick_hz;
-  for (std::size_t a = 0; a < s.axis.size(); ++a) {
-    const OffsetAcceleration& of_offset = c.acceleration.at(a);
-    const double acceleration = of_offset.stated ? of_offset.value : 0.0;
+  for (std::size_t a = 0; a < kinds.count; ++a) {
     const AxisCorrection values =
-        kinds.rotary[a] ? AxisCorrection{c.limit_rad, c.rate_rad_per_s, c.hysteresis_rad,
-                                         c.max_speed_rad_per_s, acceleration}
-                        : AxisCorrection{c.limit_mm, c.rate_mm_per_s, c.hysteresis_mm,
-                                         c.max_speed_mm_per_s, acceleration};
-    s.axis[a] = in_units(values, kinds.rotary[a], period, c.ramp_s);
+        kinds.rotary.at(a)
+            ? AxisCorrection{c.limit_rad, c.rate_rad_per_s, c.hysteresis_rad, c.max_speed_rad_per_s}
+            : AxisCorrection{c.limit_mm, c.rate_mm_per_s, c.hysteresis_mm, c.max_speed_mm_per_s};
+    s.axis.at(a) = in_units(values, c.acceleration.at(a), kinds.rotary.at(a), period, c.ramp_s);
   }
   s.ramp_ticks = static_cast<std::uint32_t>(std::max(1.0, std::round(c.ramp_s * c.tick_hz)));
   return s;

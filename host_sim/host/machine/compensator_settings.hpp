@@ -7,7 +7,8 @@
 namespace volcomp::host {
 
 // Settings of the compensator for a machine file: mm, rad and seconds turned into units and ticks.
-// Throws UserError where the acceleration of an offset is less than a unit per tick and tick.
+// Throws UserError, with the setting and the axis, where rate or acceleration of an offset is less
+// than a unit per tick (and tick), or more than a tick takes.
 [[nodiscard]] OrientingCompensator::Settings compensator_settings(const CorrectionFile& correction,
                                                                   const AxisKinds& kinds);
 

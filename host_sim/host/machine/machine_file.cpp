@@ -13,6 +13,7 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/user_error.hpp"
+#include "host_sim/host/machine/axis_kinds.hpp"
 #include "host_sim/host/machine/machine_bodies.hpp"
 #include "host_sim/host/machine/machine_bus.hpp"
 #include "host_sim/host/machine/machine_sections.hpp"
@@ -116,7 +117,7 @@ void read_correction(const Section& top, MachineFile& file, MachineDescription& 
   for (const std::uint8_t axis : read_orienting(s, file, correcting))
     d.orienting.at(d.orienting_count++) = axis;
   read_correction_values(s, file.correction);
-  read_offset_acceleration(s, file);
+  read_offset_acceleration(s, axes_with_offsets(d), file);
 }
 
 void read_tables(const Section& s, MachineFile& file) {

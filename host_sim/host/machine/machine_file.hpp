@@ -110,10 +110,11 @@ struct ThermalFile {
   Expansions expansion{};     // by NC axis
 };
 
-// Largest acceleration of the offset of an axis.
+// Largest acceleration of the offset of an axis; of one that takes no offset: any.
 struct OffsetAcceleration {
   double value = 0.0;   // mm/s² or rad/s²; 0: any
   bool stated = false;  // by the file; otherwise the default, which only `setup` switches on
+  std::string origin;   // for complaints: "axis X: a tenth of 'max_acceleration_mm_per_s2'"
 };
 
 struct CorrectionFile {

@@ -69,20 +69,41 @@ void read_axis_acceleration(const TomlSection& s, AxisFile& axis) {
   axis.spare_acceleration = read_acceleration(s, "spare_acceleration_" + unit, kLeast);
 }
 
-void read_offset_acceleration(const TomlSection& correction, MachineFile& machine) {
+namespace {
+
+// `wanted`: of [correction].
+OffsetAcceleration offset_acceleration(const AxisFile& axis, const std::optional<double>& wanted) {
+  const char* const unit = axis.rotary ? "rad_per_s2" : "mm_per_s2";
+  OffsetAcceleration a;
+  a.stated = wanted || axis.max_acceleration || axis.spare_acceleration;
+  if (wanted) {
+    a.value = *wanted;
+    a.origin = fmt::format("axis {}: 'acceleration_{}'", axis.letter, unit);
+  } else if (axis.max_acceleration) {
+    a.value = kSpareShare * *axis.max_acceleration;
+    a.origin = fmt::format("axis {}: a tenth of 'max_acceleration_{}'", axis.letter, unit);
+  } else {
+    a.value = axis.rotary ? kSpareAcceleration_rad_per_s2 : kSpareAcceleration_mm_per_s2;
+    a.origin = fmt::format("axis {}: 'acceleration_{}' by default", axis.letter, unit);
+  }
+  const bool any = wanted && !(*wanted > 0.0);
+  if (axis.spare_acceleration && !any && *axis.spare_acceleration < a.value) {
+    a.value = *axis.spare_acceleration;
+    a.origin = fmt::format("axis {}: 'spare_acceleration_{}'", axis.letter, unit);
+  }
+  return a;
+}
+
+}  // namespace
+
+void read_offset_acceleration(const TomlSection& correction, const std::vector<std::size_t>& axes,
+                              MachineFile& machine) {
   const auto linear = read_acceleration(correction, "acceleration_mm_per_s2", 0.0);
   const auto rotary = read_acceleration(correction, "acceleration_rad_per_s2", 0.0);
-  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
-    const AxisFile& axis = machine.axes[a];
-    const std::optional<double>& wanted = axis.rotary ? rotary : linear;
-    OffsetAcceleration& of_offset = machine.correction.acceleration.at(a);
-    of_offset.stated = wanted || axis.max_acceleration || axis.spare_acceleration;
-    const double unknown =
-        axis.rotary ? kSpareAcceleration_rad_per_s2 : kSpareAcceleration_mm_per_s2;
-    const double of_axis = axis.max_acceleration ? kSpareShare * *axis.max_acceleration : unknown;
-    of_offset.value = wanted.value_or(of_axis);
-    if (axis.spare_acceleration && (!wanted || *wanted > 0.0))
-      of_offset.value = std::min(of_offset.value, *axis.spare_acceleration);
+  for (const std::size_t a : axes) {
+    const AxisFile& axis = machine.axes.at(a);
+    machine.correction.acceleration.at(a) =
+        offset_acceleration(axis, axis.rotary ? rotary : linear);
   }
 }
 

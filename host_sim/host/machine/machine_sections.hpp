@@ -13,8 +13,10 @@ void read_correction_values(const TomlSection& s, CorrectionFile& c);
 // Fields of [[axis]] for its acceleration, and their values.
 [[nodiscard]] const std::vector<std::string>& axis_acceleration_fields();
 void read_axis_acceleration(const TomlSection& s, AxisFile& axis);
-// Acceleration of the offsets from [correction] and what the axes state, which must be read.
-void read_offset_acceleration(const TomlSection& correction, MachineFile& machine);
+// Acceleration of the offsets of these axes from [correction] and what the axes state, which must
+// be read.
+void read_offset_acceleration(const TomlSection& correction, const std::vector<std::size_t>& axes,
+                              MachineFile& machine);
 
 [[nodiscard]] SquarenessFile read_squareness(const TomlSection& s);
 

@@ -31,13 +31,6 @@ std::string axis_text(const OffsetFacts& f) {
 
 }  // namespace
 
-std::vector<std::size_t> axes_with_offsets(const MachineChain& chain) {
-  const MachineDescription& d = chain.description();
-  std::vector<std::size_t> axes(d.correcting.begin(), d.correcting.begin() + d.correcting_count);
-  axes.insert(axes.end(), d.orienting.begin(), d.orienting.begin() + d.orienting_count);
-  return axes;
-}
-
 bool OffsetFacts::coarse() const { return units > 0 && units < kFineAcceleration; }
 
 OffsetFacts offset_facts(char axis, bool rotary, const OffsetLimits& limits, double period_s) {
@@ -60,7 +53,7 @@ std::vector<OffsetFacts> offset_facts(const MachineFile& machine) {
   const AxisKinds kinds = axis_kinds(machine.chain);
   const auto settings = compensator_settings(correction, kinds);
   std::vector<OffsetFacts> facts;
-  for (const std::size_t a : axes_with_offsets(machine.chain)) {
+  for (const std::size_t a : axes_with_offsets(machine.chain.description())) {
     facts.push_back(offset_facts(machine.axes[a].letter, kinds.rotary.at(a), settings.axis.at(a),
                                  1.0 / correction.tick_hz));
     const OffsetAcceleration& acceleration = correction.acceleration.at(a);

@@ -28,8 +28,6 @@ struct OffsetFacts {
 
 [[nodiscard]] OffsetFacts offset_facts(char axis, bool rotary, const OffsetLimits& limits,
                                        double period_s);
-// NC axes that take offsets.
-[[nodiscard]] std::vector<std::size_t> axes_with_offsets(const MachineChain& chain);
 // Of these in the integrated form; none of a machine with too many axes for it. Throws UserError as
 // compensator_settings().
 [[nodiscard]] std::vector<OffsetFacts> offset_facts(const MachineFile& machine);

@@ -70,6 +70,12 @@ TEST(OffsetUnits, WhatIsNoAccelerationOrPeriodIsRefused) {
   }
 }
 
+TEST(OffsetUnits, ARotaryAccelerationEndsAtAMillion) {
+  std::int32_t units = 0;
+  EXPECT_TRUE(acceleration_in_units(true, 1e6, 1e-3, units).ok());
+  EXPECT_EQ(acceleration_in_units(true, 1.1e6, 1e-3, units).reason, Reason::bad_setting);
+}
+
 TEST(OffsetUnits, TheLargestSaturates) { EXPECT_EQ(units_of(false, 1e9, 1.0), INT32_MAX); }
 
 std::int32_t rate_of(bool rotary, double rate, double period_s) {

@@ -91,6 +91,51 @@ TEST(OffsetSettings, LessThanAUnitIsRefusedWithTheField) {
                     HasSubstr("acceleration_too_small")));
 }
 
+std::string refusal_at(MachineFile machine, double tick_hz) {
+  machine.correction.tick_hz = tick_hz;
+  return sim::complaint_of([&] { return limits(machine); });
+}
+
+// The field that is too small, and of which axis.
+TEST(OffsetSettings, ARefusalNamesTheFieldAndTheAxis) {
+  EXPECT_THAT(refusal_at(with("", "max_acceleration_mm_per_s2 = 5.0"), 1000.0),
+              HasSubstr("axis X: a tenth of 'max_acceleration_mm_per_s2' = 0.5 every 1000 us"));
+  EXPECT_THAT(refusal_at(with("", "spare_acceleration_mm_per_s2 = 0.5"), 1000.0),
+              HasSubstr("axis X: 'spare_acceleration_mm_per_s2' = 0.5 every 1000 us"));
+  EXPECT_THAT(refusal_at(with("acceleration_mm_per_s2 = 0.5"), 1000.0),
+              HasSubstr("axis X: 'acceleration_mm_per_s2' = 0.5 every 1000 us"));
+}
+
+// A of the gear grinder takes no offset.
+TEST(OffsetSettings, AnAxisWithoutOffsetsHasNoneToLimit) {
+  const std::string text = changed(text_of_machine("l300g"), "name = \"A\"\n",
+                                   "name = \"A\"\nmax_acceleration_rad_per_s2 = 0.001\n");
+  EXPECT_EQ(refusal_at(parse_machine(text, "m.toml"), 1000.0), "accepted");
+}
+
+// 1 um/s are 0.01 nm in 10 us, 1 m/s 1e9 nm in a second.
+TEST(OffsetSettings, ARateThatNoTickCanKeepIsRefused) {
+  const auto at_rate = [](const std::string& rate) {
+    return parse_machine(changed(text_of_machine("xyfz"), "rate_mm_per_s = 10.0", rate), "m.toml");
+  };
+  EXPECT_THAT(refusal_at(at_rate("rate_mm_per_s = 0.001"), 1e5),
+              AllOf(HasSubstr("'rate_mm_per_s' = 0.001 every 10 us"), HasSubstr("less than one")));
+  EXPECT_THAT(refusal_at(at_rate("rate_mm_per_s = 1001.0"), 1.0),
+              AllOf(HasSubstr("'rate_mm_per_s' = 1001 every 1e+06 us"), HasSubstr("more than")));
+  EXPECT_EQ(refusal_at(at_rate("rate_mm_per_s = 1000.0"), 1.0), "accepted");
+}
+
+// Twice the rate is as good as none, and a node's object ends at 2^24.
+TEST(OffsetSettings, AnAccelerationBeyondTheRateIsNone) {
+  MachineFile machine = with("acceleration_mm_per_s2 = 1e6");
+  EXPECT_EQ(limits(machine).acceleration, 0);
+  machine.correction.rate_mm_per_s = 1e4;
+  machine.correction.tick_hz = 100.0;
+  EXPECT_THAT(sim::complaint_of([&] { return limits(machine); }),
+              AllOf(HasSubstr("axis X: 'acceleration_mm_per_s2' = 1e+06 every 10000 us"),
+                    HasSubstr("more than 16777216 units of 1 nm")));
+}
+
 TEST(OffsetSettings, FieldsOutsideTheirRangeAreRefusedWithTheLine) {
   const std::string text = text_of_machine("xyfz");
   for (const char* const bad : {"-1.0", "nan", "1e7", "\"much\""}) {
