@@ -10,7 +10,6 @@
 #include "firmware/node/object_handles.hpp"
 #include "firmware/node/offset_gate.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/machine/axis_kinds.hpp"
 
 namespace volcomp::host {
 

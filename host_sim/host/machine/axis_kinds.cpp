@@ -28,10 +28,4 @@ AxisKinds axis_kinds(const MachineChain& chain) {
   return kinds;
 }
 
-std::vector<std::size_t> axes_with_offsets(const MachineDescription& d) {
-  std::vector<std::size_t> axes(d.correcting.begin(), d.correcting.begin() + d.correcting_count);
-  axes.insert(axes.end(), d.orienting.begin(), d.orienting.begin() + d.orienting_count);
-  return axes;
-}
-
 }  // namespace volcomp::host

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "comp/machine/machine_chain.hpp"
 #include "comp/tick/instances.hpp"
@@ -30,9 +29,6 @@ struct AxisKinds {
 
 // Throws UserError when there are more axes than there is room for.
 [[nodiscard]] AxisKinds axis_kinds(const MachineChain& chain);
-
-// The correcting and the orienting ones.
-[[nodiscard]] std::vector<std::size_t> axes_with_offsets(const MachineDescription& d);
 
 // A place of a machine whose first three axes are linear; the others stand at zero.
 [[nodiscard]] inline Pose pose_of(const Vec3& xyz_mm) {

@@ -13,7 +13,6 @@
 #include "host_sim/host/io/input_file.hpp"
 #include "host_sim/host/io/toml_text.hpp"
 #include "host_sim/host/io/user_error.hpp"
-#include "host_sim/host/machine/axis_kinds.hpp"
 #include "host_sim/host/machine/machine_bodies.hpp"
 #include "host_sim/host/machine/machine_bus.hpp"
 #include "host_sim/host/machine/machine_sections.hpp"
@@ -196,6 +195,12 @@ MachineFile read_machine(const TomlValue& root, const std::string& name) {
 }
 
 }  // namespace
+
+std::vector<std::size_t> axes_with_offsets(const MachineDescription& d) {
+  std::vector<std::size_t> axes(d.correcting.begin(), d.correcting.begin() + d.correcting_count);
+  axes.insert(axes.end(), d.orienting.begin(), d.orienting.begin() + d.orienting_count);
+  return axes;
+}
 
 CorrectionFile CorrectionFile::with_default_acceleration() const {
   CorrectionFile limited = *this;

@@ -135,6 +135,9 @@ struct CorrectionFile {
   [[nodiscard]] CorrectionFile with_default_acceleration() const;
 };
 
+// NC axes that take offsets: the correcting and the orienting ones.
+[[nodiscard]] std::vector<std::size_t> axes_with_offsets(const MachineDescription& d);
+
 // What a grinder of internal gears grinds, and how: [gear], [wheel] and [stroke].
 struct GrindingFile {
   InternalGear gear;
