@@ -159,10 +159,11 @@ class LoopbackBus::Port {
   static constexpr std::size_t kReceiveCapacity = 256;
 
   struct Counters {
-    std::uint64_t sent = 0;      // frames that went over the bus
-    std::uint64_t refused = 0;   // send() calls that returned false
-    std::uint64_t received = 0;  // frames put into the receive queue, or kept out of it by the filter
-    std::uint64_t overrun = 0;   // frames dropped because that was full
+    std::uint64_t sent = 0;     // frames that went over the bus
+    std::uint64_t refused = 0;  // send() calls that returned false
+    std::uint64_t received =
+        0;  // frames put into the receive queue, or kept out of it by the filter
+    std::uint64_t overrun = 0;  // frames dropped because that was full
   };
 
   // False when the transmit queue or the bus is full, the port is disconnected or refuses. Throws
