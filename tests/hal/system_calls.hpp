@@ -1,7 +1,7 @@
 #pragma once
 // System calls of hal/linux, answered by a test instead of the kernel: the linker leads these calls
-// of the test program here (volcomp_answer_system_calls in tests/CMakeLists.txt). A call without an answer goes to the
-// kernel.
+// of the test program here (volcomp_answer_system_calls in tests/CMakeLists.txt). A call without an
+// answer goes to the kernel.
 //
 //   SystemCalls calls;
 //   calls.fdatasync = [](int) { return failing(EIO); };
