@@ -159,11 +159,10 @@ class LoopbackBus::Port {
   static constexpr std::size_t kReceiveCapacity = 256;
 
   struct Counters {
-    std::uint64_t sent = 0;     // frames that went over the bus
-    std::uint64_t refused = 0;  // send() calls that returned false
-    std::uint64_t received =
-        0;  // frames put into the receive queue, or kept out of it by the filter
-    std::uint64_t overrun = 0;  // frames dropped because that was full
+    std::uint64_t sent = 0;      // frames that went over the bus
+    std::uint64_t refused = 0;   // send() calls that returned false
+    std::uint64_t received = 0;  // frames put into the receive queue or kept out by the filter
+    std::uint64_t overrun = 0;   // frames dropped because that was full
   };
 
   // False when the transmit queue or the bus is full, the port is disconnected or refuses. Throws
@@ -177,9 +176,9 @@ class LoopbackBus::Port {
   }
   void skip() { receive_.drop(); }
 
-  // What the controller passes on, as acceptance filters of real ones do; an empty function: all.
-  // Asked when a frame arrives and none waits; behind one that waits, and may change the answer,
-  // all are passed on. It calls nothing of the bus.
+  // Which frames are received, as an acceptance filter of a CAN controller decides it; an empty
+  // function: all. It is asked when a frame arrives and none waits: one that waits may change the
+  // answer, so all behind it are received. It must not use the bus.
   using Filter = std::function<bool(const CanFrame& frame)>;
   void set_filter(Filter filter) { filter_ = std::move(filter); }
 

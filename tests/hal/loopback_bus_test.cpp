@@ -157,6 +157,24 @@ TEST(LoopbackBus, FirstFrameIsSeenBeforeItIsTakenOrSkipped) {
   EXPECT_EQ(receiver.counters().received, sent);
 }
 
+TEST(LoopbackBus, AFilterKeepsFramesOutWhileNoneWaits) {
+  LoopbackBus bus;
+  LoopbackBus::Port& sender = bus.attach("sender");
+  LoopbackBus::Port& receiver = bus.attach("receiver");
+  receiver.set_filter([](const CanFrame& f) { return f.id >= 0x100; });
+  for (const std::uint16_t id : std::initializer_list<std::uint16_t>{0x080, 0x081, 0x180})
+    ASSERT_TRUE(sender.send(frame(id)));
+  send_all(bus);
+  ASSERT_TRUE(sender.send(frame(0x082)));
+  send_all(bus);
+  EXPECT_EQ(received_ids(receiver), (Ids{0x180, 0x082})) << "behind one that waits";
+  EXPECT_EQ(receiver.counters().received, 4U);
+  receiver.set_filter({});
+  ASSERT_TRUE(sender.send(frame(0x083)));
+  send_all(bus);
+  EXPECT_EQ(received_ids(receiver), (Ids{0x083}));
+}
+
 TEST(LoopbackBus, ImpossibleFrameIsAMistakeOfTheCaller) {
   LoopbackBus bus;
   auto& a = bus.attach("a");

@@ -37,11 +37,11 @@ OffsetLimits limits_of(const OffsetPlan& plan, const ReversalOptions& o) {
 // With an acceleration that is held for a period, a critically damped loop is stable below 2 pi
 // frequency x period = 1; here up to 0.63.
 void require_stable(const ReversalOptions& o) {
-  constexpr double kMost = 0.1;  // frequency x period
-  if (o.loop_hz * period_s(o) <= kMost) return;
+  constexpr double kMostTurns = 0.1;  // of the loop in a period: frequency x period
+  if (o.loop_hz * period_s(o) <= kMostTurns) return;
   throw host::UserError(fmt::format(
       "'--period-us' {:g}: a position loop of {:g} Hz needs a period of at most {:g} us",
-      o.period_us, o.loop_hz, 1e6 * kMost / o.loop_hz));
+      o.period_us, o.loop_hz, 1e6 * kMostTurns / o.loop_hz));
 }
 
 // The axis reverses at time 0: its targets are a parabola.
