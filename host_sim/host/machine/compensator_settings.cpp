@@ -28,7 +28,7 @@ std::int32_t rate_in_ticks(double rate, bool rotary, double period_s) {
   const std::int32_t units = whole_units(rate * offset_units(rotary) * period_s);
   if (units >= 1 && units <= kMostOffsetRate) return units;
   throw UserError(fmt::format(
-      "{}: {} of {} in each [{}]",
+      "{}: {} of {} per period [{}]",
       in_a_period(rotary ? "'rate_rad_per_s'" : "'rate_mm_per_s'", rate, period_s),
       units < 1 ? "less than one unit" : fmt::format("more than {} units", kMostOffsetRate),
       rotary ? "2^-32 turn" : "1 nm", code(Reason::bad_setting)));
