@@ -226,16 +226,32 @@ void fold_constant_errors(const TablesView& tables, const RuntimeChain& runtime,
   }
 }
 
-void copy_axis(const TablesView& tables, std::size_t axis, const TableSetView& set) {
+// The constant error of the fixed bodies that hang on an axis joins its rows.
+void add_carried_error(const ChannelValues& error, Rows rows, std::size_t knots) {
+  for (std::size_t i = 0; i < knots; ++i) {
+    for (Knot& row : rows[i]) {
+      act_after(row.v, error, true);
+      act_after(row.d, error, false);
+    }
+  }
+}
+
+void copy_axis(const TablesView& tables, std::size_t axis, const RuntimeChain& runtime,
+               const TableSetView& set) {
   write_rows(tables.axis[axis].grid(), set.rows[axis], RowSource(tables, axis, nullptr));
+  for (std::size_t i = 0; i < runtime.steps; ++i) {
+    const RuntimeStep& step = runtime.step[i];
+    if (step.kind != JointKind::fixed && step.nc_axis == axis && step.has_error)
+      add_carried_error(step.error, set.rows[axis], tables.axis[axis].grid().knots);
+  }
   set.direction[axis] = to_float(tables.directions[axis]);
 }
 
-// Rows of J⁻¹ at machine zero (mm/mm): constant as long as only linear axes correct and none
-// turns.
+// Rows of J⁻¹ at machine zero (mm/mm), which are those of every pose.
 Status fold_inverse(const MachineChain& chain, const RuntimeChain& runtime, const Vec3& tool_point,
                     const TableSetView& set) {
-  if (!runtime.folded || runtime.correcting_count == 0) return {};
+  const bool needed = runtime.folded || runtime.inverse.form == InverseForm::constant;
+  if (!needed || runtime.correcting_count == 0) return {};
   const Pose zero{};
   for (Eigen::Index k = 0; k < 3; ++k) {
     MotionOffset offset;
@@ -281,6 +297,7 @@ Bounds measure_bounds(const TablesView& tables, const RuntimeChain& runtime, con
   }
   for (std::size_t i = 0; i < runtime.steps; ++i) {
     const RuntimeStep& step = runtime.step[i];
+    if (step.kind != JointKind::fixed) continue;  // in the rows
     const double displacement =
         runtime.folded ? 0.0 : bounds.size(step.error, 0);  // folded: in the rows
     bounds.add(displacement, bounds.size(step.error, 3));
@@ -290,7 +307,8 @@ Bounds measure_bounds(const TablesView& tables, const RuntimeChain& runtime, con
 
 // Own function: the second chain leaves the stack before folding begins.
 [[gnu::noinline]] bool runs_on(const RuntimeChain& runtime, const MachineDescription& machine) {
-  return same_chain(runtime, make_runtime_chain(machine));
+  const RuntimeModel model = runtime.folded ? RuntimeModel::folded : RuntimeModel::second_order;
+  return same_chain(runtime, make_runtime_chain(machine, model));
 }
 
 Status fold_axis(const TablesView& tables, std::size_t axis, const RuntimeChain& runtime,
@@ -307,7 +325,7 @@ Status fold_axis(const TablesView& tables, std::size_t axis, const RuntimeChain&
   if (runtime.folded) {
     fold_linear_axis(tables, axis, tool_point, set);
   } else {
-    copy_axis(tables, axis, set);
+    copy_axis(tables, axis, runtime, set);
   }
   return {};
 }
@@ -328,6 +346,8 @@ Status fold_tables(const TablesView& tables, const RuntimeChain& runtime, const 
   }
 
   *set.tool_nm = to_float(kNmPerMm * tool_point);
+  kernel::orient(*set.tool_nm, runtime.tool_orientation);
+  kernel::add(*set.tool_nm, runtime.tool_offset_nm);
   for (std::size_t a = 0; a < chain.axis_count(); ++a) {
     if (const Status s = fold_axis(tables, a, runtime, tool_point, set); !s.ok()) return s;
   }

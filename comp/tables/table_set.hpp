@@ -6,7 +6,7 @@
 
 #include "comp/machine/float3.hpp"
 #include "comp/tables/axis_lookup.hpp"
-#include "comp/tables/runtime_chain.hpp"
+#include "comp/tables/runtime_machine.hpp"
 #include "comp/tables/tables_view.hpp"
 
 namespace volcomp {

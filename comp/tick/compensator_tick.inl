@@ -117,20 +117,19 @@ VOLCOMP_INLINE bool Compensator<Machine, Knots, Limiter>::find_excess(const Tabl
   const RuntimeChain& chain = machine_.chain;
   if (chain.folded) {
     error_nm = kernel::folded_error(machine_, set, work.at);
-    work.excess = chain.inverse.form == InverseForm::aligned
-                      ? kernel::aligned_excess(chain.inverse, error_nm)
-                      : kernel::constant_excess(set, error_nm);
-    return true;
-  }
-  if constexpr (kOrients) {
+  } else if constexpr (kOrients) {
     error_nm = kernel::recursive_error(machine_, set, work.at, work.column,
                                        kernel::KeepsAngles{work.turns.angle});
+  } else {
+    error_nm =
+        kernel::recursive_error(machine_, set, work.at, work.column, kernel::KeepsNoAngles{});
+  }
+  if constexpr (kOrients) {
     Float3 left_nm = error_nm;
     if (chain.orienting_count != 0) take_turns(set, work, left_nm);
-    return kernel::varying_excess(machine_, work.column, left_nm, work.excess);
+    return kernel::find_excess(machine_, set, work.column, left_nm, work.excess);
   }
-  error_nm = kernel::recursive_error(machine_, set, work.at, work.column, kernel::KeepsNoAngles{});
-  return kernel::varying_excess(machine_, work.column, error_nm, work.excess);
+  return kernel::find_excess(machine_, set, work.column, error_nm, work.excess);
 }
 
 // The same as one function in memory: for a loaded machine, whose indices are not known beforehand,

@@ -101,13 +101,18 @@ VOLCOMP_INLINE bool solve(const Machine& machine, const Columns& columns, const 
   }
 }
 
-// By the columns of the recursion. False without authority; `out` is then 0.
-template <class Machine>
-VOLCOMP_INLINE bool varying_excess(const Machine& machine, const Columns& columns, const Float3& e,
-                                   Excess& out) {
+// By what is constant, or by the columns of the recursion. False without authority; `out` is then
+// 0.
+template <class Machine, class Set>
+VOLCOMP_INLINE bool find_excess(const Machine& machine, const Set& set, const Columns& columns,
+                                const Float3& e, Excess& out) {
   const InversePlan& plan = machine.chain.inverse;
   if (plan.form == InverseForm::aligned) {
     out = aligned_excess(plan, e);
+    return true;
+  }
+  if (plan.form == InverseForm::constant) {
+    out = constant_excess(set, e);
     return true;
   }
   const bool one = plan.form == InverseForm::one_varying;

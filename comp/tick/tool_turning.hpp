@@ -124,7 +124,8 @@ ToolTurning tool_turning(const Machine& machine, const Set& set, const Places& a
                          const StepAngles& angle) {
   ToolTurning t;
   const FloatFrame tool = walk_out(machine, at, angle, false, t);
-  t.axis = tool.in_base({0.0F, 0.0F, 1.0F});
+  const std::array<float, 9>& R = machine.chain.tool_orientation;
+  t.axis = tool.in_base({R[2], R[5], R[8]});
   t.tip = tool.in_base(set.tool_nm);
   add(t.tip, tool.origin);
   walk_out(machine, at, angle, true, t);
