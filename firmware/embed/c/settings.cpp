@@ -56,6 +56,13 @@ volcomp_status volcomp_set_rate(volcomp_axis_limits* limits, bool rotary, double
   return from(status);
 }
 
+std::int32_t volcomp_effective_rate(const volcomp_axis_limits* limits) {
+  if (limits == nullptr) return 0;
+  const volcomp::OffsetLimits stated{limits->limit, limits->rate, limits->soft_rate,
+                                     limits->acceleration};
+  return refused_field(stated) == nullptr ? volcomp::OffsetBounds(stated).rate : 0;
+}
+
 volcomp_status volcomp_set_max_speed(volcomp_axis_limits* limits, bool rotary, double max_speed,
                                      double period_s) {
   if (limits == nullptr) return refused(VOLCOMP_NULL_POINTER, "limits");

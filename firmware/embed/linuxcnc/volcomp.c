@@ -239,6 +239,15 @@ static struct volcomp_status accelerate(size_t axis, struct volcomp_axis_limits*
   return s;
 }
 
+// The limiter keeps room to stop within half the limit.
+static void tell_effective_rate(size_t axis, const struct volcomp_axis_limits* limits) {
+  const int32_t rate = volcomp_effective_rate(limits);
+  if (rate >= limits->rate) return;
+  const double per_second = rate / units_per_offset(axis) / (period_us * 1e-6);
+  rtapi_print_msg(RTAPI_MSG_INFO, "volcomp: axis %c: offsets change by at most %g %s/s\n",
+                  machine.letter[axis], per_second, machine.rotary[axis] ? "degrees" : "mm");
+}
+
 static struct volcomp_axis_limits limits_of(size_t axis) {
   const bool rotary = machine.rotary[axis];
   const double per_second = period_us * 1e-6;
@@ -263,6 +272,7 @@ static int configure(void) {
     settings.axis[a] = limits_of(a);
     const struct volcomp_status s = accelerate(a, &settings.axis[a]);
     if (s.reason != VOLCOMP_OK) return refused("settings", &s);
+    tell_effective_rate(a, &settings.axis[a]);
   }
   settings.positions = actual != 0 ? VOLCOMP_ACTUAL : VOLCOMP_TARGET;
   settings.ramp_ticks = (uint32_t)at_least_one(counts(ramp_ms * 1e3 / period_us));

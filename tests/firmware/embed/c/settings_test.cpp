@@ -27,6 +27,29 @@ TEST(CInterfaceSettings, AccelerationFromSeconds) {
   EXPECT_EQ(of(false, 0.0, 1e-3), 0);
 }
 
+// Design of the limiter, section 2: v = min(rate, a + D_a(limit / 2)). From d = a + D_a(x) stopping
+// takes x beyond the step itself: at 200 per tick and tick 6 225 + 6 025 + … ≤ 100 000 < 6 226 + ….
+TEST(CInterfaceSettings, EffectiveRateLeavesRoomToStop) {
+  volcomp_axis_limits l{200'000, 10'000, 1'000, 0, 0, 200};
+  EXPECT_EQ(volcomp_effective_rate(&l), 6'425);
+  const auto way_of = [](std::int32_t d, std::int32_t a) {
+    std::int32_t way = 0;
+    for (d -= a; d > 0; d -= a)
+      way += d;
+    return way;
+  };
+  EXPECT_LE(way_of(6'425, 200), 100'000);
+  EXPECT_GT(way_of(6'426, 200), 100'000);
+  l.rate = 6'000;
+  EXPECT_EQ(volcomp_effective_rate(&l), 6'000) << "as stated";
+  l.acceleration = 0;
+  l.rate = 10'000;
+  EXPECT_EQ(volcomp_effective_rate(&l), 10'000) << "no bound";
+  l.limit = 0;
+  EXPECT_EQ(volcomp_effective_rate(&l), 0) << "refused";
+  EXPECT_EQ(volcomp_effective_rate(nullptr), 0);
+}
+
 // 10 000 nm per tick are 10 mm/s at 1 ms and 80 mm/s at 125 µs.
 TEST(CInterfaceSettings, RatesFromSeconds) {
   volcomp_axis_limits l{};
