@@ -46,10 +46,23 @@ void WatchedStrokes::start(const PerAxis<std::int32_t>& held) {
 
 std::int32_t WatchedStrokes::add(std::int32_t offset, std::int32_t learned) {
   const std::int32_t most = limits_.limit;
-  const std::int32_t wanted = std::min(std::max(-most, offset + learned), most);
-  if (limits_.accelerates_freely()) return wanted;
-  static_cast<void>(sum_.follow(wanted));
-  return sum_.offset();
+  const std::int32_t whole = offset + learned;
+  const std::int32_t wanted = std::min(std::max(-most, whole), most);
+  std::int32_t put_out = wanted;
+  if (!limits_.accelerates_freely()) {
+    static_cast<void>(sum_.follow(wanted));
+    put_out = sum_.offset();
+  }
+  if (put_out != whole) show_limited(wanted != whole, put_out != wanted);
+  return put_out;
+}
+
+// 2524h:03. Bit 14, which tells of the acceleration elsewhere, means another feed there.
+void WatchedStrokes::show_limited(bool clamped, bool held_back) {
+  std::uint32_t status = core_.objects.stroke.offset_status & ~std::uint32_t{kValid};
+  if (clamped) status |= kClamped;
+  if (held_back) status |= kRateLimited;
+  core_.objects.stroke.offset_status = static_cast<std::uint16_t>(status);
 }
 
 StrokeAxisReport WatchedStrokes::axis_report(std::size_t axis) const {

@@ -51,6 +51,7 @@ class WatchedStrokes : public NodePart {
 
  private:
   [[nodiscard]] StrokeAxisReport axis_report(std::size_t axis) const;
+  void show_limited(bool clamped, bool held_back);
   bool report(const Status& status);
   canopen::AbortCode switch_to(StrokeCommand command);
   canopen::AbortCode learn(LearnCommand command);

@@ -12,8 +12,6 @@ namespace {
 
 using canopen::AbortCode;
 
-constexpr double kWireStep = 2.0 * kPi / 2147483648.0;  // rad
-
 using Errors = StrokeBench::Errors;
 
 class NodeStrokes : public ::testing::Test {
@@ -155,56 +153,6 @@ TEST_F(NodeStrokes, StopAndResume) {
 }
 
 // --- 2209h holds for the sum of offsets, too
-
-class NodeStrokesAccelerated : public ::testing::Test {
- protected:
-  static constexpr std::int32_t kAcceleration = 400;                  // 2^-32 turn
-  static constexpr std::int32_t kMostChange = kAcceleration / 2 + 2;  // drive units, rounded
-
-  void configure(std::int32_t acceleration) {
-    grinder.configure();
-    EXPECT_EQ(grinder.bench.set(0x2209, 3, acceleration), AbortCode::none);
-  }
-  // Learns, and grinds with what was learned.
-  void learn() {
-    grinder.start();
-    const auto error = [](std::uint16_t slot, bool up, double) {
-      return Errors{0.0, (up ? 40e-6 : -24e-6) + (slot == 1 ? 20e-6 : 0.0)};
-    };
-    for (int step = 0; step < 3; ++step) {
-      grinder.grind(error);
-      ASSERT_EQ(grinder.learn(LearnCommand::learn), AbortCode::none);
-    }
-    grinder.grind(error);
-  }
-
-  StrokeBench grinder;
-};
-
-TEST_F(NodeStrokesAccelerated, ALearnedOffsetChangesItsStepByNoMore) {
-  configure(kAcceleration);
-  learn();
-  EXPECT_LT(grinder.least, -30e-6) << "or nothing was learned";
-  EXPECT_LE(grinder.largest_change, kMostChange);
-  EXPECT_GT(grinder.largest_change, kMostChange / 2) << "or there was nothing to be limited";
-  EXPECT_FALSE(grinder.bench.emergency(canopen::ErrorCode::correction_jumped, 3));
-}
-
-TEST_F(NodeStrokesAccelerated, NorWhereTheLimitCutsItOff) {
-  constexpr std::int32_t kLimit = 12'000;  // 2^-32 turn: 17.6 urad
-  configure(kAcceleration);
-  EXPECT_EQ(grinder.bench.set(0x2201, 3, kLimit), AbortCode::none);
-  learn();
-  EXPECT_NEAR(grinder.least, -kLimit * kWireStep / 2.0, 2 * kWireStep);
-  EXPECT_LE(grinder.largest_change, kMostChange);
-  EXPECT_FALSE(grinder.bench.emergency(canopen::ErrorCode::correction_jumped, 3));
-}
-
-TEST_F(NodeStrokesAccelerated, WithoutABoundItsRateAloneCounts) {
-  configure(0);
-  learn();
-  EXPECT_GT(grinder.largest_change, 10 * kMostChange);
-}
 
 // --- what goes wrong on the bus
 

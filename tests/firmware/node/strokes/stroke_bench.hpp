@@ -12,6 +12,7 @@ namespace volcomp::node {
 // The paper's gear (docs/papers/internal-helical.md): 1/p in rad/mm, r_b cos β_b in mm.
 inline constexpr double kTurnPerMm = 1.0 / 305.2;
 inline constexpr double kLever = 74.236;
+inline constexpr double kWireStep = 2.0 * kPi / 2147483648.0;  // of the drive of C, rad
 
 // X and C under the gear, Z under the wheel; C corrects. No errors.
 [[nodiscard]] MachineTables stroke_tables();

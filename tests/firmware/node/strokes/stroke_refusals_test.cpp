@@ -11,8 +11,6 @@ namespace {
 
 using canopen::AbortCode;
 
-constexpr double kWireStep = 2.0 * kPi / 2147483648.0;  // rad
-
 using Errors = StrokeBench::Errors;
 
 Errors ahead(std::uint16_t /*slot*/, bool /*up*/, double /*z*/) { return {0.0, 40e-6}; }
