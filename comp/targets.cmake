@@ -74,6 +74,8 @@ function(volcomp_tick_sources)
       # Instructions stay in the order of the source until registers are allocated and are then scheduled with the
       # registers renamed: fewer spills, more loads in pairs, and llvm-mca estimates no more cycles for the kernel.
       list(APPEND options -fno-tree-ter -fno-schedule-insns -frename-registers)
+      # What the boards' presets switch off, because it costs flash.
+      list(APPEND options -fmove-loop-invariants -ftree-pre)
     endif()
   endif()
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${options}")

@@ -31,7 +31,7 @@ using SmallMotion = std::array<float, 6>;
 }
 
 // A frame in the one of its carrier, row-major.
-struct Placement {
+struct FixedFrame {
   std::array<float, 9> R{1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F};
   std::array<float, 3> t_nm{};
 
@@ -86,6 +86,6 @@ struct Placement {
   }
 };
 
-inline constexpr Placement kAtCarrier{};
+inline constexpr FixedFrame kAtCarrier{};
 
 }  // namespace volcomp

@@ -29,7 +29,7 @@ constexpr bool differ(const std::array<float, N>& a, const std::array<float, N>&
   return false;
 }
 
-constexpr void set_joint(RuntimeStep& step, const Joint& joint, const Placement& at) {
+constexpr void set_joint(RuntimeStep& step, const Joint& joint, const FixedFrame& at) {
   step.kind = joint.kind;
   step.axis = joint.axis;
   step.motion = motion_of(joint);
@@ -53,9 +53,9 @@ constexpr SmallMotion constant_error(const Body& body) {
 // Adds the steps of a branch from base to its tip; returns the frame of the tip in the one of the
 // last step. `whole`: every body is one. Else fixed bodies are part of the step they hang on; one
 // with an error that hangs on base is a step.
-constexpr Placement add_branch(RuntimeChain& chain, const MachineDescription& machine,
-                               const BodyPath& path, bool work, bool whole) {
-  Placement at;
+constexpr FixedFrame add_branch(RuntimeChain& chain, const MachineDescription& machine,
+                                const BodyPath& path, bool work, bool whole) {
+  FixedFrame at;
   RuntimeStep* last = nullptr;
   for (const std::uint8_t index : path) {
     const Body& body = machine.body[index];
@@ -104,7 +104,7 @@ constexpr RuntimeChain make_runtime_chain(const MachineDescription& machine,
   const bool turns =
       detail::any_turns(machine, paths.tool) || detail::any_turns(machine, paths.work);
   chain.folded = !turns && model != RuntimeModel::second_order;
-  const Placement tool = detail::add_branch(chain, machine, paths.tool, false, chain.folded);
+  const FixedFrame tool = detail::add_branch(chain, machine, paths.tool, false, chain.folded);
   chain.tool_offset_nm = tool.t_nm;
   chain.tool_orientation = tool.R;
   detail::reverse_steps(chain);

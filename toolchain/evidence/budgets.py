@@ -13,8 +13,8 @@ WORST = {
     "five_axis_compiled": ("five axes, compiled in", (830, 1255, 1295, 2300), (815, 1150, 1170, 1950)),
     "five_axis_loaded": ("five axes, loaded", (1200, 1695, 1740, 2810), (1120, 1460, 1480, 2250)),
     "five_axis_orienting": ("five axes, two orienting, loaded", (2680, 3495, 3540, 4630), (2450, 2950, 3000, 3600)),
-    "five_axis_askew": ("five axes, every joint askew, loaded", (1970, 2475, 2525, 3595), (None, None, None, None)),
-    "five_axis_fixed": ("the same with two fixed bodies that have errors", (2250, 2765, 2820, 3880), (1650, None, None, 2800)),
+    "five_axis_askew": ("five axes, every joint askew, loaded", (1560, 2050, 2100, 3170), (None, None, None, None)),
+    "five_axis_fixed": ("the same with two fixed bodies that have errors", (1560, 2050, 2105, 3170), (1650, None, None, 2800)),
     "eight_axis": ("eight axes, loaded", (1750, 2230, 2295, 3960), (None, None, None, None)),
     # no bound on acceleration compiled in: OffsetLimiter<false>
     "xyfz_compiled_rate": ("XYFZ, compiled in, no acceleration", (335, 575, 590, 1180), (330, None, 345, 900)),

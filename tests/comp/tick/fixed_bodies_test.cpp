@@ -72,7 +72,7 @@ TEST(FixedBodies, AnErrorIsTheSameMotionInTheFrameOfTheCarrier) {
     const Joint joint =
         fixed_joint({random.in(-300, 300), random.in(-300, 300), random.in(-300, 300)},
                     random.in(-3, 3), random.in(-3, 3));
-    Placement at;
+    FixedFrame at;
     at.extend_by(joint);
     const SmallMotion e = random_error(random);
     const Htm H = exact_frame(joint);
@@ -85,7 +85,7 @@ TEST(FixedBodies, TwoPlacementsAreTheProductOfTheirFrames) {
   Random random(131);
   SCOPED_TRACE(random.trace());
   for (int n = 0; n < 200; ++n) {
-    Placement at;
+    FixedFrame at;
     Htm exact;
     for (int k = 0; k < 3; ++k) {
       const Joint joint =
