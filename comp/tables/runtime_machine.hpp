@@ -86,8 +86,9 @@ constexpr void reverse_steps(RuntimeChain& chain) {
   }
 }
 
+// std::any_of is for the run time alone before C++20.
 constexpr bool any_turns(const MachineDescription& machine, const BodyPath& path) {
-  for (const std::uint8_t body : path) {
+  for (const std::uint8_t body : path) {  // NOLINT(readability-use-anyofallof)
     if (machine.body[body].joint.kind == JointKind::rotary) return true;
   }
   return false;
