@@ -62,12 +62,13 @@ Real largest_difference(const Htm& a, const Htm& b) {
 }
 
 // Third order: 1e-12 of a metre, 1e-3 nm. The last place of a float is up to 4e-3 nm of 2^16 nm and
-// 7e-3 nm of an angle of 1e-4 with a lever of a metre.
-constexpr Real kTolerance_nm = 0.1L;
+// 7e-3 nm of an angle of 1e-4 with a lever of a metre; some ten of them add up.
+constexpr Real kTolerance_nm = 0.05L;
 
 TEST(FixedBodies, AnErrorIsTheSameMotionInTheFrameOfTheCarrier) {
   Random random(130);
   SCOPED_TRACE(random.trace());
+  Real worst = 0;
   for (int n = 0; n < 2'000; ++n) {
     const Joint joint =
         fixed_joint({random.in(-300, 300), random.in(-300, 300), random.in(-300, 300)},
@@ -77,11 +78,14 @@ TEST(FixedBodies, AnErrorIsTheSameMotionInTheFrameOfTheCarrier) {
     const SmallMotion e = random_error(random);
     const Htm H = exact_frame(joint);
     const Htm moved = exact_error(at.error_of_carrier(e));
-    ASSERT_LT(largest_difference(moved * H, H * exact_error(e)), kTolerance_nm);
+    const Real off = largest_difference(moved * H, H * exact_error(e));
+    worst = std::max(worst, off);
+    ASSERT_LT(off, kTolerance_nm);
   }
+  RecordProperty("worst_pm", static_cast<int>(worst * 1e3L));
 }
 
-TEST(FixedBodies, TwoPlacementsAreTheProductOfTheirFrames) {
+TEST(FixedBodies, FramesOneOnAnotherAreTheirProduct) {
   Random random(131);
   SCOPED_TRACE(random.trace());
   for (int n = 0; n < 200; ++n) {

@@ -152,8 +152,6 @@ TEST_F(NodeStrokes, StopAndResume) {
   EXPECT_EQ(grinder.bench.read({0x2526, 1}, none), AbortCode::no_data);
 }
 
-// --- 2209h holds for the sum of offsets, too
-
 // --- what goes wrong on the bus
 
 // More than one sample in a hundred: the pass does not count.
