@@ -1,11 +1,13 @@
 // What identification of a machine's errors costs on this computer: processor time, median of some
 // repetitions with the least and the most, and memory beyond the readings.
 //
-//   volcomp_identification_bench PLAN [--repetitions 5]   PLAN: tests/data/plan_plate.toml
+//   volcomp_identification_bench PLAN [--repetitions 5] [--goals]   PLAN:
+//   tests/data/plan_plate.toml
 //
 // A ball plate in twelve placements, and tracers that read as often as they like; readings follow
-// from errors that are known, with noise. Ends with 1 where a goal is missed or memory grows with
-// the number of readings.
+// from errors that are known, with noise. Ends with 1 where memory grows with the number of
+// readings; with --goals also where a time is over its goal, which depends on the computer and on
+// what else it does.
 
 #include <algorithm>
 #include <array>
@@ -284,14 +286,14 @@ bool memory_rows(const MeasurementPlan& plate) {
   return good;
 }
 
-bool run(const fs::path& path, std::size_t repetitions) {
+bool run(const fs::path& path, std::size_t repetitions, bool goals) {
   MeasurementPlan plan = planned(path);
   measure(plan.problem);
   fmt::print("{} repetitions\n\n", repetitions);
   fmt::print("| processor time, s | median | least … most | goal |\n|---|---:|---:|---:|\n");
-  bool good = plate_row(plan.problem, repetitions);
-  good = many_readings(plan, repetitions) && good;
-  return memory_rows(plan) && good;
+  bool in_time = plate_row(plan.problem, repetitions);
+  in_time = many_readings(plan, repetitions) && in_time;
+  return memory_rows(plan) && (in_time || !goals);
 }
 
 }  // namespace
@@ -299,11 +301,21 @@ bool run(const fs::path& path, std::size_t repetitions) {
 
 int main(int argc, char** argv) {
   std::size_t repetitions = 5;
-  if (argc < 2) {
-    fmt::print(stderr, "usage: volcomp_identification_bench PLAN [--repetitions N]\n");
+  bool goals = false;
+  bool understood = argc >= 2;
+  for (int i = 2; i < argc; ++i) {
+    const std::string_view option = argv[i];
+    if (option == "--goals") {
+      goals = true;
+    } else if (option == "--repetitions" && i + 1 < argc) {
+      repetitions = std::max<std::size_t>(1, std::strtoul(argv[++i], nullptr, 10));
+    } else {
+      understood = false;
+    }
+  }
+  if (!understood) {
+    fmt::print(stderr, "usage: volcomp_identification_bench PLAN [--repetitions N] [--goals]\n");
     return 2;
   }
-  if (argc == 4 && std::string_view(argv[2]) == "--repetitions")
-    repetitions = std::max<std::size_t>(1, std::strtoul(argv[3], nullptr, 10));
-  return volcomp::bench::run(argv[1], repetitions) ? EXIT_SUCCESS : EXIT_FAILURE;
+  return volcomp::bench::run(argv[1], repetitions, goals) ? EXIT_SUCCESS : EXIT_FAILURE;
 }
