@@ -1,8 +1,7 @@
 // What identification of a machine's errors costs on this computer: processor time, median of some
 // repetitions with the least and the most, and memory beyond the readings.
 //
-//   volcomp_identification_bench PLAN [--repetitions 5] [--goals]   PLAN:
-//   tests/data/plan_plate.toml
+//   volcomp_identification_bench tests/data/plan_plate.toml [--repetitions 5] [--goals]
 //
 // A ball plate in twelve placements, and tracers that read as often as they like; readings follow
 // from errors that are known, with noise. Ends with 1 where memory grows with the number of
@@ -21,12 +20,12 @@
 #include <optional>
 #include <random>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include "host_sim/host/measure/identify/consistency.hpp"
 #include "host_sim/host/measure/identify/found_values.hpp"
@@ -300,22 +299,19 @@ bool run(const fs::path& path, std::size_t repetitions, bool goals) {
 }  // namespace volcomp::bench
 
 int main(int argc, char** argv) {
+  CLI::App app{"What identification of a machine's errors costs on this computer."};
+  std::filesystem::path plan;
   std::size_t repetitions = 5;
   bool goals = false;
-  bool understood = argc >= 2;
-  for (int i = 2; i < argc; ++i) {
-    const std::string_view option = argv[i];
-    if (option == "--goals") {
-      goals = true;
-    } else if (option == "--repetitions" && i + 1 < argc) {
-      repetitions = std::max<std::size_t>(1, std::strtoul(argv[++i], nullptr, 10));
-    } else {
-      understood = false;
-    }
+  app.add_option("PLAN", plan, "tests/data/plan_plate.toml")->required();
+  app.add_option("--repetitions", repetitions, "of which the median is printed")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  app.add_flag("--goals", goals, "end with 1 where a time is over its goal");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
   }
-  if (!understood) {
-    fmt::print(stderr, "usage: volcomp_identification_bench PLAN [--repetitions N] [--goals]\n");
-    return 2;
-  }
-  return volcomp::bench::run(argv[1], repetitions, goals) ? EXIT_SUCCESS : EXIT_FAILURE;
+  return volcomp::bench::run(plan, repetitions, goals) ? EXIT_SUCCESS : EXIT_FAILURE;
 }
